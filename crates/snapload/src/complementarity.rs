@@ -1,0 +1,129 @@
+//! The one small solver of both complementarity problems.
+
+use crate::TautSet;
+use crate::real::Real;
+use crate::taut_set::MAX_CABLES;
+
+/// One number a cable.
+pub(crate) type PerCable<T> = [T; MAX_CABLES];
+
+/// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
+const DEPENDENT: f64 = 1e-12;
+
+/// Solves W z = q over the cables of a set, W symmetric and positive semidefinite, by elimination in
+/// the order of the cables. A cable whose constraint depends on those before it gets z = 0.
+pub(crate) fn solve<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> PerCable<T> {
+    let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
+    let mut z = *q;
+    let mut largest = T::ZERO;
+    for i in set.iter() {
+        for j in set.iter() {
+            rows[i][j] = w(i, j);
+        }
+        largest = largest.max(rows[i][i]);
+    }
+    let mut kept = TautSet::SLACK;
+    for k in set.iter() {
+        if rows[k][k] <= largest * DEPENDENT {
+            continue;
+        }
+        kept = kept.with(k);
+        for i in set.iter().filter(|&i| i > k) {
+            let factor = rows[i][k] / rows[k][k];
+            for j in set.iter().filter(|&j| j >= k) {
+                rows[i][j] = rows[i][j] - factor * rows[k][j];
+            }
+            z[i] = z[i] - factor * z[k];
+        }
+    }
+    let mut solution = [T::ZERO; MAX_CABLES];
+    for k in (0..MAX_CABLES).rev().filter(|&k| kept.contains(k)) {
+        let mut sum = z[k];
+        for j in kept.iter().filter(|&j| j > k) {
+            sum = sum - rows[k][j] * solution[j];
+        }
+        solution[k] = sum / rows[k][k];
+    }
+    solution
+}
+
+/// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying which of
+/// them pull (z > 0), fewest first. Returns z and the set of those that pull.
+///
+/// With W positive definite the solution exists and is unique (Cottle, Pang & Stone, The Linear
+/// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic; rounding
+/// can fail them all by a last bit, so the one that violates least is taken.
+pub(crate) fn complementary<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> (PerCable<T>, TautSet) {
+    let mut best = ([T::ZERO; MAX_CABLES], TautSet::SLACK);
+    let mut least = None;
+    for pulling in set.subsets() {
+        let z = solve(pulling, &w, q);
+        let mut violation = T::ZERO;
+        for i in set.iter() {
+            let short = if pulling.contains(i) {
+                -z[i] * w(i, i)
+            } else {
+                pulling.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j])
+            };
+            violation = violation.max(short);
+        }
+        if least.is_none_or(|least| violation < least) {
+            best = (z, pulling);
+            least = Some(violation);
+            if violation == T::ZERO {
+                break;
+            }
+        }
+    }
+    let (mut z, pulling) = best;
+    for value in &mut z {
+        *value = value.max(T::ZERO);
+    }
+    (z, pulling.iter().filter(|&i| z[i] > T::ZERO).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// The defining conditions, for random Gram matrices of rank 1 to 3 and up to 4 cables.
+        #[test]
+        fn conditions_hold(rows in proptest::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 1..5),
+                           q in proptest::collection::vec(-1.0..1.0f64, 4)) {
+            let set: TautSet = (0..rows.len()).collect();
+            let w = |i: usize, j: usize| -> f64 {
+                (0..3).map(|k| rows[i][k] * rows[j][k]).sum::<f64>() + if i == j { 1e-3 } else { 0.0 }
+            };
+            let mut load = [0.0; MAX_CABLES];
+            load[..4].copy_from_slice(&q);
+            let (z, pulling) = complementary(set, w, &load);
+            for i in set.iter() {
+                let slackness: f64 = set.iter().map(|j| w(i, j) * z[j]).sum::<f64>() - load[i];
+                prop_assert!(z[i] >= 0.0 && slackness >= -1e-9);
+                prop_assert!((z[i] * slackness).abs() < 1e-6);
+                prop_assert_eq!(pulling.contains(i), z[i] > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn twins_share_no_load_twice() {
+        // Two equal constraints: the pair can hold what one can.
+        let (z, _) = complementary(TautSet::only(0).with(1), |_, _| 2.0, &{
+            let mut q = [0.0; MAX_CABLES];
+            (q[0], q[1]) = (3.0, 3.0);
+            q
+        });
+        assert_eq!(z[0] + z[1], 1.5);
+    }
+}

@@ -1,0 +1,94 @@
+//! The highest point and the largest rotation reached along a motion.
+
+use crate::State;
+use crate::real::Real;
+
+/// y_max and |θ|_max so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Extremes<T> {
+    pub(crate) y_max: T,
+    pub(crate) theta_max: T,
+}
+
+/// How exactly a maximum between two events is found: the square of this is what position is worth.
+const RESOLUTION: f64 = 1e-15;
+
+impl<T: Real> Extremes<T> {
+    pub(crate) fn at(state: &State<T>) -> Self {
+        Self {
+            y_max: state.y,
+            theta_max: state.theta.abs(),
+        }
+    }
+
+    /// Takes in a stretch of motion of duration `s`, on which ÿ ≤ `up`, |ÿ| ≤ `y_bend` and
+    /// |θ̈| ≤ `theta_bend`.
+    pub(crate) fn cover(
+        &mut self,
+        state: impl Fn(T) -> State<T>,
+        s: T,
+        [up, y_bend, theta_bend]: [T; 3],
+    ) {
+        let height = |s: T| {
+            let now = state(s);
+            (now.y, now.vy)
+        };
+        self.y_max = highest(&height, s, up, y_bend, self.y_max);
+        for side in [T::ONE, -T::ONE] {
+            let rotation = |s: T| {
+                let now = state(s);
+                (side * now.theta, side * now.vtheta)
+            };
+            self.theta_max = highest(&rotation, s, theta_bend, theta_bend, self.theta_max);
+        }
+    }
+}
+
+/// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
+/// halving the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be beaten.
+fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {
+    let (first, last) = (f(T::ZERO), f(s));
+    let mut record = record.max(first.0).max(last.0);
+    search(f, (T::ZERO, first), (s, last), up, bend, &mut record);
+    record
+}
+
+fn search<T: Real>(
+    f: &impl Fn(T) -> (T, T),
+    left: (T, (T, T)),
+    right: (T, (T, T)),
+    up: T,
+    bend: T,
+    record: &mut T,
+) {
+    let width = right.0 - left.0;
+    // No maximum inside where the function falls throughout, or where it still rises at the end for
+    // having risen throughout.
+    if left.1.1 + up.max(T::ZERO) * width <= T::ZERO || right.1.1 - up.max(T::ZERO) * width >= T::ZERO {
+        return;
+    }
+    let bulge = bend * width * width * 0.125;
+    if left.1.0.max(right.1.0) + bulge <= *record + RESOLUTION {
+        return;
+    }
+    let middle = left.0 + width * 0.5;
+    let centre = (middle, f(middle));
+    *record = record.max(centre.1.0);
+    search(f, left, centre, up, bend, record);
+    search(f, centre, right, up, bend, record);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_the_top_of_a_throw_and_of_a_wave() {
+        let throw = |s: f64| (s - 0.5 * s * s, 1.0 - s);
+        assert!((highest(&throw, 3.0, -1.0, 1.0, -9.0) - 0.5).abs() < 1e-14);
+        let wave = |s: f64| ((7.0 * s).sin() + 0.3 * s, 7.0 * (7.0 * s).cos() + 0.3);
+        let known = (0..=2_000_000).map(|k| wave(k as f64 * 1e-6).0).fold(0.0, f64::max);
+        assert!((highest(&wave, 2.0, 49.0, 49.0, 0.0) - known).abs() < 1e-10);
+        assert_eq!(highest(&throw, 3.0, -1.0, 1.0, 7.0), 7.0);
+    }
+}

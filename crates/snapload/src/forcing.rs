@@ -1,0 +1,194 @@
+//! Forces that depend on time alone: a constant one and a sum of sinusoids.
+
+use crate::real::{Real, length};
+
+/// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
+/// amplitudes and phases in x and y are covered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Harmonic<T = f64> {
+    /// Angular frequency Ω \[1/T\]; of either sign, or 0.
+    pub omega: T,
+    /// c, the force in phase with cos Ωt \[F\].
+    pub cosine: [T; 2],
+    /// d, the force in phase with sin Ωt \[F\].
+    pub sine: [T; 2],
+}
+
+/// The forces on the body but for those in the cables.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Forcing<T = f64> {
+    /// A constant force, the weight (net buoyancy) among it \[F\].
+    pub constant: [T; 2],
+    /// The sinusoids.
+    pub harmonics: Vec<Harmonic<T>>,
+}
+
+impl<T: Real> Harmonic<T> {
+    /// The elliptical forcing f_x = f_o cos Ωt, f_y = ν f_o sin Ωt (MODEL.md section 3).
+    pub fn ellipse(f_o: T, nu: T, omega: T) -> Self {
+        Self {
+            omega,
+            cosine: [f_o, T::ZERO],
+            sine: [T::ZERO, nu * f_o],
+        }
+    }
+
+    /// f_x = A_x cos(Ωt + φ_x), f_y = A_y cos(Ωt + φ_y).
+    pub fn with_phases(omega: T, amplitude: [T; 2], phase: [T; 2]) -> Self {
+        let (sx, cx) = phase[0].sin_cos();
+        let (sy, cy) = phase[1].sin_cos();
+        Self {
+            omega,
+            cosine: [amplitude[0] * cx, amplitude[1] * cy],
+            sine: [-amplitude[0] * sx, -amplitude[1] * sy],
+        }
+    }
+
+    /// The same force seen from t0: f(t0 + s) = c' cos Ωs + d' sin Ωs.
+    pub fn shifted(&self, t0: T) -> Self {
+        let (s, c) = (self.omega * t0).sin_cos();
+        let turn = |i: usize| self.cosine[i] * c + self.sine[i] * s;
+        let advance = |i: usize| self.sine[i] * c - self.cosine[i] * s;
+        Self {
+            omega: self.omega,
+            cosine: [turn(0), turn(1)],
+            sine: [advance(0), advance(1)],
+        }
+    }
+
+    /// The largest |f(t)|: the larger half-axis of the ellipse that the force describes, which is
+    /// the sum of two circular motions in opposite directions.
+    pub fn amplitude(&self) -> T {
+        let (c, d) = (self.cosine, self.sine);
+        let forward = length([c[0] + d[1], c[1] - d[0]]);
+        let backward = length([c[0] - d[1], c[1] + d[0]]);
+        (forward + backward) * 0.5
+    }
+
+    /// The largest |f_y(t)|.
+    pub fn amplitude_y(&self) -> T {
+        (self.cosine[1].squared() + self.sine[1].squared()).sqrt()
+    }
+}
+
+/// What a force gives a free unit mass over a time s: the drift of position ∫₀ˢ (s − σ) f dσ, the
+/// gain of velocity ∫₀ˢ f dσ, and the force at s.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Push<T> {
+    pub(crate) drift: [T; 2],
+    pub(crate) gain: [T; 2],
+    pub(crate) force: [T; 2],
+}
+
+impl<T: Real> Push<T> {
+    /// Of a constant force.
+    pub(crate) fn constant(force: [T; 2], s: T) -> Self {
+        let half = s * s * 0.5;
+        Self {
+            drift: [force[0] * half, force[1] * half],
+            gain: [force[0] * s, force[1] * s],
+            force,
+        }
+    }
+
+    /// With that of a harmonic added, which must be given relative to s = 0 ([`Harmonic::shifted`]).
+    ///
+    /// The slack flight of MODEL.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
+    /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
+    /// s (c (1 − z S) + d z C) and the force c (1 − z² C) + d (z − z² S).
+    pub(crate) fn with_harmonic(mut self, harmonic: &Harmonic<T>, s: T) -> Self {
+        let z = harmonic.omega * s;
+        let (even, odd) = z.versines();
+        let square = z * z;
+        let sine = z - square * odd;
+        let cosine = T::ONE - square * even;
+        let sinc = T::ONE - z * odd;
+        for i in 0..2 {
+            let (c, d) = (harmonic.cosine[i], harmonic.sine[i]);
+            self.drift[i] += s * s * (c * even + d * odd);
+            self.gain[i] += s * (c * sinc + d * (z * even));
+            self.force[i] += c * cosine + d * sine;
+        }
+        self
+    }
+}
+
+impl<T: Real> Forcing<T> {
+    /// The force at time t.
+    pub fn at(&self, t: T) -> [T; 2] {
+        self.harmonics.iter().fold(self.constant, |sum, harmonic| {
+            let now = harmonic.shifted(t).cosine;
+            [sum[0] + now[0], sum[1] + now[1]]
+        })
+    }
+
+    /// Bounds on |dⁿf/dtⁿ| over all time, for n = 0, 1, 2.
+    pub fn bounds(&self) -> [T; 3] {
+        let mut bounds = [length(self.constant), T::ZERO, T::ZERO];
+        for harmonic in &self.harmonics {
+            let mut amplitude = harmonic.amplitude();
+            for bound in &mut bounds {
+                *bound += amplitude;
+                amplitude = amplitude * harmonic.omega.abs();
+            }
+        }
+        bounds
+    }
+
+    /// The largest upward force.
+    pub fn most_upward(&self) -> T {
+        self.harmonics
+            .iter()
+            .fold(self.constant[1], |sum, h| sum + h.amplitude_y())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The slack flight as MODEL.md section 4 prints it, where it does not cancel.
+    #[test]
+    fn push_is_the_printed_closed_form() {
+        let (f_o, nu, omega, t0): (f64, f64, f64, f64) = (0.3, 0.5, 0.9, 1.7);
+        let harmonic = Harmonic::ellipse(f_o, nu, omega).shifted(t0);
+        for tau in [0.01, 0.5, 2.0, 9.0] {
+            let t = t0 + tau;
+            let x = -(f_o / omega) * (omega * t0).sin() * tau
+                + f_o / omega.powi(2) * ((omega * t0).cos() - (omega * t).cos());
+            let y = (nu * f_o / omega) * (omega * t0).cos() * tau
+                + nu * f_o / omega.powi(2) * ((omega * t0).sin() - (omega * t).sin());
+            let push = Push::constant([0.0; 2], tau).with_harmonic(&harmonic, tau);
+            assert!((push.drift[0] - x).abs() < 2e-15, "{tau}");
+            assert!((push.drift[1] - y).abs() < 2e-15, "{tau}");
+            let vx = f_o / omega * ((omega * t).sin() - (omega * t0).sin());
+            assert!((push.gain[0] - vx).abs() < 1e-15);
+            assert!((push.force[1] - nu * f_o * (omega * t).sin()).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn slow_forcing_tends_to_a_constant_force() {
+        let slow = Harmonic::ellipse(0.3, 0.5, 1e-6);
+        let push = Push::constant([0.0; 2], 2.0).with_harmonic(&slow, 2.0);
+        // f_x ≈ 0.3 and f_y ≈ 0.15 Ωt: 0.6 and 0.15 Ω s³/6, up to (Ωs)² relative.
+        assert!((push.drift[0] - 0.6).abs() < 1e-12);
+        assert!((push.drift[1] / (0.15e-6 * 8.0 / 6.0) - 1.0).abs() < 1e-11);
+        let still = Harmonic::ellipse(0.3, 0.5, 0.0);
+        let push = Push::constant([0.0; 2], 2.0).with_harmonic(&still, 2.0);
+        assert_eq!(push.drift, [0.6, 0.0]);
+    }
+
+    #[test]
+    fn bounds_are_reached_and_never_passed() {
+        let forcing = Forcing {
+            constant: [0.0; 2],
+            harmonics: vec![Harmonic::with_phases(1.3, [0.4, 0.7], [0.3, 1.1])],
+        };
+        let bound = forcing.bounds()[0];
+        let largest = (0..100_000)
+            .map(|k| length(forcing.at(k as f64 * 1e-4)))
+            .fold(0.0, f64::max);
+        assert!(largest <= bound && largest > bound - 1e-8);
+    }
+}

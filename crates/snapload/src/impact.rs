@@ -1,0 +1,143 @@
+//! The law of impact: Newton-Moreau.
+
+use crate::complementarity::{PerCable, complementary};
+use crate::real::Real;
+use crate::taut_set::MAX_CABLES;
+use crate::{State, System, TautSet};
+
+/// What an impact does: impulses, and normal velocities before and after, by cable.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shock<T> {
+    pub(crate) impulse: PerCable<T>,
+    pub(crate) pulling: TautSet,
+    pub(crate) v_before: PerCable<T>,
+    pub(crate) v_after: PerCable<T>,
+    pub(crate) after: State<T>,
+}
+
+/// Impact of the closed cables, of which `taut` ones have no normal velocity (MODEL.md section 5):
+///
+/// ```text
+/// 0 ≤ p  ⟂  −(v⁺ + e max(v⁻, 0)) ≥ 0,    v⁺ = v⁻ − W p,    W = G M⁻¹ Gᵀ
+/// ```
+///
+/// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
+/// on it and goes slack when the impulse unloads it. Source: Moreau, in *Nonsmooth Mechanics and
+/// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
+pub(crate) fn impact<T: Real>(
+    system: &System<T>,
+    before: &State<T>,
+    closed: TautSet,
+    taut: TautSet,
+) -> Shock<T> {
+    let e = system.restitution;
+    let inverse_inertia = system.body.inverse_inertia();
+    let normals = system.normals(before, closed);
+    let mut v_before = [T::ZERO; MAX_CABLES];
+    let mut load = [T::ZERO; MAX_CABLES];
+    for cable in closed.iter().filter(|&cable| !taut.contains(cable)) {
+        let v = normals[cable].velocity(before);
+        v_before[cable] = v;
+        load[cable] = v + e * v.max(T::ZERO);
+    }
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let (impulse, pulling) = complementary(closed, w, &load);
+
+    let mut after = *before;
+    let mut v_after = [T::ZERO; MAX_CABLES];
+    for cable in pulling.iter() {
+        normals[cable].kick(&mut after, impulse[cable], inverse_inertia);
+    }
+    for cable in closed.iter() {
+        v_after[cable] = if pulling.contains(cable) {
+            -e * v_before[cable].max(T::ZERO)
+        } else {
+            pulling
+                .iter()
+                .fold(v_before[cable], |v, j| v - w(cable, j) * impulse[j])
+        };
+    }
+    Shock {
+        impulse,
+        pulling,
+        v_before,
+        v_after,
+        after,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Body, Harmonic, Shape};
+
+    fn breakwater(e: f64) -> System {
+        let a = 0.1;
+        System::moored_breakwater(
+            Body::rigid(Shape::of_half_sizes(a, 0.0), a * a),
+            [a, 0.0],
+            1.5,
+            e,
+            Harmonic::ellipse(0.0, 0.0, 0.0),
+        )
+    }
+
+    #[test]
+    fn single_impact_reverses_the_normal_velocity_and_loses_what_it_must() {
+        let system = breakwater(0.7);
+        let before = State {
+            vx: 0.3,
+            vy: -0.5,
+            vtheta: 0.2,
+            ..State::default()
+        };
+        let normal = system.cables[1].normal(&before);
+        let v_n = normal.velocity(&before);
+        let w = normal.coupling(&normal, system.body.inverse_inertia());
+        let shock = impact(&system, &before, TautSet::only(1), TautSet::SLACK);
+        assert!((shock.impulse[1] - 1.7 * v_n / w).abs() < 1e-15);
+        assert!((normal.velocity(&shock.after) + 0.7 * v_n).abs() < 1e-15);
+        let lost = system.energy(&before) - system.energy(&shock.after);
+        assert!((lost - (1.0 - 0.49) * v_n * v_n / (2.0 * w)).abs() < 1e-15);
+        assert!((lost - shock.impulse[1] * (v_n - 0.7 * v_n) / 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn symmetric_double_impact_rebounds_vertically() {
+        let system = breakwater(0.5);
+        let before = State {
+            vy: -0.4,
+            ..State::default()
+        };
+        let both = TautSet::only(0).with(1);
+        let shock = impact(&system, &before, both, TautSet::SLACK);
+        assert_eq!((shock.after.vx, shock.after.vtheta), (0.0, 0.0));
+        assert!((shock.after.vy - 0.2).abs() < 1e-15);
+        assert_eq!(shock.impulse[0], shock.impulse[1]);
+    }
+
+    #[test]
+    fn a_taut_cable_stays_taut_or_goes_slack_as_the_impulse_tells() {
+        // At x = y = θ = 0 the coupling W_12 of the standard body decides for all impacts there.
+        let system = breakwater(0.9);
+        let at = State::default();
+        let normals = system.normals(&at, system.all_cables());
+        let coupling = normals[0].coupling(&normals[1], system.body.inverse_inertia());
+        let along = State {
+            vx: normals[1].n[1],
+            vy: -normals[1].n[0],
+            ..at
+        };
+        let closing = normals[0].velocity(&along);
+        let sign = closing.signum();
+        let before = State {
+            vx: sign * along.vx,
+            vy: sign * along.vy,
+            ..at
+        };
+        let shock = impact(&system, &before, system.all_cables(), TautSet::only(1));
+        assert!(shock.impulse[0] > 0.0);
+        assert_eq!(shock.pulling.contains(1), coupling < 0.0);
+        assert!(normals[1].velocity(&shock.after) <= 1e-15);
+    }
+}

@@ -1,0 +1,393 @@
+//! Sliding, rocking, and motion with any other set of taut cables: the Taylor series of the motion.
+//!
+//! Taut motion is a differential-algebraic problem of index 3 (MODEL.md section 6):
+//!
+//! ```text
+//! (ẍ, ÿ) = f(t) − Σ T_i n_i,   θ̈ = −Σ T_i s_i / I,   g̈_i = 0 for the taut cables i
+//! ```
+//!
+//! With the tensions eliminated it reads W T = b, W_ij = n_i·n_j + s_i s_j / I,
+//! b_i = n_i·f + |Ṗ_i|²/r_i − θ̇² n_i·ρ_i. All of it is polynomial in x, y, θ, sin θ, cos θ, so the
+//! coefficients of the motion's Taylor series follow one after the other from those before, the
+//! matrix W at the start being the only one to solve with. One text serves every taut set, parallel
+//! cables and b ≠ 0 among them; the gaps of the slack cables and the tensions come out as
+//! polynomials on the step, in which [`crate::event`] finds events with the guarantee it has in flight.
+//!
+//! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
+//! their step control raises to powers with the platform's libm, and they allocate their output as
+//! they go), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff systems).
+//! None gives dense output near rounding, which the guarantee needs. A Taylor method of fixed order is
+//! some hundred lines of plain arithmetic, gives the same bits everywhere, and does not allocate.
+//! Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
+
+use crate::complementarity::solve;
+use crate::contact::{Contact, Contacts};
+use crate::event::{Jet, Jets, Watch, Watched};
+use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
+use crate::real::Real;
+use crate::taut_set::MAX_CABLES;
+use crate::{State, System, TautSet};
+
+/// Series of one cable's geometry: a pair of polynomials each for ρ and d = P − A, the gap, and where
+/// taut the tension, the normal n = d/r and the arm s.
+#[derive(Clone, Copy, Debug, Default)]
+struct Line<T: Real> {
+    lever: [Polynomial<T>; 2],
+    span: [Polynomial<T>; 2],
+    normal: [Polynomial<T>; 2],
+    arm: Polynomial<T>,
+    /// n·ρ.
+    reach: Polynomial<T>,
+    gap: Polynomial<T>,
+    tension: Polynomial<T>,
+    load: Polynomial<T>,
+}
+
+/// The Taylor expansion of a motion with a fixed set of taut cables.
+#[derive(Clone, Debug)]
+pub(crate) struct Series<T: Real> {
+    taut: TautSet,
+    cables: usize,
+    x: Polynomial<T>,
+    y: Polynomial<T>,
+    theta: Polynomial<T>,
+    sine: Polynomial<T>,
+    cosine: Polynomial<T>,
+    /// θ̇².
+    spin: Polynomial<T>,
+    force: [Polynomial<T>; 2],
+    lines: Vec<Line<T>>,
+    /// W_ij of taut cables, symmetric: entry (i, j) with i ≤ j.
+    coupling: Vec<Polynomial<T>>,
+    contacts: Contacts<T>,
+    tops: [Polynomial<T>; 4],
+    tops_count: usize,
+    rotation_limit: Option<T>,
+    step: T,
+}
+
+impl<T: Real> Series<T> {
+    /// An expansion not yet made, with room for the cables of `system`.
+    pub(crate) fn new(
+        system: &System<T>,
+        rotation_limit: Option<T>,
+    ) -> Self {
+        let cables = system.cables.len();
+        Self {
+            taut: TautSet::SLACK,
+            cables,
+            x: Polynomial::default(),
+            y: Polynomial::default(),
+            theta: Polynomial::default(),
+            sine: Polynomial::default(),
+            cosine: Polynomial::default(),
+            spin: Polynomial::default(),
+            force: [Polynomial::default(); 2],
+            lines: vec![Line::default(); cables],
+            coupling: vec![Polynomial::default(); cables * cables],
+            contacts: [Contact::CLOSED; MAX_CABLES],
+            tops: [Polynomial::default(); 4],
+            tops_count: 0,
+            rotation_limit,
+            step: T::ZERO,
+        }
+    }
+
+    /// Expands the motion about time `t`, and chooses how far the expansion is used.
+    pub(crate) fn begin(
+        &mut self,
+        system: &System<T>,
+        t: T,
+        start: &State<T>,
+        contacts: &Contacts<T>,
+        taut: TautSet,
+        upper_bound: Option<T>,
+    ) {
+        self.taut = taut;
+        self.contacts = *contacts;
+        self.expand_force(system, t);
+        (self.x[0], self.x[1]) = (start.x, start.vx);
+        (self.y[0], self.y[1]) = (start.y, start.vy);
+        (self.theta[0], self.theta[1]) = (start.theta, start.vtheta);
+        (self.sine[0], self.cosine[0]) = start.theta.sin_cos();
+        for line in 0..self.cables {
+            self.extend_geometry(system, line, 0);
+            let span = system.cables[line].span(start);
+            for i in 0..2 {
+                self.lines[line].span[i][0] = span[i];
+            }
+            self.extend_normal(system, line, 0);
+        }
+        for k in 0..ORDER - 1 {
+            self.extend_rotation(k + 1);
+            self.spin[k] = convolve_rates(&self.theta, k);
+            for line in 0..self.cables {
+                self.extend_geometry(system, line, k + 1);
+            }
+            for line in self.taut.iter() {
+                self.extend_normal(system, line, k + 1);
+            }
+            self.extend_motion(system, k);
+        }
+        self.expand_gaps();
+        self.expand_tops(system, upper_bound);
+        self.step = self.choose_step();
+    }
+
+    /// f(t0 + s) as a power series.
+    fn expand_force(&mut self, system: &System<T>, t: T) {
+        self.force = [Polynomial::default(); 2];
+        for i in 0..2 {
+            self.force[i][0] = system.forcing.constant[i];
+        }
+        for harmonic in &system.forcing.harmonics {
+            let local = harmonic.shifted(t);
+            // The k-th derivative turns (c, d) into Ω (d, −c).
+            let (mut c, mut d) = (local.cosine, local.sine);
+            for k in 0..=ORDER {
+                let factor = harmonic.omega / (k + 1) as f64;
+                for i in 0..2 {
+                    self.force[i][k] += c[i];
+                    (c[i], d[i]) = (d[i] * factor, -c[i] * factor);
+                }
+            }
+        }
+    }
+
+    /// sin θ and cos θ to order k from θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
+    fn extend_rotation(&mut self, k: usize) {
+        let (mut sine, mut cosine) = (T::ZERO, T::ZERO);
+        for j in 1..=k {
+            let weight = self.theta[j] * j as f64;
+            sine += weight * self.cosine[k - j];
+            cosine -= weight * self.sine[k - j];
+        }
+        self.sine[k] = sine / k as f64;
+        self.cosine[k] = cosine / k as f64;
+    }
+
+    /// ρ and d of one cable to order k; d but for its constant.
+    fn extend_geometry(&mut self, system: &System<T>, cable: usize, k: usize) {
+        let lever = system.cables[cable].lever(self.sine[k], self.cosine[k]);
+        let centre = [self.x[k], self.y[k]];
+        let line = &mut self.lines[cable];
+        for i in 0..2 {
+            line.lever[i][k] = lever[i];
+            line.span[i][k] = centre[i] + lever[i];
+        }
+    }
+
+    /// n, s and n·ρ to order k.
+    fn extend_normal(&mut self, system: &System<T>, cable: usize, k: usize) {
+        let length = system.cables[cable].length();
+        let line = &mut self.lines[cable];
+        for i in 0..2 {
+            line.normal[i][k] = line.span[i][k] / length;
+        }
+        line.arm[k] = convolve(&line.lever[0], &line.normal[1], k)
+            - convolve(&line.lever[1], &line.normal[0], k);
+        line.reach[k] = convolve(&line.normal[0], &line.lever[0], k)
+            + convolve(&line.normal[1], &line.lever[1], k);
+    }
+
+    /// The k-th coefficients of the tensions, hence those of order k + 2 of the motion.
+    fn extend_motion(&mut self, system: &System<T>, k: usize) {
+        let inverse_inertia = system.body.inverse_inertia();
+        let taut = self.taut;
+        for i in taut.iter() {
+            self.lines[i].load[k] = self.load(system, i, k);
+            for j in taut.iter().filter(|&j| j >= i) {
+                let (a, b) = (&self.lines[i], &self.lines[j]);
+                self.coupling[i * self.cables + j][k] = convolve(&a.normal[0], &b.normal[0], k)
+                    + convolve(&a.normal[1], &b.normal[1], k)
+                    + convolve(&a.arm, &b.arm, k) * inverse_inertia;
+            }
+        }
+        let mut right = [T::ZERO; MAX_CABLES];
+        for i in taut.iter() {
+            right[i] = taut.iter().fold(self.lines[i].load[k], |sum, j| {
+                sum - convolve_tail(self.coupling(i, j), &self.lines[j].tension, k)
+            });
+        }
+        let tension = solve(taut, |i, j| self.coupling(i, j)[0], &right);
+        let mut accel = [self.force[0][k], self.force[1][k], T::ZERO];
+        for i in taut.iter() {
+            let line = &mut self.lines[i];
+            line.tension[k] = tension[i];
+            accel[0] -= convolve(&line.tension, &line.normal[0], k);
+            accel[1] -= convolve(&line.tension, &line.normal[1], k);
+            accel[2] -= convolve(&line.tension, &line.arm, k) * inverse_inertia;
+        }
+        let factor = T::ONE / ((k + 1) * (k + 2)) as f64;
+        self.x[k + 2] = accel[0] * factor;
+        self.y[k + 2] = accel[1] * factor;
+        self.theta[k + 2] = accel[2] * factor;
+    }
+
+    fn coupling(&self, i: usize, j: usize) -> &Polynomial<T> {
+        &self.coupling[i.min(j) * self.cables + i.max(j)]
+    }
+
+    /// b_i = n·f + |Ṗ|²/r − θ̇² n·ρ to order k.
+    fn load(&self, system: &System<T>, cable: usize, k: usize) -> T {
+        let line = &self.lines[cable];
+        let push = convolve(&line.normal[0], &self.force[0], k)
+            + convolve(&line.normal[1], &self.force[1], k);
+        let speed = convolve_rates(&line.span[0], k) + convolve_rates(&line.span[1], k);
+        let centripetal = convolve(&self.spin, &line.reach, k);
+        push + speed / system.cables[cable].length() - centripetal
+    }
+
+    /// g = d·d − r² of the slack cables, with the first coefficients as they are known.
+    fn expand_gaps(&mut self) {
+        for cable in (0..self.cables).filter(|&cable| !self.taut.contains(cable)) {
+            let contact = self.contacts[cable];
+            let line = &mut self.lines[cable];
+            for k in 1..ORDER {
+                line.gap[k] =
+                    convolve(&line.span[0], &line.span[0], k) + convolve(&line.span[1], &line.span[1], k);
+            }
+            line.gap[0] = contact.gap;
+            if contact.resting {
+                line.gap[1] = T::ZERO;
+            }
+        }
+    }
+
+    /// Height over the upper bound of each point of the outline.
+    fn expand_tops(&mut self, system: &System<T>, upper_bound: Option<T>) {
+        self.tops_count = 0;
+        let Some(level) = upper_bound else { return };
+        let (outline, radius) = system.body.outline();
+        for [px, py] in outline.points() {
+            let top = &mut self.tops[self.tops_count];
+            for k in 0..ORDER {
+                top[k] = self.y[k] + *px * self.sine[k] + *py * self.cosine[k];
+            }
+            top[0] = top[0] + radius - level;
+            self.tops_count += 1;
+        }
+    }
+
+    /// The length on which the last terms of the motion and the tensions stay below rounding.
+    fn choose_step(&self) -> T {
+        let mut step: f64 = 1.0;
+        let mut limit = |polynomial: &Polynomial<T>, order: usize, tolerance: f64| {
+            for k in [order - 1, order] {
+                let term = polynomial[k].abs().to_f64();
+                if term > 0.0 {
+                    step = step.min(libm::pow(tolerance / term, 1.0 / k as f64));
+                }
+            }
+        };
+        let rounding = T::EPSILON.to_f64() * 0.05;
+        for polynomial in [&self.x, &self.y, &self.theta] {
+            limit(polynomial, ORDER, rounding);
+        }
+        for cable in self.taut.iter() {
+            let line = &self.lines[cable];
+            limit(&line.tension, ORDER - 2, rounding * 20.0 * (1.0 + line.tension[0].to_f64()));
+        }
+        T::from_f64(step)
+    }
+
+    /// How far the expansion may be used.
+    pub(crate) fn step(&self) -> T {
+        self.step
+    }
+
+    /// The state a time `s` after the start.
+    pub(crate) fn state(&self, s: T) -> State<T> {
+        let (x, y, theta) = (
+            self.x.jet(s, ORDER),
+            self.y.jet(s, ORDER),
+            self.theta.jet(s, ORDER),
+        );
+        State {
+            x: x[0],
+            y: y[0],
+            theta: theta[0],
+            vx: x[1],
+            vy: y[1],
+            vtheta: theta[1],
+        }
+    }
+
+    /// The gap of a slack cable a time `s` after the start.
+    pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
+        let gap = &self.lines[cable].gap;
+        Contact {
+            gap: gap.jet(s, ORDER - 1)[0],
+            error: self.contacts[cable].error + gap.noise(s, ORDER - 1),
+            resting: false,
+        }
+    }
+
+    /// Bounds on |ÿ| and |θ̈| over the step.
+    pub(crate) fn steepest(&self) -> [T; 2] {
+        [&self.y, &self.theta].map(|p| p.derivative_bound(2, self.step, ORDER))
+    }
+
+    fn jet(&self, watch: Watch, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
+        let [value, rate, accel] = polynomial.jet(s, order);
+        Jet {
+            third: polynomial.derivative_bound(3, self.step, order),
+            noise: polynomial.noise(s, order),
+            ..Jet::new(watch, value, rate, accel)
+        }
+    }
+
+    fn gap_jet(&self, cable: usize, s: T) -> Jet<T> {
+        let gap = &self.lines[cable].gap;
+        let contact = &self.contacts[cable];
+        let jet = self.jet(Watch::Gap(cable), gap, ORDER - 1, s);
+        if s > T::ZERO {
+            return Jet {
+                noise: jet.noise + contact.error,
+                ..jet
+            };
+        }
+        Jet {
+            noise: contact.error,
+            resting: contact.resting,
+            jerk: gap[3] * 6.0,
+            fourth: if contact.resting {
+                gap.derivative_bound(4, self.step, ORDER - 1)
+            } else {
+                T::ZERO
+            },
+            ..jet
+        }
+    }
+}
+
+impl<T: Real> Watched<T> for Series<T> {
+    fn watch(&self, s: T, jets: &mut Jets<T>) {
+        for cable in 0..self.cables {
+            jets.push(if self.taut.contains(cable) {
+                let tension = self.lines[cable].tension.negated();
+                self.jet(Watch::Tension(cable), &tension, ORDER - 2, s)
+            } else {
+                self.gap_jet(cable, s)
+            });
+        }
+        if let Some(limit) = self.rotation_limit {
+            for mut theta in [self.theta, self.theta.negated()] {
+                theta[0] -= limit;
+                jets.push(self.jet(Watch::Rotation, &theta, ORDER, s));
+            }
+        }
+        for top in &self.tops[..self.tops_count] {
+            jets.push(self.jet(Watch::Top, top, ORDER - 1, s));
+        }
+    }
+}
+
+/// The k-th coefficient of (ṗ)².
+fn convolve_rates<T: Real>(p: &Polynomial<T>, k: usize) -> T {
+    let mut sum = T::ZERO;
+    for j in 0..=k {
+        sum += p[j + 1] * p[k - j + 1] * ((j + 1) * (k - j + 1)) as f64;
+    }
+    sum
+}

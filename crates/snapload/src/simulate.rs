@@ -1,0 +1,402 @@
+//! The one loop: fly to the earliest event, apply its law, choose the next taut set.
+
+use crate::contact::{Contact, Contacts};
+use crate::event::{Crossing, Jets, Reached, first_crossing};
+use crate::extremes::Extremes;
+use crate::flight::Flight;
+use crate::impact::{Shock, impact};
+use crate::real::Real;
+use crate::series::Series;
+use crate::start::{self, StartError};
+use crate::taut::{normal_acceleration, project_position, project_velocity, taut_next};
+use crate::trajectory::{Impact, Stop};
+use crate::{State, StopRules, System, TautSet};
+
+/// A taut cable that an impulse neither loads nor unloads keeps its zero normal velocity up to this
+/// much rounding \[L/T\].
+const UNMOVED: f64 = 1e-14;
+
+/// So many instants of impact in a row on the same cables count as a converging series.
+const SERIES: u32 = 5;
+
+/// A motion in progress.
+///
+/// It allocates when it is made and not after, has no randomness and reads no clock: the same system,
+/// rules and start give the same bits.
+#[derive(Clone, Debug)]
+pub struct Simulation<T: Real = f64> {
+    system: System<T>,
+    rules: StopRules<T>,
+    v_stick: T,
+    t: T,
+    state: State<T>,
+    taut: TautSet,
+    contacts: Contacts<T>,
+    flight: Flight<T>,
+    series: Series<T>,
+    jets: Jets<T>,
+    extremes: Extremes<T>,
+    impacts: u64,
+    last: LastImpacts<T>,
+    stop: Option<Stop>,
+    t_limit: Option<T>,
+}
+
+/// The latest instants of impact, as far as the limit of a converging series asks.
+#[derive(Clone, Copy, Debug)]
+struct LastImpacts<T> {
+    cables: TautSet,
+    v_n: T,
+    repeats: u32,
+}
+
+/// What one step did: a stretch of motion with one taut set, and the event at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<T: Real = f64> {
+    /// When the stretch began.
+    pub t_start: T,
+    /// The state then.
+    pub start: State<T>,
+    /// The taut cables along it.
+    pub taut: TautSet,
+    /// When it ended.
+    pub t_end: T,
+    /// The state at the end, after the event there.
+    pub after: State<T>,
+    /// The taut cables after it.
+    pub taut_after: TautSet,
+    /// Why the motion stops here, if it does.
+    pub stop: Option<Stop>,
+    before: State<T>,
+    shock: Option<Shock<T>>,
+}
+
+impl<T: Real> Step<T> {
+    /// The impacts at the end of the stretch: one for each cable with an impulse.
+    pub fn impacts(&self) -> impl Iterator<Item = Impact<T>> + '_ {
+        self.shock.iter().flat_map(|shock| {
+            shock.pulling.iter().map(|cable| {
+                let (v_before, v_after) = (shock.v_before[cable], shock.v_after[cable]);
+                Impact {
+                    t: self.t_end,
+                    cable,
+                    v_n: v_before.max(T::ZERO),
+                    impulse: shock.impulse[cable],
+                    energy_lost: shock.impulse[cable] * (v_before + v_after) * 0.5,
+                    before: self.before,
+                    after: shock.after,
+                }
+            })
+        })
+    }
+}
+
+impl<T: Real> Simulation<T> {
+    /// A motion of `system` from `state` at time `t`, projected onto the cables that count as closed.
+    ///
+    /// An impact slower than `v_stick` lets its cable stick, if the cable would then carry tension.
+    ///
+    /// # Errors
+    /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
+    pub fn new(
+        system: System<T>,
+        rules: StopRules<T>,
+        v_stick: T,
+        t: T,
+        state: State<T>,
+    ) -> Result<Self, StartError> {
+        let start = start::prepare(&system, &rules, t, &state)?;
+        Ok(Self {
+            flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
+            series: Series::new(&system, rules.rotation_limit),
+            jets: Jets::new(),
+            extremes: Extremes::at(&start.state),
+            system,
+            rules,
+            v_stick,
+            t,
+            state: start.state,
+            taut: start.taut,
+            contacts: start.contacts,
+            impacts: 0,
+            last: LastImpacts {
+                cables: TautSet::SLACK,
+                v_n: T::ZERO,
+                repeats: 0,
+            },
+            stop: start.stop,
+            t_limit: None,
+        })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System<T> {
+        &self.system
+    }
+
+    /// The time reached.
+    pub fn time(&self) -> T {
+        self.t
+    }
+
+    /// The state reached.
+    pub fn state(&self) -> &State<T> {
+        &self.state
+    }
+
+    /// The taut cables.
+    pub fn taut(&self) -> TautSet {
+        self.taut
+    }
+
+    /// Why the motion has stopped, if it has.
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+
+    /// Where the impacts that end the run converge (see [`crate::End::t_limit`]).
+    pub fn t_limit(&self) -> Option<T> {
+        self.t_limit
+    }
+
+    /// The highest y so far.
+    pub fn y_max(&self) -> T {
+        self.extremes.y_max
+    }
+
+    /// The largest |θ| so far.
+    pub fn theta_max(&self) -> T {
+        self.extremes.theta_max
+    }
+
+    /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
+    /// the motion has stopped.
+    pub fn step(&mut self) -> Option<Step<T>> {
+        if self.stop.is_some() {
+            return None;
+        }
+        let (t_start, start, taut) = (self.t, self.state, self.taut);
+        let crossing = self.next_crossing();
+        self.advance(&crossing);
+        let before = self.state;
+        let shock = self.apply_law(crossing.reached);
+        Some(Step {
+            t_start,
+            start,
+            taut,
+            t_end: self.t,
+            after: self.state,
+            taut_after: self.taut,
+            stop: self.stop,
+            before,
+            shock,
+        })
+    }
+
+    /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
+    fn next_crossing(&mut self) -> Crossing<T> {
+        let mut horizon = self.rules.t_end - self.t;
+        let crossing = if self.taut.is_empty() {
+            self.flight
+                .begin(&self.system, self.t, &self.state, &self.contacts);
+            first_crossing(&self.flight, horizon, &mut self.jets)
+        } else {
+            self.series.begin(
+                &self.system,
+                self.t,
+                &self.state,
+                &self.contacts,
+                self.taut,
+                self.rules.upper_bound,
+            );
+            horizon = horizon.min(self.series.step());
+            first_crossing(&self.series, horizon, &mut self.jets)
+        };
+        crossing.unwrap_or(Crossing {
+            s: horizon,
+            reached: Reached::default(),
+        })
+    }
+
+    /// Moves state, time and contacts to the crossing. Positions there lie on the closed cables and
+    /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
+    fn advance(&mut self, crossing: &Crossing<T>) {
+        let s = crossing.s;
+        let free = self.taut.is_empty();
+        let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
+        if free {
+            let bends = [self.flight.most_upward(), self.flight.steepest(), T::ZERO];
+            self.extremes.cover(|s| self.flight.state(s), s, bends);
+        } else {
+            let [y, theta] = self.series.steepest();
+            self.extremes
+                .cover(|s| self.series.state(s), s, [y, y, theta]);
+        }
+        self.t = if reached_end {
+            self.rules.t_end
+        } else {
+            self.t + s
+        };
+        self.state = if free {
+            self.flight.state(s)
+        } else {
+            self.series.state(s)
+        };
+        for cable in 0..self.system.cables.len() {
+            self.contacts[cable] = if self.taut.contains(cable) {
+                Contact::RESTING
+            } else if crossing.reached.gaps.contains(cable) {
+                Contact::CLOSED
+            } else if s > T::ZERO {
+                let contact = if free {
+                    self.flight.contact(cable, s)
+                } else {
+                    self.series.contact(cable, s)
+                };
+                contact.carried(&self.system, cable, &self.state)
+            } else {
+                self.contacts[cable]
+            };
+        }
+        let closed = self.closed();
+        project_position(&self.system, &mut self.state, closed);
+        project_velocity(&self.system, &mut self.state, self.taut);
+    }
+
+    /// The cables whose gap is zero, known and not evaluated.
+    fn closed(&self) -> TautSet {
+        let known = |&cable: &usize| {
+            self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
+        };
+        (0..self.system.cables.len()).filter(known).collect()
+    }
+
+    fn apply_law(&mut self, reached: Reached) -> Option<Shock<T>> {
+        if reached.rotation {
+            self.stop = Some(Stop::RotationLimit);
+        } else if reached.top {
+            self.stop = Some(Stop::UpperBound);
+        } else if !reached.gaps.is_empty() {
+            return Some(self.snap(reached.gaps));
+        } else if !reached.tensions.is_empty() {
+            self.release(reached.tensions);
+        } else if self.t >= self.rules.t_end {
+            self.stop = Some(Stop::EndTime);
+        }
+        None
+    }
+
+    /// Cables snap taut: impact, then sticking, then the choice of the taut set.
+    fn snap(&mut self, struck: TautSet) -> Shock<T> {
+        let closed = self.closed();
+        let still: TautSet = closed
+            .iter()
+            .filter(|&cable| self.contacts[cable].resting)
+            .collect();
+        let shock = impact(&self.system, &self.state, closed, still);
+        self.state = shock.after;
+        let hit: TautSet = struck.intersection(shock.pulling);
+        self.count(&shock, hit);
+
+        let slow: TautSet = struck
+            .iter()
+            .filter(|&cable| shock.v_before[cable] < self.v_stick)
+            .collect();
+        let at_rest: TautSet = closed
+            .iter()
+            .filter(|&cable| shock.v_after[cable].abs() <= T::from_f64(UNMOVED))
+            .collect();
+        let candidates = slow.union(at_rest);
+        let mut halted = shock.after;
+        project_velocity(&self.system, &mut halted, candidates);
+        self.taut = taut_next(&self.system, self.t, &halted, candidates);
+        project_velocity(&self.system, &mut self.state, self.taut);
+
+        for cable in closed.iter() {
+            let resting = self.taut.contains(cable) || at_rest.contains(cable);
+            self.contacts[cable] = if resting {
+                Contact::RESTING
+            } else {
+                Contact::CLOSED
+            };
+        }
+        self.check_rules(struck.intersection(self.taut));
+        shock
+    }
+
+    fn count(&mut self, shock: &Shock<T>, hit: TautSet) {
+        self.impacts += hit.len() as u64;
+        if hit.is_empty() {
+            return;
+        }
+        let repeats = if hit == self.last.cables {
+            self.last.repeats + 1
+        } else {
+            1
+        };
+        self.last = LastImpacts {
+            cables: hit,
+            v_n: hit
+                .iter()
+                .fold(T::ZERO, |v, cable| v.max(shock.v_before[cable])),
+            repeats,
+        };
+    }
+
+    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
+    fn release(&mut self, released: TautSet) {
+        let before = self.taut;
+        let kept: TautSet = before
+            .iter()
+            .filter(|&cable| !released.contains(cable))
+            .collect();
+        self.taut = taut_next(&self.system, self.t, &self.state, kept);
+        self.check_rules(TautSet::SLACK);
+    }
+
+    /// The rules that are looked at at events; `stuck` are the cables that just stuck.
+    fn check_rules(&mut self, stuck: TautSet) {
+        let y = self.state.y;
+        let low = self.rules.settled_below.is_some_and(|height| y < height);
+        let high = self.rules.sliding_above.is_some_and(|height| y >= height);
+        if low && (!stuck.is_empty() || self.taut.len() >= 2) {
+            self.stop = Some(Stop::Settled);
+        } else if high && !stuck.is_empty() {
+            self.stop = Some(Stop::SlidingStart);
+        } else if self.impacts > self.rules.max_impacts {
+            self.stop = Some(Stop::ImpactLimit);
+        }
+        if matches!(self.stop, Some(Stop::Settled | Stop::SlidingStart)) {
+            self.t_limit = self.limit_of_impacts(stuck);
+        }
+    }
+
+    /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began with
+    /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
+    fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
+        let e = self.system.restitution;
+        let LastImpacts {
+            cables,
+            v_n,
+            repeats,
+        } = self.last;
+        let converging = repeats >= SERIES
+            && e < T::ONE
+            && !stuck.is_empty()
+            && (cables.len() == 1 || cables == self.system.all_cables());
+        if !converging {
+            return None;
+        }
+        let others: TautSet = self
+            .taut
+            .iter()
+            .filter(|&cable| !cables.contains(cable))
+            .collect();
+        cables
+            .iter()
+            .map(|cable| normal_acceleration(&self.system, self.t, &self.state, cable, others))
+            .filter(|&alpha| alpha > T::ZERO)
+            .map(|alpha| self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha))
+            .reduce(T::max)
+    }
+}

@@ -1,0 +1,19 @@
+//! Where the body is and how it moves.
+
+/// Position and velocity of the body, relative to the thesis's upside-down picture: y points to the
+/// sea floor's anchors, the net buoyancy pulls towards −y, θ turns counter-clockwise.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct State<T = f64> {
+    /// Centre, horizontal \[L\].
+    pub x: T,
+    /// Centre, vertical \[L\].
+    pub y: T,
+    /// Rotation \[rad\].
+    pub theta: T,
+    /// Velocity of the centre, horizontal \[L/T\].
+    pub vx: T,
+    /// Velocity of the centre, vertical \[L/T\].
+    pub vy: T,
+    /// Angular velocity \[rad/T\].
+    pub vtheta: T,
+}

@@ -1,0 +1,108 @@
+//! Which cables stay taut, and what they carry.
+
+use crate::complementarity::{PerCable, complementary, solve};
+use crate::real::Real;
+use crate::taut_set::MAX_CABLES;
+use crate::{State, System, TautSet};
+
+/// The set of cables that are taut from now on, among closed ones without normal velocity, by the
+/// complementarity problem on accelerations (MODEL.md section 6):
+///
+/// ```text
+/// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T
+/// ```
+pub(crate) fn taut_next<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    candidates: TautSet,
+) -> TautSet {
+    if candidates.is_empty() {
+        return TautSet::SLACK;
+    }
+    let (load, normals) = load(system, t, state, candidates);
+    let inverse_inertia = system.body.inverse_inertia();
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    complementary(candidates, w, &load).1
+}
+
+/// The tensions of the taut cables: W T = b.
+pub(crate) fn tensions<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    taut: TautSet,
+) -> PerCable<T> {
+    let (load, normals) = load(system, t, state, taut);
+    let inverse_inertia = system.body.inverse_inertia();
+    solve(
+        taut,
+        |i, j| normals[i].coupling(&normals[j], inverse_inertia),
+        &load,
+    )
+}
+
+/// g̈/(2r) of a closed cable while the cables of `taut` pull.
+pub(crate) fn normal_acceleration<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    cable: usize,
+    taut: TautSet,
+) -> T {
+    let tension = tensions(system, t, state, taut);
+    let (load, normals) = load(system, t, state, taut.with(cable));
+    let inverse_inertia = system.body.inverse_inertia();
+    taut.iter().fold(load[cable], |sum, j| {
+        sum - normals[cable].coupling(&normals[j], inverse_inertia) * tension[j]
+    })
+}
+
+fn load<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    set: TautSet,
+) -> (PerCable<T>, [crate::Normal<T>; MAX_CABLES]) {
+    let force = system.forcing.at(t);
+    let mut load = [T::ZERO; MAX_CABLES];
+    for cable in set.iter() {
+        load[cable] = system.free_normal_acceleration(cable, state, force);
+    }
+    (load, system.normals(state, set))
+}
+
+/// Moves the body by the least distance in the mass metric so that the gaps of a set close.
+///
+/// Two Newton steps: from 1e-9 one already leaves 1e-17.
+pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
+    let inverse_inertia = system.body.inverse_inertia();
+    for _ in 0..2 {
+        let normals = system.normals(state, set);
+        let mut distance = [T::ZERO; MAX_CABLES];
+        for cable in set.iter() {
+            let tether = &system.cables[cable];
+            distance[cable] = tether.gap(state) / (tether.length() * 2.0);
+        }
+        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let shift = solve(set, w, &distance);
+        for cable in set.iter() {
+            normals[cable].shift(state, shift[cable], inverse_inertia);
+        }
+    }
+}
+
+/// Takes the normal velocities of a set to zero by the least change in the mass metric.
+pub(crate) fn project_velocity<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
+    let inverse_inertia = system.body.inverse_inertia();
+    let normals = system.normals(state, set);
+    let mut velocity = [T::ZERO; MAX_CABLES];
+    for cable in set.iter() {
+        velocity[cable] = normals[cable].velocity(state);
+    }
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let kick = solve(set, w, &velocity);
+    for cable in set.iter() {
+        normals[cable].kick(state, kick[cable], inverse_inertia);
+    }
+}

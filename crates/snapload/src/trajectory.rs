@@ -1,0 +1,251 @@
+//! What a run leaves behind.
+
+use crate::contact::Contact;
+use crate::flight::Flight;
+use crate::series::Series;
+use crate::simulate::{Simulation, Step};
+use crate::taut::tensions;
+use crate::taut_set::MAX_CABLES;
+use crate::{State, System, TautSet};
+
+/// A cable snapping taut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<T = f64> {
+    /// Time \[T\].
+    pub t: T,
+    /// The cable, by index from 0.
+    pub cable: usize,
+    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse on.
+    pub v_n: T,
+    /// Impulse in the cable \[m L/T\].
+    pub impulse: T,
+    /// Energy lost \[F L\].
+    pub energy_lost: T,
+    /// State just before.
+    pub before: State<T>,
+    /// State just after.
+    pub after: State<T>,
+}
+
+/// A stretch of time with one set of taut cables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeInterval {
+    /// The taut cables.
+    pub taut: TautSet,
+    /// From \[T\].
+    pub t_start: f64,
+    /// To \[T\].
+    pub t_end: f64,
+}
+
+/// Why a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stop {
+    /// A cable stuck, or two are taut, below the settling height.
+    Settled,
+    /// |θ| reached π/2.
+    RotationLimit,
+    /// The highest point of the body reached the anchors' level.
+    UpperBound,
+    /// A cable stuck at or above the settling height.
+    SlidingStart,
+    /// The end of the time asked for.
+    EndTime,
+    /// More impacts than allowed.
+    ImpactLimit,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Why.
+    pub reason: Stop,
+    /// When \[T\].
+    pub t: f64,
+    /// Where the series of impacts converges, if the run ends by one \[T\].
+    pub t_limit: Option<f64>,
+    /// The last state.
+    pub state: State,
+}
+
+/// Norms of a run, after the chapter's eqs 6.2-6.4.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Norms {
+    /// ρ1 = max v_n⁻.
+    pub rho1: f64,
+    /// ρ2 = Σ v_n⁻ over t ≤ 10.
+    pub rho2: f64,
+    /// ρ3 = Σ v_n⁻.
+    pub rho3: f64,
+    /// The highest y of the centre.
+    pub y_max: f64,
+    /// The largest |θ|.
+    pub theta_max: f64,
+}
+
+/// The motion at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// The state; at an event's instant the one after it.
+    pub state: State,
+    /// The taut cables.
+    pub taut: TautSet,
+    /// Energy \[F L\].
+    pub energy: f64,
+}
+
+/// A stretch of motion with one taut set, from which the state at any time in it is computed.
+#[derive(Clone, Copy, Debug)]
+struct Segment {
+    t: f64,
+    start: State,
+    taut: TautSet,
+}
+
+/// A finished run.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    system: System,
+    segments: Vec<Segment>,
+    impacts: Vec<Impact>,
+    modes: Vec<ModeInterval>,
+    end: End,
+    norms: Norms,
+}
+
+/// ρ2 sums up to this time, included (chapter eq. 6.3).
+const RHO2_UNTIL: f64 = 10.0;
+
+impl Trajectory {
+    /// Runs a simulation to its end and keeps all of it.
+    pub fn record(mut simulation: Simulation) -> Self {
+        let mut run = Self {
+            system: simulation.system().clone(),
+            segments: Vec::new(),
+            impacts: Vec::new(),
+            modes: Vec::new(),
+            end: End {
+                reason: Stop::EndTime,
+                t: simulation.time(),
+                t_limit: None,
+                state: *simulation.state(),
+            },
+            norms: Norms::default(),
+        };
+        while let Some(step) = simulation.step() {
+            run.take(&step);
+        }
+        run.end = End {
+            reason: simulation.stop().unwrap_or(Stop::EndTime),
+            t: simulation.time(),
+            t_limit: simulation.t_limit(),
+            state: *simulation.state(),
+        };
+        run.segments.push(Segment {
+            t: run.end.t,
+            start: run.end.state,
+            taut: simulation.taut(),
+        });
+        run.norms.y_max = simulation.y_max();
+        run.norms.theta_max = simulation.theta_max();
+        run
+    }
+
+    fn take(&mut self, step: &Step) {
+        self.segments.push(Segment {
+            t: step.t_start,
+            start: step.start,
+            taut: step.taut,
+        });
+        if step.t_end > step.t_start {
+            match self.modes.last_mut() {
+                Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,
+                _ => self.modes.push(ModeInterval {
+                    taut: step.taut,
+                    t_start: step.t_start,
+                    t_end: step.t_end,
+                }),
+            }
+        }
+        for impact in step.impacts() {
+            self.norms.take(&impact);
+            self.impacts.push(impact);
+        }
+    }
+
+    /// The system that moved.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The impacts in order of time; the rows of one instant in order of their cables.
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
+    }
+
+    /// Mode intervals, without gap or overlap from the start to the end.
+    pub fn modes(&self) -> &[ModeInterval] {
+        &self.modes
+    }
+
+    /// How it ended.
+    pub fn end(&self) -> &End {
+        &self.end
+    }
+
+    /// The norms.
+    pub fn norms(&self) -> &Norms {
+        &self.norms
+    }
+
+    /// State, taut set and energy at time t, held to the run's span; at an event's instant those
+    /// after it.
+    pub fn at(&self, t: f64) -> Motion {
+        let after = self.segments.partition_point(|segment| segment.t <= t);
+        // A run has at least the segment of its end.
+        let segment = &self.segments[after.saturating_sub(1)];
+        let s = (t - segment.t).clamp(0.0, (self.end.t - segment.t).max(0.0));
+        let state = self.state(segment, s);
+        Motion {
+            state,
+            taut: segment.taut,
+            energy: self.system.energy(&state),
+        }
+    }
+
+    fn state(&self, segment: &Segment, s: f64) -> State {
+        let contacts = [Contact::RESTING; MAX_CABLES];
+        if s <= 0.0 {
+            segment.start
+        } else if segment.taut.is_empty() {
+            let mut flight = Flight::new(&self.system, None, None);
+            flight.begin(&self.system, segment.t, &segment.start, &contacts);
+            flight.state(s)
+        } else {
+            let mut series = Series::new(&self.system, None);
+            let (t, start) = (segment.t, &segment.start);
+            series.begin(&self.system, t, start, &contacts, segment.taut, None);
+            series.state(s)
+        }
+    }
+
+    /// Tension of a cable at a time \[F\]; 0 while slack.
+    pub fn tension(&self, t: f64, cable: usize) -> f64 {
+        let motion = self.at(t);
+        if cable < MAX_CABLES && motion.taut.contains(cable) {
+            tensions(&self.system, t, &motion.state, motion.taut)[cable]
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Norms {
+    fn take(&mut self, impact: &Impact) {
+        self.rho1 = self.rho1.max(impact.v_n);
+        self.rho3 += impact.v_n;
+        if impact.t <= RHO2_UNTIL {
+            self.rho2 += impact.v_n;
+        }
+    }
+}
