@@ -1,2 +1,56 @@
-//! Command line.
-fn main() {}
+//! The command line of snapload: reads a case, runs it, and writes down what happened.
+mod case_input;
+mod cases;
+mod completions;
+mod failure;
+mod interrupt;
+mod keys;
+mod pictures;
+mod report;
+mod run;
+mod stage;
+mod summary;
+mod tables;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Bodies on cables that go slack and snap taut: motion, impacts, tensions.
+#[derive(Parser)]
+#[command(name = "snapload", version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  snapload run                                 the standard case
+  snapload run --set f_o=0.5                   the same with a stronger force
+  snapload run --case 2910001000-359           a built-in case (list: snapload cases)
+  snapload run mooring.toml --out results      a case of your own, with tables and pictures
+
+Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Run one case
+    Run(run::Args),
+    /// List the built-in cases
+    Cases,
+    /// Explain the keys of a case: meaning, default, what is allowed
+    Keys,
+    /// Print a completion script for a shell
+    Completions(completions::Args),
+}
+
+fn main() -> ExitCode {
+    interrupt::install();
+    let result = match Cli::parse().verb {
+        Verb::Run(args) => run::run(&args),
+        Verb::Cases => cases::run(),
+        Verb::Keys => keys::run(),
+        Verb::Completions(args) => completions::run(&args),
+    };
+    failure::exit_code(result)
+}

@@ -286,7 +286,11 @@ fn cubic_root<T: Real>(f: T, rate: T, accel: T, k: T, reach: T) -> T {
         return parabola_root(rate, accel * 0.5, k * (1.0 / 3.0)).map_or(reach, |s| s.min(reach));
     }
     if accel < T::ZERO && rate > T::ZERO {
-        let turning = if k * reach > -accel { -accel / k } else { reach };
+        let turning = if k * reach > -accel {
+            -accel / k
+        } else {
+            reach
+        };
         let discriminant = accel.squared() - k * rate * 2.0;
         let summit = if discriminant > T::ZERO {
             (rate * 2.0 / (discriminant.sqrt() - accel)).min(turning)

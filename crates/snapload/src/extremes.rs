@@ -64,7 +64,9 @@ fn search<T: Real>(
     let width = right.0 - left.0;
     // No maximum inside where the function falls throughout, or where it still rises at the end for
     // having risen throughout.
-    if left.1.1 + up.max(T::ZERO) * width <= T::ZERO || right.1.1 - up.max(T::ZERO) * width >= T::ZERO {
+    if left.1.1 + up.max(T::ZERO) * width <= T::ZERO
+        || right.1.1 - up.max(T::ZERO) * width >= T::ZERO
+    {
         return;
     }
     let bulge = bend * width * width * 0.125;
@@ -87,7 +89,9 @@ mod tests {
         let throw = |s: f64| (s - 0.5 * s * s, 1.0 - s);
         assert!((highest(&throw, 3.0, -1.0, 1.0, -9.0) - 0.5).abs() < 1e-14);
         let wave = |s: f64| ((7.0 * s).sin() + 0.3 * s, 7.0 * (7.0 * s).cos() + 0.3);
-        let known = (0..=2_000_000).map(|k| wave(k as f64 * 1e-6).0).fold(0.0, f64::max);
+        let known = (0..=2_000_000)
+            .map(|k| wave(k as f64 * 1e-6).0)
+            .fold(0.0, f64::max);
         assert!((highest(&wave, 2.0, 49.0, 49.0, 0.0) - known).abs() < 1e-10);
         assert_eq!(highest(&throw, 3.0, -1.0, 1.0, 7.0), 7.0);
     }

@@ -201,13 +201,11 @@ impl<T: Real> Flight<T> {
         let tether = &self.tethers[cable];
         let omega = self.start.vtheta;
         let turn = quarter_turn(tether.lever);
-        let remainder = [0, 1].map(|i| {
-            now.push.drift[i] - (now.chord[0] * tether.lever[i] + now.chord[1] * turn[i])
-        });
+        let remainder = [0, 1]
+            .map(|i| now.push.drift[i] - (now.chord[0] * tether.lever[i] + now.chord[1] * turn[i]));
         let moved = [0, 1].map(|i| tether.velocity[i] * s + remainder[i]);
         let span = [0, 1].map(|i| tether.span[i] + moved[i]);
-        let lever =
-            [0, 1].map(|i| tether.lever[i] * now.cosine_turn + turn[i] * now.sine_turn);
+        let lever = [0, 1].map(|i| tether.lever[i] * now.cosine_turn + turn[i] * now.sine_turn);
         let swing = quarter_turn(lever);
         let velocity = [
             self.start.vx + now.push.gain[0] + omega * swing[0],
@@ -263,7 +261,11 @@ impl<T: Real> Flight<T> {
     fn watch_stops(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
         let state = self.state_at(s, now);
         if let Some(limit) = self.rotation_limit {
-            let side = if state.vtheta < T::ZERO { -T::ONE } else { T::ONE };
+            let side = if state.vtheta < T::ZERO {
+                -T::ONE
+            } else {
+                T::ONE
+            };
             jets.push(Jet {
                 noise: limit * T::EPSILON,
                 ..Jet::new(

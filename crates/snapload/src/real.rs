@@ -159,7 +159,10 @@ mod tests {
         ];
         for (z, even, odd) in known {
             let (c, s) = f64::versines(z);
-            assert!((c - even).abs() <= 3e-16 * even.abs(), "z = {z}: {c} {even}");
+            assert!(
+                (c - even).abs() <= 3e-16 * even.abs(),
+                "z = {z}: {c} {even}"
+            );
             assert!((s - odd).abs() <= 6e-16 * odd.abs(), "z = {z}: {s} {odd}");
         }
         assert_eq!(f64::versines(0.0), (0.5, 0.0));

@@ -68,10 +68,7 @@ pub(crate) struct Series<T: Real> {
 
 impl<T: Real> Series<T> {
     /// An expansion not yet made, with room for the cables of `system`.
-    pub(crate) fn new(
-        system: &System<T>,
-        rotation_limit: Option<T>,
-    ) -> Self {
+    pub(crate) fn new(system: &System<T>, rotation_limit: Option<T>) -> Self {
         let cables = system.cables.len();
         Self {
             taut: TautSet::SLACK,
@@ -244,8 +241,8 @@ impl<T: Real> Series<T> {
             let contact = self.contacts[cable];
             let line = &mut self.lines[cable];
             for k in 1..ORDER {
-                line.gap[k] =
-                    convolve(&line.span[0], &line.span[0], k) + convolve(&line.span[1], &line.span[1], k);
+                line.gap[k] = convolve(&line.span[0], &line.span[0], k)
+                    + convolve(&line.span[1], &line.span[1], k);
             }
             line.gap[0] = contact.gap;
             if contact.resting {
@@ -286,7 +283,11 @@ impl<T: Real> Series<T> {
         }
         for cable in self.taut.iter() {
             let line = &self.lines[cable];
-            limit(&line.tension, ORDER - 2, rounding * 20.0 * (1.0 + line.tension[0].to_f64()));
+            limit(
+                &line.tension,
+                ORDER - 2,
+                rounding * 20.0 * (1.0 + line.tension[0].to_f64()),
+            );
         }
         T::from_f64(step)
     }

@@ -55,7 +55,14 @@ pub(crate) fn prepare<T: Real>(
     if system.cables.len() > MAX_CABLES {
         return Err(StartError::TooManyCables);
     }
-    let numbers = [state.x, state.y, state.theta, state.vx, state.vy, state.vtheta];
+    let numbers = [
+        state.x,
+        state.y,
+        state.theta,
+        state.vx,
+        state.vy,
+        state.vtheta,
+    ];
     if numbers.iter().any(|n| !n.to_f64().is_finite()) {
         return Err(StartError::NotFinite);
     }
@@ -76,7 +83,8 @@ pub(crate) fn prepare<T: Real>(
     let stop = stop_at_start(system, rules, state)?;
     let mut state = *state;
     project_position(system, &mut state, closed);
-    let velocity = |state: &State<T>, cable: usize| system.cables[cable].normal(state).velocity(state);
+    let velocity =
+        |state: &State<T>, cable: usize| system.cables[cable].normal(state).velocity(state);
     let resting: TautSet = closed
         .iter()
         .filter(|&cable| velocity(&state, cable).abs() <= tolerance)

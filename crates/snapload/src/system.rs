@@ -31,8 +31,7 @@ impl<T: Real> System<T> {
     ) -> Self {
         let h = anchor_height(r, a);
         let half_gap = a - 1.0;
-        let cable =
-            |side: T| Cable::taut_at_rest([side * half_gap, -h], [side * a, b], r);
+        let cable = |side: T| Cable::taut_at_rest([side * half_gap, -h], [side * a, b], r);
         Self {
             body,
             cables: vec![cable(T::ONE), cable(-T::ONE)],

@@ -33,8 +33,15 @@ fn every_impact_agrees_up_to_the_horizon() {
             }
             running = running.max(differences.get(k).map_or(0.0, number));
             let limit = allowed(running);
-            let ours = run.impacts().get(k).unwrap_or_else(|| panic!("{id}: no impact {k}"));
-            assert_eq!(ours.cable + 1, truth["cable"].as_u64().unwrap_or(0) as usize, "{id} {k}");
+            let ours = run
+                .impacts()
+                .get(k)
+                .unwrap_or_else(|| panic!("{id}: no impact {k}"));
+            assert_eq!(
+                ours.cable + 1,
+                truth["cable"].as_u64().unwrap_or(0) as usize,
+                "{id} {k}"
+            );
             let off = [
                 (ours.t - number(&truth["t"])).abs(),
                 (ours.v_n - number(&truth["vn"])).abs(),
@@ -43,7 +50,11 @@ fn every_impact_agrees_up_to_the_horizon() {
             ]
             .into_iter()
             .fold(0.0, f64::max);
-            assert!(off <= limit, "{id}: impact {} is off by {off:e} > {limit:e}", k + 1);
+            assert!(
+                off <= limit,
+                "{id}: impact {} is off by {off:e} > {limit:e}",
+                k + 1
+            );
             worst = worst.max(off / limit);
             compared += 1;
         }
@@ -82,12 +93,22 @@ fn grazes_are_neither_missed_nor_invented() {
         let id = case["id"].as_str().unwrap_or_default();
         let run = breakwater(&case).run();
         let truth = case["impacts"].as_array().expect("impacts");
-        println!("{id}: {:?} {:?}", run.impacts().iter().map(|i| (i.t, i.v_n)).collect::<Vec<_>>(), run.end());
+        println!(
+            "{id}: {:?} {:?}",
+            run.impacts()
+                .iter()
+                .map(|i| (i.t, i.v_n))
+                .collect::<Vec<_>>(),
+            run.end()
+        );
         assert_eq!(run.impacts().len(), truth.len(), "{id}");
         for (ours, truth) in run.impacts().iter().zip(truth) {
             let v_n = number(&truth["vn"]);
             let t_error = (ours.t - number(&truth["t"])).abs();
-            assert!(t_error <= 1e-13 + 1e-15 / v_n, "{id}: {t_error:e} at v_n = {v_n:e}");
+            assert!(
+                t_error <= 1e-13 + 1e-15 / v_n,
+                "{id}: {t_error:e} at v_n = {v_n:e}"
+            );
         }
         // The touch at 1e-13 has v_n < 1e-6 without tension: the flight goes on (MODEL.md section 6),
         // where the file stops by the bare rule.
@@ -113,8 +134,21 @@ fn taut_motion_agrees() {
         };
         let simulation = Simulation::new(it.system(), rules, it.v_stick, 0.0, it.start);
         let run = Trajectory::record(simulation.expect("a legal start"));
-        let taut: Vec<u64> = case["taut"].as_array().expect("taut").iter().filter_map(|v| v.as_u64()).collect();
-        assert_eq!(run.modes()[0].taut.iter().map(|c| c as u64 + 1).collect::<Vec<_>>(), taut, "{id}");
+        let taut: Vec<u64> = case["taut"]
+            .as_array()
+            .expect("taut")
+            .iter()
+            .filter_map(|v| v.as_u64())
+            .collect();
+        assert_eq!(
+            run.modes()[0]
+                .taut
+                .iter()
+                .map(|c| c as u64 + 1)
+                .collect::<Vec<_>>(),
+            taut,
+            "{id}"
+        );
         let t_event = end_of_motion(&case, &run, id);
         let mut compared = 0;
         for row in case["rows"].as_array().expect("rows") {
@@ -126,7 +160,11 @@ fn taut_motion_agrees() {
             let mut off = distance(&motion.state, &state(&row["state"]));
             for cable in 0..2 {
                 let tension = &row[["T1", "T2"][cable]];
-                let truth = if tension.is_null() { 0.0 } else { number(tension) };
+                let truth = if tension.is_null() {
+                    0.0
+                } else {
+                    number(tension)
+                };
                 off = off.max((run.tension(t, cable) - truth).abs());
             }
             assert!(off < 1e-10, "{id}: off by {off:e} at t = {t}");
@@ -151,6 +189,9 @@ fn end_of_motion(case: &serde_json::Value, run: &Trajectory, id: &str) -> f64 {
         "upper_bound" => return first.min(end),
         _ => first,
     };
-    assert!((ours - end).abs() < 1e-10, "{id}: {kind} at {ours}, oracle {end}");
+    assert!(
+        (ours - end).abs() < 1e-10,
+        "{id}: {kind} at {ours}, oracle {end}"
+    );
     ours
 }

@@ -1,0 +1,244 @@
+//! The case that a command line asks for: built-in or from a file, then changed by `--set`.
+use crate::failure::{Failure, plain};
+use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named, named_case};
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+
+/// The largest case file: a case has some twenty lines, and `/dev/zero` never ends.
+const LARGEST_FILE: u64 = 1 << 20;
+
+/// Which case, as given on the command line.
+#[derive(clap::Args)]
+pub(crate) struct CaseArgs {
+    /// Case file in TOML, one `key = value` a line (keys: snapload keys)
+    #[arg(value_name = "CASE.toml", conflicts_with = "case")]
+    file: Option<PathBuf>,
+    /// Built-in case (list: snapload cases)
+    #[arg(long, value_name = "CODE")]
+    case: Option<String>,
+    /// Change one key, after the file or the built-in case; may be repeated, the last one counts
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// A case with the name to show for it.
+pub(crate) struct Input {
+    /// Code or file name.
+    pub(crate) name: String,
+    /// The case, checked.
+    pub(crate) case: Case,
+}
+
+/// A key and its value, with the place it came from for the error messages.
+struct Entry {
+    key: String,
+    value: Value,
+    origin: String,
+}
+
+impl CaseArgs {
+    /// Reads and checks the case.
+    pub(crate) fn read(&self) -> Result<Input, Failure> {
+        let (name, mut entries) = match (&self.file, &self.case) {
+            (Some(path), _) => (path.display().to_string(), read_file(path)?),
+            (None, Some(code)) => (code.clone(), built_in(code)?),
+            (None, None) => ("standard case".to_owned(), Vec::new()),
+        };
+        for text in &self.set {
+            entries.push(parse_set(text)?);
+        }
+        for Entry { key, value, origin } in &entries {
+            check_entry(key, value).map_err(|e| Failure::BadInput(format!("{origin}: {e}")))?;
+        }
+        let values = entries
+            .iter()
+            .map(|entry| (&entry.key, entry.value.clone()));
+        let case = Parameters::from_entries(values).and_then(Case::new);
+        let case = case.map_err(|error| located(&error, &entries))?;
+        Ok(Input { name, case })
+    }
+}
+
+/// Puts the place of the offending entry before an error of values that do not go together; of a
+/// key given more than once the last value is in effect.
+fn located(error: &CaseError, entries: &[Entry]) -> Failure {
+    match entries.iter().rfind(|entry| entry.key == error.key) {
+        Some(Entry { origin, .. }) => Failure::BadInput(format!("{origin}: {error}")),
+        None => Failure::bad_input(error),
+    }
+}
+
+fn built_in(code: &str) -> Result<Vec<Entry>, Failure> {
+    let case = named_case(code).map_err(|error| {
+        Failure::BadInput(format!(
+            "--case: {error}\nhint: snapload cases lists them all"
+        ))
+    })?;
+    let origin = format!("--case {code}");
+    let entry = |(key, value): (&str, Value)| Entry {
+        key: key.to_owned(),
+        value,
+        origin: origin.clone(),
+    };
+    Ok(case.entries().into_iter().map(entry).collect())
+}
+
+fn parse_set(text: &str) -> Result<Entry, Failure> {
+    let Some((key, value)) = text.split_once('=') else {
+        return Err(Failure::BadInput(format!(
+            "--set {text:?}: no value; write --set KEY=VALUE, such as --set f_o=0.5"
+        )));
+    };
+    let (key, value) = (key.trim(), value.trim());
+    let origin = "--set".to_owned();
+    if value.is_empty() {
+        let key = key_named(key).map_err(|error| Failure::BadInput(format!("--set: {error}")))?;
+        let error = key.refuse_text("(nothing)");
+        return Err(Failure::BadInput(format!("--set: {error}")));
+    }
+    // What is no TOML value is a bare word: right for `body=point`, else refused with its key.
+    let value = match value.parse::<toml::Value>() {
+        Ok(parsed) => {
+            from_toml(key, &parsed).map_err(|e| Failure::BadInput(format!("--set: {e}")))?
+        }
+        Err(_) => Value::Text(value.to_owned()),
+    };
+    Ok(Entry {
+        key: key.to_owned(),
+        value,
+        origin,
+    })
+}
+
+/// A TOML value as the value of a key; tables, lists and dates are refused.
+fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseError> {
+    let what = match value {
+        toml::Value::Float(number) => return Ok(Value::Number(*number)),
+        toml::Value::Integer(number) => return Ok(Value::Integer(*number)),
+        toml::Value::Boolean(flag) => return Ok(Value::Bool(*flag)),
+        toml::Value::String(text) => return Ok(Value::Text(text.clone())),
+        toml::Value::Array(_) => "(a list)",
+        toml::Value::Table(_) => "(a table)",
+        toml::Value::Datetime(_) => "(a date or time)",
+    };
+    Err(key_named(key)?.refuse_text(what))
+}
+
+fn read_file(path: &Path) -> Result<Vec<Entry>, Failure> {
+    let text = read_text(path)?;
+    let shown = path.display();
+    // Once for the values, once for the lines on which they stand.
+    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| {
+        Failure::BadInput(format!("{shown}: {}", error.to_string().trim_end()))
+    })?;
+    let spans = toml::de::DeTable::parse(&text)
+        .map(toml::Spanned::into_inner)
+        .unwrap_or_default();
+    let mut entries = Vec::new();
+    for key in spans.keys() {
+        let start = key.span().start;
+        let line = text
+            .bytes()
+            .take(start)
+            .filter(|byte| *byte == b'\n')
+            .count()
+            + 1;
+        let origin = format!("{shown}, line {line}");
+        let Some(value) = table.get(key.get_ref().as_ref()) else {
+            continue;
+        };
+        let value = from_toml(key.get_ref(), value)
+            .map_err(|e| Failure::BadInput(format!("{origin}: {e}")))?;
+        entries.push((
+            start,
+            Entry {
+                key: key.get_ref().to_string(),
+                value,
+                origin,
+            },
+        ));
+    }
+    // In the order of the file, so that the first fault in it is the one reported.
+    entries.sort_by_key(|(start, _)| *start);
+    Ok(entries.into_iter().map(|(_, entry)| entry).collect())
+}
+
+fn read_text(path: &Path) -> Result<String, Failure> {
+    let shown = path.display();
+    let bad = |what: &str| Failure::BadInput(format!("{shown}: {what}"));
+    let mut bytes = Vec::new();
+    let read =
+        File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+    match read {
+        Ok(length) if length as u64 > LARGEST_FILE => {
+            Err(bad("larger than 1 MiB, which no case file is"))
+        }
+        Ok(_) => String::from_utf8(bytes).map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            bad(&format!(
+                "not a text file in UTF-8 (byte {at}); save it as UTF-8"
+            ))
+        }),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let known = named_case(&shown.to_string()).is_ok();
+            let hint = if known {
+                format!("\nhint: for the built-in case write --case {shown}")
+            } else {
+                String::new()
+            };
+            Err(bad(&format!("there is no such file{hint}")))
+        }
+        Err(error) if error.kind() == ErrorKind::IsADirectory => {
+            Err(bad("a directory, not a case file"))
+        }
+        Err(error) => Err(bad(&format!("can not be read: {}", plain(&error)))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CaseArgs, parse_set, read_file};
+    use crate::failure::Failure;
+    use proptest::prelude::*;
+
+    /// Anything is read, or refused as bad input in words.
+    fn refused_in_words<T>(result: Result<T, Failure>) -> Result<(), TestCaseError> {
+        match result {
+            Ok(_) => Ok(()),
+            Err(Failure::BadInput(message)) if !message.is_empty() => Ok(()),
+            Err(other) => Err(TestCaseError::fail(format!("{other:?}"))),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_set_is_read_or_refused(set in prop::collection::vec(any::<String>(), 0..3)) {
+            for text in &set {
+                refused_in_words(parse_set(text))?;
+            }
+            refused_in_words(CaseArgs { file: None, case: None, set }.read())?;
+        }
+
+        #[test]
+        fn any_value_of_a_key_is_read_or_refused(
+            key in prop::sample::select(vec!["e", "r", "body", "max_impacts", "x", "stop_when_settled"]),
+            value in "[-+0-9.e_a-z\"'\\[\\]{}=, ]{0,12}",
+        ) {
+            let set = vec![format!("{key}={value}")];
+            refused_in_words(CaseArgs { file: None, case: None, set }.read())?;
+        }
+
+        #[test]
+        fn any_file_is_read_or_refused(
+            bytes in prop_oneof![
+                prop::collection::vec(any::<u8>(), 0..200),
+                "([a-z_]{1,8} = [-0-9.e\"\\[\\]{}]{0,6}\n?){0,6}".prop_map(String::into_bytes),
+            ],
+        ) {
+            let file = tempfile::NamedTempFile::new().expect("a scratch file");
+            std::fs::write(file.path(), bytes).expect("a writable scratch file");
+            refused_in_words(read_file(file.path()))?;
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! `snapload cases`: the built-in cases.
+use crate::failure::{Failure, print};
+use snapload::{NamedCase, Value, named_cases, series_of};
+use std::fmt::Write;
+
+/// Keys in which the built-in cases differ.
+const SHOWN: [&str; 7] = ["r", "e", "a", "b", "f_o", "nu", "omega"];
+
+/// Lists them.
+pub(crate) fn run() -> Result<(), Failure> {
+    let mut text = format!("{:<16}", "CODE");
+    for key in SHOWN {
+        let _ = write!(text, "  {key:<5}");
+    }
+    text.push_str("  SERIES\n");
+    for case in named_cases() {
+        let _ = write!(text, "{:<16}", case.code);
+        for key in SHOWN {
+            let value = case
+                .parameters
+                .get(key)
+                .map(|value: Value| value.to_string());
+            let _ = write!(text, "  {:<5}", value.unwrap_or_default());
+        }
+        let _ = writeln!(text, "  {}", origin(&case));
+    }
+    text.push_str(
+        "\nAll start at rest at x = 0, y = 0.1, theta = 0. The examples have stop_when_settled = false.\nRun one with: snapload run --case CODE\n",
+    );
+    print(&text)
+}
+
+/// The series of Table 6.1 that the case belongs to, or what else there is to say of it.
+fn origin(case: &NamedCase) -> String {
+    let series: Vec<&str> = series_of(case.code).collect();
+    if series.is_empty() {
+        case.about.to_owned()
+    } else {
+        series.join(", ")
+    }
+}

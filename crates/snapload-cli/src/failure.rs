@@ -1,0 +1,69 @@
+//! How a command fails, what it says then, and with which exit status.
+use std::fmt::Display;
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Why a command did not do what it was asked.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The request can not be met as it is: exit status 2.
+    BadInput(String),
+    /// Something broke on the way: exit status 1.
+    Failed(String),
+    /// Whoever read our output has read enough; no failure at all.
+    ReaderLeft,
+}
+
+impl Failure {
+    /// A request that can not be met.
+    pub(crate) fn bad_input(message: impl Display) -> Self {
+        Self::BadInput(message.to_string())
+    }
+
+    /// Output that could not be written.
+    pub(crate) fn write(place: impl Display, error: &io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::BrokenPipe => Self::ReaderLeft,
+            _ => Self::Failed(format!("can not write {place}: {}", plain(error))),
+        }
+    }
+
+    /// A place given for output where nothing can be written.
+    pub(crate) fn no_place(path: &Path, error: &io::Error) -> Self {
+        Self::BadInput(format!(
+            "can not write to {}: {}",
+            path.display(),
+            plain(error)
+        ))
+    }
+}
+
+/// The system's words without its number: `No such file or directory`.
+pub(crate) fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    match text.find(" (os error") {
+        Some(end) => text[..end].to_owned(),
+        None => text,
+    }
+}
+
+/// Says what went wrong on standard error, and chooses the exit status.
+pub(crate) fn exit_code(result: Result<(), Failure>) -> ExitCode {
+    let (message, status) = match result {
+        Ok(()) | Err(Failure::ReaderLeft) => return ExitCode::SUCCESS,
+        Err(Failure::BadInput(message)) => (message, 2),
+        Err(Failure::Failed(message)) => (message, 1),
+    };
+    // Standard error may be closed too; the status still tells.
+    let _ = writeln!(io::stderr(), "error: {message}");
+    ExitCode::from(status)
+}
+
+/// Writes text to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(|error| Failure::write("standard output", &error))
+}

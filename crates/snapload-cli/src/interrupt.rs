@@ -1,0 +1,44 @@
+//! Ctrl-C: leave no scratch files, exit status 130.
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Directories to take away if the program is interrupted: scratch ones with all they hold, and
+/// new output directories, which are taken away only if empty.
+#[derive(Default)]
+pub(crate) struct Leftovers {
+    /// Scratch directories.
+    pub(crate) scratch: Vec<PathBuf>,
+    /// New directories, outermost first.
+    pub(crate) new: Vec<PathBuf>,
+}
+
+static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers {
+    scratch: Vec::new(),
+    new: Vec::new(),
+});
+
+/// What is to be taken away. While this is held an interruption waits, so files that belong
+/// together can be put in their places together.
+pub(crate) fn leftovers() -> MutexGuard<'static, Leftovers> {
+    LEFTOVERS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Leftovers {
+    /// Takes it all away, as far as the system lets us.
+    pub(crate) fn clear(&mut self) {
+        for directory in self.scratch.drain(..) {
+            let _ = std::fs::remove_dir_all(directory);
+        }
+        for directory in self.new.drain(..).rev() {
+            let _ = std::fs::remove_dir(directory);
+        }
+    }
+}
+
+/// Installs the handler; where that is not possible the system's own answer to Ctrl-C remains.
+pub(crate) fn install() {
+    let _ = ctrlc::set_handler(|| {
+        leftovers().clear();
+        std::process::exit(130);
+    });
+}

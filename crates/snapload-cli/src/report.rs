@@ -1,0 +1,278 @@
+//! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use snapload::{Impact, ModeInterval, Norms, Parameters, State, Stop, Trajectory, Value};
+use std::io::{self, Write};
+
+/// Everything there is to say about a run.
+#[derive(Serialize)]
+pub(crate) struct Report<'a> {
+    case: CaseEcho<'a>,
+    end: EndRow,
+    impacts: Rows<'a, Impact, ImpactRow>,
+    modes: Rows<'a, ModeInterval, ModeRow>,
+    norms: NormsRow,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    motion: Option<MotionRows<'a>>,
+}
+
+impl<'a> Report<'a> {
+    /// The report of a run, with the motion sampled if asked for.
+    pub(crate) fn new(
+        parameters: &'a Parameters,
+        trajectory: &'a Trajectory,
+        sampling: Option<Sampling>,
+    ) -> Self {
+        let end = trajectory.end();
+        Self {
+            case: CaseEcho(parameters),
+            end: EndRow {
+                reason: reason(end.reason),
+                t: end.t,
+                t_limit: end.t_limit,
+            },
+            impacts: Rows(trajectory.impacts(), ImpactRow::new),
+            modes: Rows(trajectory.modes(), ModeRow::new),
+            norms: NormsRow::new(trajectory.norms()),
+            motion: sampling.map(|sampling| MotionRows {
+                trajectory,
+                sampling,
+            }),
+        }
+    }
+
+    /// Writes it as one line of JSON.
+    pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer(&mut *out, self)?;
+        writeln!(out)
+    }
+}
+
+/// The name of a reason to stop.
+pub(crate) fn reason(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Settled => "settled",
+        Stop::RotationLimit => "rotation_limit",
+        Stop::UpperBound => "upper_bound",
+        Stop::SlidingStart => "sliding_start",
+        Stop::EndTime => "end_time",
+        Stop::ImpactLimit => "impact_limit",
+    }
+}
+
+/// Every key in effect, in the order of the schema.
+struct CaseEcho<'a>(&'a Parameters);
+
+impl Serialize for CaseEcho<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (key, value) in self.0.entries() {
+            match value {
+                None => map.serialize_entry(key, &None::<f64>)?,
+                Some(Value::Number(number)) => map.serialize_entry(key, &number)?,
+                Some(Value::Integer(number)) => map.serialize_entry(key, &number)?,
+                Some(Value::Bool(flag)) => map.serialize_entry(key, &flag)?,
+                Some(Value::Text(text)) => map.serialize_entry(key, &text)?,
+            }
+        }
+        map.end()
+    }
+}
+
+#[derive(Serialize)]
+struct EndRow {
+    reason: &'static str,
+    t: f64,
+    t_limit: Option<f64>,
+}
+
+/// A list whose rows are shaped one at a time, while they are written.
+struct Rows<'a, T, R>(&'a [T], fn(&T) -> R);
+
+impl<T, R: Serialize> Serialize for Rows<'_, T, R> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.iter().map(self.1))
+    }
+}
+
+#[derive(Serialize)]
+struct ImpactRow {
+    t: f64,
+    cable: usize,
+    v_n: f64,
+    impulse: f64,
+    energy_lost: f64,
+    before: [f64; 6],
+    after: [f64; 6],
+}
+
+impl ImpactRow {
+    fn new(impact: &Impact) -> Self {
+        Self {
+            t: impact.t,
+            cable: impact.cable + 1,
+            v_n: impact.v_n,
+            impulse: impact.impulse,
+            energy_lost: impact.energy_lost,
+            before: components(&impact.before),
+            after: components(&impact.after),
+        }
+    }
+}
+
+/// x, y, theta, vx, vy, vtheta.
+pub(crate) fn components(state: &State) -> [f64; 6] {
+    [
+        state.x,
+        state.y,
+        state.theta,
+        state.vx,
+        state.vy,
+        state.vtheta,
+    ]
+}
+
+#[derive(Serialize)]
+struct ModeRow {
+    mode: &'static str,
+    taut: Vec<usize>,
+    t_start: f64,
+    t_end: f64,
+}
+
+impl ModeRow {
+    fn new(interval: &ModeInterval) -> Self {
+        Self {
+            mode: interval.taut.mode(),
+            taut: interval.taut.iter().map(|cable| cable + 1).collect(),
+            t_start: interval.t_start,
+            t_end: interval.t_end,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct NormsRow {
+    rho1: f64,
+    rho2: f64,
+    rho3: f64,
+    y_max: f64,
+    theta_max: f64,
+}
+
+impl NormsRow {
+    fn new(norms: &Norms) -> Self {
+        let Norms {
+            rho1,
+            rho2,
+            rho3,
+            y_max,
+            theta_max,
+        } = *norms;
+        Self {
+            rho1,
+            rho2,
+            rho3,
+            y_max,
+            theta_max,
+        }
+    }
+}
+
+/// The times at which a motion is written down: every multiple of a step before the end, and the
+/// end itself once.
+#[derive(Clone, Copy)]
+pub(crate) struct Sampling {
+    dt: f64,
+    most: u64,
+    end: f64,
+}
+
+/// The most rows of a sampled motion.
+pub(crate) const MOST_ROWS: u64 = 10_000_000;
+
+impl Sampling {
+    /// Steps of `dt`; none if they would give too many rows.
+    pub(crate) fn every(dt: f64, end: f64) -> Option<Self> {
+        let most = MOST_ROWS - 1;
+        // Rounding may keep the last multiple below the end, so what is counted is the exact test.
+        ((most as f64) * dt >= end).then_some(Self { dt, most, end })
+    }
+
+    /// A thousand equal steps.
+    pub(crate) fn thousand(end: f64) -> Self {
+        Self {
+            dt: end / 1000.0,
+            most: 1000,
+            end,
+        }
+    }
+
+    /// The times.
+    pub(crate) fn times(self) -> impl Iterator<Item = f64> {
+        let multiples = (0..self.most).map(move |k| k as f64 * self.dt);
+        multiples
+            .take_while(move |t| *t < self.end)
+            .chain(std::iter::once(self.end))
+    }
+}
+
+/// One line of the sampled motion.
+#[derive(Serialize)]
+pub(crate) struct MotionRow {
+    t: f64,
+    x: f64,
+    y: f64,
+    theta: f64,
+    vx: f64,
+    vy: f64,
+    vtheta: f64,
+    #[serde(rename = "T1")]
+    tension_1: f64,
+    #[serde(rename = "T2")]
+    tension_2: f64,
+    energy: f64,
+}
+
+impl MotionRow {
+    /// The motion at one time.
+    pub(crate) fn at(trajectory: &Trajectory, t: f64) -> Self {
+        let motion = trajectory.at(t);
+        let State {
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+        } = motion.state;
+        let (tension_1, tension_2) = (trajectory.tension(t, 0), trajectory.tension(t, 1));
+        Self {
+            t,
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+            tension_1,
+            tension_2,
+            energy: motion.energy,
+        }
+    }
+}
+
+struct MotionRows<'a> {
+    trajectory: &'a Trajectory,
+    sampling: Sampling,
+}
+
+impl Serialize for MotionRows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rows = self
+            .sampling
+            .times()
+            .map(|t| MotionRow::at(self.trajectory, t));
+        serializer.collect_seq(rows)
+    }
+}

@@ -1,0 +1,211 @@
+//! `snapload run`: one case, from its start to its end.
+use crate::case_input::{CaseArgs, Input};
+use crate::failure::{Failure, print};
+use crate::pictures::pictures;
+use crate::report::{MOST_ROWS, Report, Sampling};
+use crate::stage::{Room, Stage};
+use crate::{summary, tables};
+use snapload::Trajectory;
+use std::fs::OpenOptions;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  snapload run
+      the standard case, in a few lines
+  snapload run --case 1910001000-459 --set t_end=20 --set stop_when_settled=false
+      a built-in case that goes on when it settles, up to t = 20
+  snapload run --set body=point --set y=0.2
+      a point mass that starts higher
+  snapload run mooring.toml --out results --sample 0.01
+      a case of your own: tables, pictures and run.json in the directory results
+  snapload run --json - --sample 0.1 | jq .norms
+      everything as JSON, for the next program";
+
+/// What to run and where to put it.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// Write the run as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+    /// Write tables (CSV), run.json and pictures into a directory, created if absent
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Time step of the motion in --json and --out
+    #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
+    sample: Option<f64>,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if args.sample.is_some() && args.json.is_none() && args.out.is_none() {
+        return Err(Failure::bad_input(
+            "--sample asks for the motion, but nothing is to be written; add --json FILE or --out DIR",
+        ));
+    }
+    let input = args.case.read()?;
+    let mut outputs = Outputs::open(args)?;
+    let trajectory = input.case.run();
+    let sampling = args
+        .sample
+        .map(|dt| sampling(dt, &trajectory))
+        .transpose()?;
+    let report = Report::new(input.case.parameters(), &trajectory, sampling);
+
+    if let Some((room, directory)) = outputs.directory.take() {
+        write_directory(
+            &mut outputs.stage,
+            room,
+            &directory,
+            &input,
+            &trajectory,
+            sampling,
+        )?;
+        outputs
+            .stage
+            .write(room, directory.join("run.json"), |out| report.write(out))?;
+    }
+    if let Json::File(room, path) = &outputs.json {
+        outputs
+            .stage
+            .write(*room, path.clone(), |out| report.write(out))?;
+    }
+    let mut written = outputs.stage.commit()?;
+    match outputs.json {
+        Json::Stdout => {
+            let mut out = BufWriter::new(io::stdout().lock());
+            return report
+                .write(&mut out)
+                .and_then(|()| out.flush())
+                .map_err(|error| Failure::write("standard output", &error));
+        }
+        Json::Device(path) => written.push(write_device(&report, path)?),
+        Json::None | Json::File(..) => {}
+    }
+    print(&summary::of(&input, &trajectory, &written))
+}
+
+/// A time step, as clap reads it.
+fn step(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(dt) if dt > 0.0 && dt.is_finite() => Ok(dt),
+        _ => Err("allowed is a number above 0, such as 0.01".to_owned()),
+    }
+}
+
+fn sampling(dt: f64, trajectory: &Trajectory) -> Result<Sampling, Failure> {
+    let end = trajectory.end().t;
+    Sampling::every(dt, end).ok_or_else(|| {
+        let least = end / (MOST_ROWS - 1) as f64;
+        Failure::BadInput(format!(
+            "--sample {dt:e} gives more than 10,000,000 rows for this run, which ends at t = {end}; \
+             allowed is {least:.1e} or above",
+            least = least * 1.05,
+        ))
+    })
+}
+
+/// The places of the output, opened before the run so that a bad one is known at once.
+struct Outputs {
+    stage: Stage,
+    directory: Option<(Room, PathBuf)>,
+    json: Json,
+}
+
+enum Json {
+    None,
+    Stdout,
+    File(Room, PathBuf),
+    /// Something that is no plain file, such as /dev/stdout or a pipe: written straight into.
+    Device(PathBuf),
+}
+
+/// The files of an output directory, without the pictures.
+const FILES: [&str; 4] = ["impacts.csv", "modes.csv", "motion.csv", "run.json"];
+
+impl Outputs {
+    fn open(args: &Args) -> Result<Self, Failure> {
+        let mut stage = Stage::default();
+        let json = match &args.json {
+            None => Json::None,
+            Some(path) if path.as_os_str() == "-" => Json::Stdout,
+            Some(path) => Self::open_json(&mut stage, path)?,
+        };
+        let directory = match &args.out {
+            None => None,
+            Some(directory) => {
+                let room = stage.create_and_open(directory)?;
+                FILES
+                    .iter()
+                    .try_for_each(|name| refuse_directory(&directory.join(name)))?;
+                Some((room, directory.clone()))
+            }
+        };
+        Ok(Self {
+            stage,
+            directory,
+            json,
+        })
+    }
+
+    fn open_json(stage: &mut Stage, path: &Path) -> Result<Json, Failure> {
+        refuse_directory(path)?;
+        // A link is followed, so that what it points to is replaced and not the link.
+        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        if path.exists() && !path.is_file() {
+            return Ok(Json::Device(path));
+        }
+        let parent = path
+            .parent()
+            .filter(|parent| !parent.as_os_str().is_empty());
+        let room = stage.open(parent.unwrap_or(Path::new(".")))?;
+        Ok(Json::File(room, path))
+    }
+}
+
+fn refuse_directory(path: &Path) -> Result<(), Failure> {
+    if path.is_dir() {
+        let message = format!("can not write to {}: it is a directory", path.display());
+        return Err(Failure::BadInput(message));
+    }
+    Ok(())
+}
+
+fn write_device(report: &Report<'_>, path: PathBuf) -> Result<PathBuf, Failure> {
+    let file = OpenOptions::new().write(true).open(&path);
+    let mut out = BufWriter::new(file.map_err(|error| Failure::no_place(&path, &error))?);
+    let written = report.write(&mut out).and_then(|()| out.flush());
+    written.map_err(|error| Failure::write(path.display(), &error))?;
+    Ok(path)
+}
+
+fn write_directory(
+    stage: &mut Stage,
+    room: Room,
+    directory: &Path,
+    input: &Input,
+    trajectory: &Trajectory,
+    sampling: Option<Sampling>,
+) -> Result<(), Failure> {
+    let sampling = sampling.unwrap_or_else(|| Sampling::thousand(trajectory.end().t));
+    let place = |name: &str| directory.join(name);
+    stage.write(room, place("impacts.csv"), |out| {
+        tables::impacts(trajectory, out)
+    })?;
+    stage.write(room, place("modes.csv"), |out| {
+        tables::modes(trajectory, out)
+    })?;
+    stage.write(room, place("motion.csv"), |out| {
+        tables::motion(trajectory, sampling, out)
+    })?;
+    for picture in pictures(&input.name, &input.case, trajectory)? {
+        stage.write(room, place(&picture.name), |out| {
+            out.write_all(&picture.bytes)
+        })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,191 @@
+//! A run in a few lines, for a person.
+use crate::case_input::Input;
+use snapload::{Impact, Parameters, Stop, Trajectory, Value};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// More intervals than this are summed up only.
+const FEW_MODES: usize = 6;
+
+/// The summary, with the files that were written.
+pub(crate) fn of(input: &Input, trajectory: &Trajectory, written: &[PathBuf]) -> String {
+    let mut lines = Lines(String::new());
+    lines.add("Case", &case(input));
+    lines.add("End", &end(trajectory, input.case.parameters()));
+    if let Some(limit) = trajectory.end().t_limit {
+        lines.add(
+            "",
+            &format!("the impacts accumulate at t = {}", digits(limit)),
+        );
+    }
+    lines.add("Impacts", &impacts(trajectory.impacts()));
+    if let Some(hardest) = hardest(trajectory.impacts()) {
+        lines.add("Hardest", &hardest);
+    }
+    let norms = trajectory.norms();
+    let (rho1, rho2, rho3) = (digits(norms.rho1), digits(norms.rho2), digits(norms.rho3));
+    lines.add(
+        "Norms",
+        &format!("rho1 = {rho1}, rho2 = {rho2}, rho3 = {rho3}"),
+    );
+    let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
+    lines.add("", &format!("y_max = {y_max}, theta_max = {theta_max} rad"));
+    modes(&mut lines, trajectory);
+    for (i, path) in written.iter().enumerate() {
+        lines.add(
+            if i == 0 { "Written" } else { "" },
+            &path.display().to_string(),
+        );
+    }
+    lines.0
+}
+
+/// Lines with a label in front.
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, label: &str, text: &str) {
+        let _ = writeln!(self.0, "{label:<9} {text}");
+    }
+}
+
+/// The name of the case, and where it differs from the standard one.
+fn case(input: &Input) -> String {
+    let parameters = input.case.parameters();
+    let differing: Vec<String> = parameters
+        .entries()
+        .filter(|(key, value)| *value != Parameters::STANDARD.get(key))
+        .filter_map(|(key, value)| Some(format!("{key} = {}", rounded(&value?))))
+        .collect();
+    if differing.is_empty() {
+        return match input.name.as_str() {
+            "standard case" => "the standard case (1910001000-359)".to_owned(),
+            name => format!("{name}: the standard case"),
+        };
+    }
+    let join = if input.name == "standard case" {
+        " with"
+    } else {
+        ":"
+    };
+    format!("{}{join} {}", input.name, differing.join(", "))
+}
+
+/// A value as its author wrote it; one with many digits was computed, and is cut.
+fn rounded(value: &Value) -> String {
+    let text = value.to_string();
+    match value {
+        Value::Number(number) if text.len() > 12 => digits(*number),
+        _ => text,
+    }
+}
+
+fn end(trajectory: &Trajectory, parameters: &Parameters) -> String {
+    let end = trajectory.end();
+    let t = digits(end.t);
+    match end.reason {
+        Stop::Settled => format!("settled at t = {t}: a cable stays taut below y = 0.05"),
+        Stop::RotationLimit => format!("rotation limit at t = {t}: |theta| reached pi/2"),
+        Stop::UpperBound => {
+            format!("upper bound at t = {t}: the body reached the level of the anchors")
+        }
+        Stop::SlidingStart => {
+            format!("sliding starts at t = {t}: a cable stays taut at or above y = 0.05")
+        }
+        Stop::EndTime => format!("end of the time asked for, t = {t}"),
+        Stop::ImpactLimit => {
+            format!(
+                "impact limit at t = {t}: more than {} impacts",
+                parameters.max_impacts
+            )
+        }
+    }
+}
+
+/// How many snaps each cable had. Rows with v_n = 0 are impulses passed into a taut cable.
+fn impacts(impacts: &[Impact]) -> String {
+    let mut of_cable = [0_usize; snapload::MAX_CABLES];
+    let mut passed = 0;
+    for impact in impacts {
+        match of_cable.get_mut(impact.cable) {
+            Some(count) if impact.v_n > 0.0 => *count += 1,
+            _ => passed += 1,
+        }
+    }
+    let total: usize = of_cable.iter().sum();
+    let mut text = match total {
+        0 => "none".to_owned(),
+        _ => format!("{total}"),
+    };
+    let mut join = ": ";
+    for (cable, count) in of_cable.iter().enumerate().filter(|(_, count)| **count > 0) {
+        let _ = write!(text, "{join}{count} of cable {}", cable + 1);
+        join = ", ";
+    }
+    if passed > 0 {
+        let _ = write!(text, "; {passed} impulses passed into a taut cable");
+    }
+    text
+}
+
+fn hardest(impacts: &[Impact]) -> Option<String> {
+    let hardest = impacts
+        .iter()
+        .filter(|i| i.v_n > 0.0)
+        .max_by(|p, q| p.v_n.total_cmp(&q.v_n))?;
+    Some(format!(
+        "v_n = {}, impulse {}, at t = {} in cable {}",
+        digits(hardest.v_n),
+        digits(hardest.impulse),
+        digits(hardest.t),
+        hardest.cable + 1
+    ))
+}
+
+fn modes(lines: &mut Lines, trajectory: &Trajectory) {
+    let intervals = trajectory.modes();
+    let sums: Vec<String> = ["slack", "sliding", "rocking"]
+        .iter()
+        .filter_map(|name| {
+            let of_mode = intervals.iter().filter(|i| i.taut.mode() == *name);
+            let (count, time) =
+                of_mode.fold((0, 0.0), |(n, sum), i| (n + 1, sum + i.t_end - i.t_start));
+            let plural = if count == 1 { "" } else { "s" };
+            (count > 0).then(|| format!("{name} {} in {count} interval{plural}", digits(time)))
+        })
+        .collect();
+    lines.add("Modes", &sums.join(", "));
+    if (2..=FEW_MODES).contains(&intervals.len()) {
+        for interval in intervals {
+            let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
+            let cables = if taut.is_empty() {
+                String::new()
+            } else {
+                format!(" on {}", taut.join(", "))
+            };
+            let (from, to) = (digits(interval.t_start), digits(interval.t_end));
+            lines.add(
+                "",
+                &format!("  {from} to {to}: {}{cables}", interval.taut.mode()),
+            );
+        }
+    }
+}
+
+/// Five significant digits.
+fn digits(number: f64) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    let size = number.abs().log10().floor();
+    if !(-4.0..7.0).contains(&size) {
+        return format!("{number:.4e}");
+    }
+    let decimals = (4.0 - size).max(0.0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,91 @@
+//! The tables of a run as CSV: the columns carry the names of the JSON.
+use crate::report::{MotionRow, Sampling, components};
+use serde::Serialize;
+use snapload::Trajectory;
+use std::io::{self, Write};
+
+const IMPACTS: [&str; 17] = [
+    "t",
+    "cable",
+    "v_n",
+    "impulse",
+    "energy_lost",
+    "before_x",
+    "before_y",
+    "before_theta",
+    "before_vx",
+    "before_vy",
+    "before_vtheta",
+    "after_x",
+    "after_y",
+    "after_theta",
+    "after_vx",
+    "after_vy",
+    "after_vtheta",
+];
+const MODES: [&str; 4] = ["mode", "taut", "t_start", "t_end"];
+const MOTION: [&str; 10] = [
+    "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
+];
+
+/// `impacts.csv`: one row an impact and cable.
+pub(crate) fn impacts(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
+    let rows = trajectory.impacts().iter().map(|impact| {
+        let scalars = (
+            impact.t,
+            impact.cable + 1,
+            impact.v_n,
+            impact.impulse,
+            impact.energy_lost,
+        );
+        (
+            scalars,
+            components(&impact.before),
+            components(&impact.after),
+        )
+    });
+    write(&IMPACTS, rows, out)
+}
+
+/// `modes.csv`: one row an interval; the taut cables stand with blanks between them.
+pub(crate) fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
+    let rows = trajectory.modes().iter().map(|interval| {
+        let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
+        (
+            interval.taut.mode(),
+            taut.join(" "),
+            interval.t_start,
+            interval.t_end,
+        )
+    });
+    write(&MODES, rows, out)
+}
+
+/// `motion.csv`: one row a time.
+pub(crate) fn motion(
+    trajectory: &Trajectory,
+    sampling: Sampling,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    write(
+        &MOTION,
+        sampling.times().map(|t| MotionRow::at(trajectory, t)),
+        out,
+    )
+}
+
+fn write<R: Serialize>(
+    header: &[&str],
+    rows: impl Iterator<Item = R>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    // The header is written by us: csv would leave it out of a table without rows.
+    let mut table = csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(out);
+    table.write_record(header)?;
+    for row in rows {
+        table.serialize(row)?;
+    }
+    table.flush()
+}

@@ -1,0 +1,125 @@
+//! A case: parameters that were checked once, at the border, and the system that they describe.
+
+use crate::error::CaseError;
+use crate::parameters::{BodyKind, Parameters};
+use crate::schema::{ROTATION_LIMIT, SETTLING_HEIGHT};
+use crate::start::StartError;
+use crate::value::Value;
+use crate::{
+    Body, Harmonic, Shape, Simulation, State, StopRules, System, Trajectory, anchor_height,
+};
+
+/// A case that was checked and can be run.
+///
+/// ```
+/// use snapload::{Case, Parameters, Stop};
+/// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
+/// let run = case.run();
+/// assert_eq!(run.end().reason, Stop::RotationLimit);
+/// # Ok::<(), snapload::CaseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Case {
+    parameters: Parameters,
+    simulation: Simulation,
+}
+
+impl Case {
+    /// Checks the values and the start.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key, its value and what is allowed.
+    pub fn new(parameters: Parameters) -> Result<Self, CaseError> {
+        parameters.check()?;
+        let simulation = Simulation::new(
+            system(&parameters),
+            rules(&parameters),
+            parameters.v_stick,
+            0.0,
+            start(&parameters),
+        )
+        .map_err(|error| explain(error, &parameters))?;
+        Ok(Self {
+            parameters,
+            simulation,
+        })
+    }
+
+    /// The values.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The motion at its start.
+    pub fn simulation(&self) -> Simulation {
+        self.simulation.clone()
+    }
+
+    /// Runs it to its end and keeps all of it.
+    pub fn run(&self) -> Trajectory {
+        Trajectory::record(self.simulation())
+    }
+}
+
+fn system(p: &Parameters) -> System {
+    let body = match (p.body, p.inertia) {
+        (BodyKind::Rigid, Some(inertia)) => Body::rigid(Shape::of_half_sizes(p.a, p.b), inertia),
+        _ => Body::point(),
+    };
+    let wave = Harmonic::ellipse(p.f_o, p.nu, p.omega);
+    System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
+}
+
+fn rules(p: &Parameters) -> StopRules {
+    let rotates = p.body == BodyKind::Rigid;
+    StopRules {
+        rotation_limit: rotates.then_some(ROTATION_LIMIT),
+        upper_bound: Some(anchor_height(p.r, p.a) + p.b),
+        settled_below: p.stop_when_settled.then_some(SETTLING_HEIGHT),
+        sliding_above: p.stop_when_sliding.then_some(SETTLING_HEIGHT),
+        t_end: p.t_end,
+        max_impacts: p.max_impacts,
+    }
+}
+
+fn start(p: &Parameters) -> State {
+    State {
+        x: p.x,
+        y: p.y,
+        theta: p.theta,
+        vx: p.vx,
+        vy: p.vy,
+        vtheta: p.vtheta,
+    }
+}
+
+/// An illegal start in the words of the case's keys.
+fn explain(error: StartError, p: &Parameters) -> CaseError {
+    let wrong = |key, value, allowed: String| CaseError::value(key, Value::Number(value), allowed);
+    match error {
+        StartError::CableTooShort { cable, gap } => {
+            let over = p.r * ((1.0 + gap / (p.r * p.r)).sqrt() - 1.0);
+            let place = format!("x = {}, theta = {}", p.x, p.theta);
+            let allowed = format!(
+                "a start within reach of both cables (g <= 1e-9); at {place}, cable {} would have \
+                 to be longer by {over:.3e} (its gap is g = {gap:.6e})",
+                cable + 1
+            );
+            wrong("y", p.y, allowed).with_hint("raise y, or move x and theta towards 0")
+        }
+        StartError::AboveUpperBound { top, level } => {
+            let allowed = format!(
+                "a body below the upper bound y = {level:.6}; its highest point is at y = {top:.6}"
+            );
+            wrong("y", p.y, allowed).with_hint("lower y")
+        }
+        StartError::BeyondRotationLimit => wrong(
+            "theta",
+            p.theta,
+            "-pi/2 <= theta <= pi/2, the rotation limit".to_owned(),
+        ),
+        StartError::NotFinite | StartError::TooManyCables => {
+            wrong("y", p.y, "a finite start".to_owned())
+        }
+    }
+}
