@@ -31,8 +31,8 @@ struct Tether<T> {
 /// The free motion from a state, with no cable taut (MODEL.md section 4; any sum of sinusoids).
 ///
 /// Positions are start + velocity · s + a remainder of second order, and the remainder is computed
-/// without cancellation; so a gap that starts closed is known to a few roundings *of its own size*,
-/// however short the flight.
+/// without cancellation; so a gap that starts closed, and its rate, are known to a few roundings *of
+/// their own size*, however short the flight.
 #[derive(Clone, Debug)]
 pub(crate) struct Flight<T> {
     start: State<T>,
@@ -205,12 +205,11 @@ impl<T: Real> Flight<T> {
             .map(|i| now.push.drift[i] - (now.chord[0] * tether.lever[i] + now.chord[1] * turn[i]));
         let moved = [0, 1].map(|i| tether.velocity[i] * s + remainder[i]);
         let span = [0, 1].map(|i| tether.span[i] + moved[i]);
-        let lever = [0, 1].map(|i| tether.lever[i] * now.cosine_turn + turn[i] * now.sine_turn);
-        let swing = quarter_turn(lever);
-        let velocity = [
-            self.start.vx + now.push.gain[0] + omega * swing[0],
-            self.start.vy + now.push.gain[1] + omega * swing[1],
-        ];
+        let turned = [0, 1].map(|i| turn[i] * now.sine_turn - tether.lever[i] * now.chord[0]);
+        let lever = [0, 1].map(|i| tether.lever[i] + turned[i]);
+        let swing = quarter_turn(turned);
+        let gain = [0, 1].map(|i| now.push.gain[i] + omega * swing[i]);
+        let velocity = [0, 1].map(|i| tether.velocity[i] + gain[i]);
         let accel = [0, 1].map(|i| now.push.force[i] - omega * omega * lever[i]);
 
         let linear = tether.gap_rate * s;
@@ -227,7 +226,7 @@ impl<T: Real> Flight<T> {
             ..Jet::new(
                 Watch::Gap(cable),
                 tether.gap + (linear + bend + square),
-                dot(span, velocity) * 2.0,
+                tether.gap_rate + (dot(moved, tether.velocity) + dot(span, gain)) * 2.0,
                 (dot(velocity, velocity) + dot(span, accel)) * 2.0,
             )
         }
@@ -306,11 +305,6 @@ impl<T: Real> Watched<T> for Flight<T> {
             let at_rest = s == T::ZERO && self.tethers[cable].resting;
             jets.push(if at_rest {
                 self.resting_jet(cable, jet)
-            } else if s == T::ZERO {
-                Jet {
-                    rate: self.tethers[cable].gap_rate,
-                    ..jet
-                }
             } else {
                 jet
             });

@@ -58,6 +58,33 @@ impl<T: Real> Polynomial<T> {
         self.derivative_bound(0, s, order) * T::EPSILON * 8.0
     }
 
+    /// The longest length up to `step`, by halves of an octave, on which the last two powers are below
+    /// a twentieth of a rounding of `scale`, or of the largest of the others where that is more.
+    ///
+    /// The constant does not count: where a motion has just begun to leave a place at which it
+    /// could stay, its last terms are small against the place and yet not converged.
+    pub(crate) fn converged_within(&self, mut step: T, order: usize, scale: T) -> T {
+        let tolerance = T::EPSILON * 0.05;
+        while step > T::EPSILON {
+            let mut power = T::ONE;
+            let (mut largest, mut last) = (scale, T::ZERO);
+            for (k, coefficient) in self.0.iter().enumerate().take(order + 1) {
+                let term = coefficient.abs() * power;
+                if k + 1 >= order {
+                    last = last.max(term);
+                } else if k > 0 {
+                    largest = largest.max(term);
+                }
+                power = power * step;
+            }
+            if last <= largest * tolerance {
+                break;
+            }
+            step = step * 0.7;
+        }
+        step
+    }
+
     /// With all signs changed.
     pub(crate) fn negated(&self) -> Self {
         Self(self.0.map(|c| -c))

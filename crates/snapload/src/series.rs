@@ -24,7 +24,7 @@ use crate::complementarity::solve;
 use crate::contact::{Contact, Contacts};
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
-use crate::real::Real;
+use crate::real::{Real, dot};
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
@@ -128,7 +128,7 @@ impl<T: Real> Series<T> {
         }
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
-        self.step = self.choose_step();
+        self.step = self.choose_step(system);
     }
 
     /// f(t0 + s) as a power series.
@@ -266,30 +266,26 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// The length on which the last terms of the motion and the tensions stay below rounding.
-    fn choose_step(&self) -> T {
-        let mut step: f64 = 1.0;
-        let mut limit = |polynomial: &Polynomial<T>, order: usize, tolerance: f64| {
-            for k in [order - 1, order] {
-                let term = polynomial[k].abs().to_f64();
-                if term > 0.0 {
-                    step = step.min(libm::pow(tolerance / term, 1.0 / k as f64));
-                }
-            }
-        };
-        let rounding = T::EPSILON.to_f64() * 0.05;
-        for polynomial in [&self.x, &self.y, &self.theta] {
-            limit(polynomial, ORDER, rounding);
-        }
+    /// The longest step, up to one unit of time, on which the last terms of the motion and of the
+    /// tensions are below rounding.
+    ///
+    /// A rounding of the tension turns a body of small inertia by ε T (ρ/I) h²/2, which moves the
+    /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
+    fn choose_step(&self, system: &System<T>) -> T {
+        let light = self.taut.iter().fold(T::ONE, |w, cable| {
+            let fairlead = system.cables[cable].fairlead();
+            w.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia())
+        });
+        let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
+        let mut step = [&self.x, &self.y, &self.theta]
+            .iter()
+            .fold(longest, |step, p| p.converged_within(step, ORDER, T::ZERO));
         for cable in self.taut.iter() {
-            let line = &self.lines[cable];
-            limit(
-                &line.tension,
-                ORDER - 2,
-                rounding * 20.0 * (1.0 + line.tension[0].to_f64()),
-            );
+            let tension = &self.lines[cable].tension;
+            let scale = (tension[0].abs() + 1.0) * 20.0;
+            step = tension.converged_within(step, ORDER - 2, scale);
         }
-        T::from_f64(step)
+        step
     }
 
     /// How far the expansion may be used.
