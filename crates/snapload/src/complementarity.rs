@@ -10,13 +10,38 @@ pub(crate) type PerCable<T> = [T; MAX_CABLES];
 /// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
 const DEPENDENT: f64 = 1e-12;
 
-/// Solves W z = q over the cables of a set, W symmetric and positive semidefinite, by elimination in
-/// the order of the cables. A cable whose constraint depends on those before it gets z = 0.
+/// Solves W z = q over the cables of a set, W symmetric and positive semidefinite. A cable whose
+/// constraint depends on those before it gets z = 0.
+///
+/// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
+/// mirror image moves as such to the last bit.
 pub(crate) fn solve<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> PerCable<T> {
+    let mut z = [T::ZERO; MAX_CABLES];
+    let mut cables = set.iter();
+    match (cables.next(), cables.next(), cables.next()) {
+        (None, ..) => {}
+        (Some(i), None, _) => z[i] = q[i] / w(i, i),
+        (Some(i), Some(j), None) => {
+            let (a, b, c) = (w(i, i), w(i, j), w(j, j));
+            let determinant = a * c - b * b;
+            if determinant <= a * c * DEPENDENT {
+                z[i] = q[i] / a;
+            } else {
+                z[i] = (c * q[i] - b * q[j]) / determinant;
+                z[j] = (a * q[j] - b * q[i]) / determinant;
+            }
+        }
+        _ => z = eliminate(set, w, q),
+    }
+    z
+}
+
+/// The same by elimination in the order of the cables, for three and more.
+fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
     let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
     let mut z = *q;
     let mut largest = T::ZERO;

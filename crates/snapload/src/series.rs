@@ -28,6 +28,10 @@ use crate::real::{Real, dot};
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
+/// A motion by less than this along a step counts as rest: its terms need not converge among
+/// themselves, only stay below rounding of this \[L\], \[rad\].
+const STILL: f64 = 1e-12;
+
 /// Series of one cable's geometry: a pair of polynomials each for ρ and d = P − A, the gap, and where
 /// taut the tension, the normal n = d/r and the arm s.
 #[derive(Clone, Copy, Debug, Default)]
@@ -276,10 +280,11 @@ impl<T: Real> Series<T> {
             let fairlead = system.cables[cable].fairlead();
             w.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia())
         });
+        let still = T::from_f64(STILL);
         let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
         let mut step = [&self.x, &self.y, &self.theta]
             .iter()
-            .fold(longest, |step, p| p.converged_within(step, ORDER, T::ZERO));
+            .fold(longest, |step, p| p.converged_within(step, ORDER, still));
         for cable in self.taut.iter() {
             let tension = &self.lines[cable].tension;
             let scale = (tension[0].abs() + 1.0) * 20.0;

@@ -59,7 +59,12 @@ impl TautSet {
 
     /// The cables, by rising index.
     pub fn iter(self) -> impl Iterator<Item = usize> + Clone {
-        (0..MAX_CABLES).filter(move |&cable| self.contains(cable))
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let cable = rest.trailing_zeros() as usize;
+            rest &= rest.checked_sub(1)?;
+            Some(cable)
+        })
     }
 
     /// Every subset, the empty one first and the set itself last.
