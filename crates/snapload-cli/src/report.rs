@@ -1,7 +1,9 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
-use snapload::{Impact, ModeInterval, Norms, Parameters, State, Stop, Trajectory, Value};
+use snapload::{
+    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Stop, Trajectory, Value,
+};
 use std::io::{self, Write};
 
 /// Everything there is to say about a run.
@@ -235,9 +237,7 @@ pub(crate) struct MotionRow {
 }
 
 impl MotionRow {
-    /// The motion at one time.
-    pub(crate) fn at(trajectory: &Trajectory, t: f64) -> Self {
-        let motion = trajectory.at(t);
+    pub(crate) fn new(motion: &Motion) -> Self {
         let State {
             x,
             y,
@@ -246,17 +246,16 @@ impl MotionRow {
             vy,
             vtheta,
         } = motion.state;
-        let (tension_1, tension_2) = (trajectory.tension(t, 0), trajectory.tension(t, 1));
         Self {
-            t,
+            t: motion.t,
             x,
             y,
             theta,
             vx,
             vy,
             vtheta,
-            tension_1,
-            tension_2,
+            tension_1: motion.tensions[0],
+            tension_2: motion.tensions[1],
             energy: motion.energy,
         }
     }
@@ -269,10 +268,11 @@ struct MotionRows<'a> {
 
 impl Serialize for MotionRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut playback = Playback::new(self.trajectory);
         let rows = self
             .sampling
             .times()
-            .map(|t| MotionRow::at(self.trajectory, t));
+            .map(|t| MotionRow::new(&playback.at(t)));
         serializer.collect_seq(rows)
     }
 }

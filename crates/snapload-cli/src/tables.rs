@@ -1,7 +1,7 @@
 //! The tables of a run as CSV: the columns carry the names of the JSON.
 use crate::report::{MotionRow, Sampling, components};
 use serde::Serialize;
-use snapload::Trajectory;
+use snapload::{Playback, Trajectory};
 use std::io::{self, Write};
 
 const IMPACTS: [&str; 17] = [
@@ -67,11 +67,9 @@ pub(crate) fn motion(
     sampling: Sampling,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    write(
-        &MOTION,
-        sampling.times().map(|t| MotionRow::at(trajectory, t)),
-        out,
-    )
+    let mut playback = Playback::new(trajectory);
+    let rows = sampling.times().map(|t| MotionRow::new(&playback.at(t)));
+    write(&MOTION, rows, out)
 }
 
 fn write<R: Serialize>(

@@ -1,1 +1,55 @@
-//! Pictures.
+//! Pictures of motions on cables, as SVG and PNG, fit for print.
+//!
+//! This crate knows axes, lines and letters, and no physics: it is handed points. Five functions
+//! ([`trajectory`], [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a
+//! [`Plot`]; [`draw`] puts one plot, or several over one another, on a [`Picture`] that gives
+//! itself as SVG and, from that very SVG, as PNG.
+//!
+//! ```
+//! use snapload_figures::{Plot, Width, draw, rotation};
+//!
+//! let theta = [[0.0, 0.0], [1.0, 0.8], [2.0, -0.3]];
+//! let plot = Plot { title: "case A1".to_string(), ..rotation(&theta, None) };
+//! let picture = draw("theta", Width::Column, &[plot])?;
+//! assert!(picture.svg().contains("π/2"));
+//! let png = picture.png(300.0 / 72.0)?;
+//! # assert!(png.starts_with(b"\x89PNG"));
+//! # Ok::<(), snapload_figures::FigureError>(())
+//! ```
+//!
+//! # What to rely on
+//!
+//! Letters measure 7 to 8 points on paper, unless a text is too long for its place; lines 0.5 to
+//! 1.3 points; colours are those of Okabe and Ito, and nothing is told by colour alone. The same
+//! points give the same bytes. Points that are not finite are skipped. Lines are thinned by less
+//! than 0.2 points on paper, so that a smooth line, or any line over time, of a hundred thousand
+//! points stays small; a line that truly scribbles all over the plane is kept as it is.
+//!
+//! # Why the SVG is written here
+//!
+//! The `plotters` crate was considered first. Its back ends take whole pixels (`BackendCoord` is a
+//! pair of `i32`), so a smooth path comes out in steps unless the whole page is scaled, and its SVG
+//! back end has nothing for dashes, for the halo that keeps a letter readable on a line, or for
+//! italics within a label. What these plots need of SVG is paths and text, which is one small file
+//! here; `resvg` does the hard part, the pixels.
+
+mod area;
+mod axis;
+mod draw;
+mod error;
+mod figures;
+mod legend;
+mod picture;
+mod place;
+mod plot;
+mod polyline;
+mod svg;
+mod text;
+
+pub use draw::draw;
+pub use error::FigureError;
+pub use figures::{Leg, Mode, energy, rotation, snap_velocities, tensions, trajectory};
+pub use picture::Picture;
+pub use plot::{
+    Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
+};

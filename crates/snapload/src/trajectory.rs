@@ -1,11 +1,7 @@
 //! What a run leaves behind.
 
-use crate::contact::Contact;
-use crate::flight::Flight;
-use crate::series::Series;
+use crate::playback::{Motion, Playback};
 use crate::simulate::{Simulation, Step};
-use crate::taut::tensions;
-use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
 /// A cable snapping taut.
@@ -83,23 +79,12 @@ pub struct Norms {
     pub theta_max: f64,
 }
 
-/// The motion at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// The state; at an event's instant the one after it.
-    pub state: State,
-    /// The taut cables.
-    pub taut: TautSet,
-    /// Energy \[F L\].
-    pub energy: f64,
-}
-
 /// A stretch of motion with one taut set, from which the state at any time in it is computed.
 #[derive(Clone, Copy, Debug)]
-struct Segment {
-    t: f64,
-    start: State,
-    taut: TautSet,
+pub(crate) struct Segment {
+    pub(crate) t: f64,
+    pub(crate) start: State,
+    pub(crate) taut: TautSet,
 }
 
 /// A finished run.
@@ -198,45 +183,14 @@ impl Trajectory {
         &self.norms
     }
 
-    /// State, taut set and energy at time t, held to the run's span; at an event's instant those
-    /// after it.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// State, taut set, tensions and energy at time t, held to the run's span; at an event's instant
+    /// those after it. For many times ask [`Playback`].
     pub fn at(&self, t: f64) -> Motion {
-        let after = self.segments.partition_point(|segment| segment.t <= t);
-        // A run has at least the segment of its end.
-        let segment = &self.segments[after.saturating_sub(1)];
-        let s = (t - segment.t).clamp(0.0, (self.end.t - segment.t).max(0.0));
-        let state = self.state(segment, s);
-        Motion {
-            state,
-            taut: segment.taut,
-            energy: self.system.energy(&state),
-        }
-    }
-
-    fn state(&self, segment: &Segment, s: f64) -> State {
-        let contacts = [Contact::RESTING; MAX_CABLES];
-        if s <= 0.0 {
-            segment.start
-        } else if segment.taut.is_empty() {
-            let mut flight = Flight::new(&self.system, None, None);
-            flight.begin(&self.system, segment.t, &segment.start, &contacts);
-            flight.state(s)
-        } else {
-            let mut series = Series::new(&self.system, None);
-            let (t, start) = (segment.t, &segment.start);
-            series.begin(&self.system, t, start, &contacts, segment.taut, None);
-            series.state(s)
-        }
-    }
-
-    /// Tension of a cable at a time \[F\]; 0 while slack.
-    pub fn tension(&self, t: f64, cable: usize) -> f64 {
-        let motion = self.at(t);
-        if cable < MAX_CABLES && motion.taut.contains(cable) {
-            tensions(&self.system, t, &motion.state, motion.taut)[cable]
-        } else {
-            0.0
-        }
+        Playback::new(self).at(t)
     }
 }
 

@@ -165,7 +165,7 @@ fn taut_motion_agrees() {
                 } else {
                     number(tension)
                 };
-                off = off.max((run.tension(t, cable) - truth).abs());
+                off = off.max((motion.tensions[cable] - truth).abs());
             }
             assert!(off < 1e-10, "{id}: off by {off:e} at t = {t}");
             worst = worst.max(off);

@@ -1,0 +1,347 @@
+//! What every picture must be: well-formed, labelled, of the right size, and never a panic.
+
+use proptest::prelude::*;
+use snapload_figures::{
+    Axis, FigureError, Layer, Leg, Mark, Mode, Picture, Plot, Point, Range, Shape, Stroke,
+    TickStyle, Width, draw, energy, rotation, snap_velocities, tensions, trajectory,
+};
+
+/// The five figures, all from the same points.
+fn figures(points: &[Point], horizon: Option<f64>) -> Vec<Plot> {
+    let legs: Vec<Leg> = [
+        Mode::Slack,
+        Mode::Sliding,
+        Mode::Rocking,
+        Mode::BeyondHorizon,
+    ]
+    .into_iter()
+    .map(|mode| Leg {
+        mode,
+        points: points.to_vec(),
+    })
+    .collect();
+    let letters = ["I", "S", "R", "G", "E"].into_iter().zip(points);
+    let marks: Vec<Mark> = letters
+        .map(|(letter, &at)| Mark {
+            at,
+            letter: letter.to_string(),
+        })
+        .collect();
+    let pieces: Vec<Vec<Point>> = points
+        .chunks(3.max(points.len() / 20))
+        .map(<[Point]>::to_vec)
+        .collect();
+    vec![
+        trajectory(&legs, [points, points], &marks),
+        rotation(points, horizon),
+        snap_velocities([points, points], horizon),
+        tensions([&pieces, &pieces], horizon),
+        energy(points, horizon),
+    ]
+}
+
+fn picture(plot: Plot) -> Picture {
+    draw("test", Width::Column, &[plot]).expect("one panel can be drawn")
+}
+
+/// All letters of a picture, without its title; asserts that it is XML and all its numbers finite.
+fn letters(picture: &Picture) -> Vec<String> {
+    let document = roxmltree::Document::parse(picture.svg()).expect("the picture is XML");
+    let root = document.root_element();
+    assert_eq!(root.attribute("role"), Some("img"));
+    assert!(
+        root.first_element_child()
+            .is_some_and(|child| child.has_tag_name("title"))
+    );
+    for attribute in root.descendants().flat_map(|node| node.attributes()) {
+        let value = attribute.value();
+        assert!(!value.contains("NaN") && !value.contains("inf"), "{value}");
+    }
+    root.descendants()
+        .filter(|node| node.has_tag_name("text"))
+        .map(|node| {
+            node.descendants()
+                .filter_map(|child| child.is_text().then(|| child.text()).flatten())
+                .collect()
+        })
+        .collect()
+}
+
+#[track_caller]
+fn assert_says(plot: Plot, words: &[&str]) {
+    let said = letters(&picture(plot));
+    for word in words {
+        assert!(
+            said.iter().any(|text| text == word),
+            "{word:?} is not among {said:?}"
+        );
+    }
+}
+
+#[test]
+fn every_figure_contains_its_labels() {
+    let wave: Vec<Point> = (0..200)
+        .map(|i| f64::from(i) / 20.0)
+        .map(|t| [t, 2.0 + t.sin()])
+        .collect();
+    let up: Vec<Point> = vec![[0.0, 1.0], [3.0, 3.0]];
+    let down: Vec<Point> = vec![[6.0, 3.0], [10.0, 1.0]];
+    let legs = [
+        Leg {
+            mode: Mode::Slack,
+            points: wave.clone(),
+        },
+        Leg {
+            mode: Mode::Rocking,
+            points: up.clone(),
+        },
+    ];
+    let mark = |letter: &str, at| Mark {
+        at,
+        letter: letter.to_string(),
+    };
+    let marks = [
+        mark("I", wave[0]),
+        mark("S", [5.0, 2.0]),
+        mark("G", [5.001, 2.0]),
+    ];
+    assert_says(
+        trajectory(&legs, [&up, &down], &marks),
+        &["x", "y", "g₁ = 0", "g₂ = 0", "I", "S,G", "slack", "rocking"],
+    );
+    assert_says(
+        rotation(&wave, Some(4.0)),
+        &["θ", "t", "π/2", "−π/2", "beyond the horizon"],
+    );
+    assert_says(
+        snap_velocities([&wave, &wave], None),
+        &["vₙ⁻", "t", "cable 1", "cable 2"],
+    );
+    assert_says(
+        tensions([&[up], &[down]], None),
+        &["T", "t", "cable 1", "cable 2"],
+    );
+    assert_says(energy(&wave, None), &["E", "t"]);
+}
+
+#[test]
+fn empty_figures_say_so() {
+    assert_says(
+        tensions([&[], &[]], None),
+        &["no cable was taut for a length of time"],
+    );
+    assert_says(
+        snap_velocities([&[], &[]], Some(1.0)),
+        &["no cable snapped taut"],
+    );
+    assert_says(energy(&[[f64::NAN, 1.0]], None), &["no data"]);
+    assert_says(trajectory(&[], [&[], &[]], &[]), &["no data"]);
+    assert_says(rotation(&[], None), &["no data", "π/2"]);
+}
+
+#[test]
+fn a_horizon_outside_the_picture_is_not_mentioned() {
+    let said = letters(&picture(energy(&[[0.0, 1.0], [1.0, 2.0]], Some(5.0))));
+    assert!(!said.iter().any(|text| text.contains("horizon")));
+}
+
+#[test]
+fn hostile_points_make_pictures() {
+    let extremes: [&[Point]; 8] = [
+        &[],
+        &[[1.0, 1.0]],
+        &[[0.0, 0.0]; 5],
+        &[[0.0, 3.0], [1.0, 3.0]],
+        &[[0.0, 1e-12], [1e-12, 3e-12]],
+        &[[0.0, 1e6], [1e6, -1e6]],
+        &[
+            [f64::NAN, 1.0],
+            [1.0, f64::INFINITY],
+            [2.0, 2.0],
+            [f64::MAX, f64::MIN],
+            [3.0, 1.0],
+        ],
+        &[[1e6, 7.2], [1e6 + 1e-6, 7.2 + 1e-8]],
+    ];
+    for points in extremes {
+        for horizon in [None, Some(0.5), Some(f64::NAN), Some(f64::NEG_INFINITY)] {
+            let plots = figures(points, horizon);
+            for plot in plots.clone() {
+                letters(&picture(plot));
+            }
+            let stack = draw("stack", Width::Page, &plots[1..]).expect("four panels can be drawn");
+            letters(&stack);
+        }
+    }
+}
+
+#[test]
+fn hostile_words_are_written_as_they_stand() {
+    let words = "a<b>&\"c'\u{0}\u{7}\n *d* *".to_string();
+    let plot = Plot {
+        title: words.clone(),
+        description: words.clone(),
+        note: words.clone(),
+        x: Axis {
+            label: words.repeat(50),
+            ..Axis::default()
+        },
+        layers: vec![
+            Layer::Horizontal {
+                y: 0.5,
+                label: words.repeat(50),
+            },
+            Layer::Boundary {
+                points: vec![[0.0, 0.0], [1.0, 1.0]],
+                label: words.clone(),
+            },
+            Layer::Letters(vec![Mark {
+                at: [0.5, 0.5],
+                letter: words.repeat(50),
+            }]),
+        ],
+        ..Plot::default()
+    };
+    assert!(
+        letters(&picture(plot))
+            .iter()
+            .any(|text| text.starts_with("a<b>&\"c'"))
+    );
+}
+
+#[test]
+fn a_hundred_thousand_points_stay_small() {
+    let n = 100_000;
+    let time = |i: u32| 7.2 * f64::from(i) / f64::from(n);
+    let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 8) / 1e8;
+    let smooth: Vec<Point> = (0..n).map(|i| [time(i), (9.0 * time(i)).sin()]).collect();
+    let rough: Vec<Point> = (0..n).map(|i| [time(i), noise(i)]).collect();
+    let spiral: Vec<Point> = (0..n).map(|i| [time(i), 9.0 * time(i)]).collect();
+    let spiral: Vec<Point> = spiral
+        .iter()
+        .map(|[r, a]| [r * a.cos(), r * a.sin()])
+        .collect();
+    for points in [smooth, rough] {
+        for plot in figures(&points, None).into_iter().skip(1) {
+            let size = draw("long", Width::Page, &[plot])
+                .expect("one panel")
+                .svg()
+                .len();
+            assert!(size < 500_000, "{size}");
+        }
+    }
+    let path = trajectory(
+        &[Leg {
+            mode: Mode::Slack,
+            points: spiral,
+        }],
+        [&[], &[]],
+        &[],
+    );
+    let size = picture(path).svg().len();
+    assert!(size < 100_000, "{size}");
+}
+
+#[test]
+fn a_png_has_the_asked_size() {
+    let picture = picture(energy(&[[0.0, 1.0], [1.0, 2.0]], None));
+    let (width, height) = picture.size_pt();
+    assert!((width - 240.94).abs() < 0.01);
+    for scale in [1.0_f32, 300.0 / 72.0] {
+        let png = picture.png(scale).expect("a PNG");
+        let side = |at: usize| {
+            f64::from(u32::from_be_bytes([
+                png[at],
+                png[at + 1],
+                png[at + 2],
+                png[at + 3],
+            ]))
+        };
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+        assert_eq!(side(16), (width * f64::from(scale)).ceil());
+        assert_eq!(side(20), (height * f64::from(scale)).ceil());
+    }
+    for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e6] {
+        assert_eq!(picture.png(scale), Err(FigureError::Scale));
+    }
+}
+
+#[test]
+fn letters_reach_the_pixels() {
+    let dark = |plot: Plot| {
+        let png = picture(plot).png(2.0).expect("a PNG");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png))
+            .read_info()
+            .expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        reader.next_frame(&mut pixels).expect("pixels");
+        pixels
+            .chunks(3)
+            .filter(|rgb| rgb.iter().all(|v| *v < 100))
+            .count()
+    };
+    let plain = energy(&[[0.0, 1.0], [1.0, 2.0]], None);
+    let noted = Plot {
+        note: "*many* letters".to_string(),
+        ..plain.clone()
+    };
+    assert!(dark(noted) > dark(plain) + 100);
+}
+
+#[test]
+fn what_cannot_be_drawn_is_an_error() {
+    assert_eq!(draw("none", Width::Column, &[]), Err(FigureError::NoPanel));
+    let equal = Plot {
+        equal_scale: true,
+        ..Plot::default()
+    };
+    let stack = [equal, Plot::default()];
+    assert_eq!(
+        draw("two", Width::Column, &stack),
+        Err(FigureError::EqualScaleInStack)
+    );
+}
+
+#[test]
+fn the_same_points_give_the_same_bytes() {
+    let points: Vec<Point> = (0..500)
+        .map(f64::from)
+        .map(|t| [t, (t / 9.0).cos()])
+        .collect();
+    let draw_all = || -> Vec<String> {
+        figures(&points, Some(100.0))
+            .into_iter()
+            .map(|plot| picture(plot).svg().to_string())
+            .collect()
+    };
+    assert_eq!(draw_all(), draw_all());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn no_points_and_no_range_make_a_panic(
+        points in prop::collection::vec(prop::array::uniform2(any::<f64>()), 0..40),
+        small in prop::collection::vec(prop::array::uniform2(-1.0..1.0_f64), 0..40),
+        ends in prop::array::uniform4(any::<f64>()),
+        equal_scale in any::<bool>(),
+    ) {
+        let all: Vec<Point> = points.into_iter().chain(small).collect();
+        for plot in figures(&all, Some(ends[0])) {
+            letters(&picture(plot));
+        }
+        let legend = "all".to_string();
+        let shape = Shape::Circle;
+        let plot = Plot {
+            equal_scale,
+            x: Axis { range: Range::Fixed(ends[0], ends[1]), ..Axis::default() },
+            y: Axis { range: Range::AtLeast(ends[2], ends[3]), ticks: TickStyle::Angle, ..Axis::default() },
+            layers: vec![
+                Layer::Line { pieces: vec![all.clone()], stroke: Stroke::default(), legend: legend.clone() },
+                Layer::Markers { points: all, shape, colour: Default::default(), legend },
+            ],
+            ..Plot::default()
+        };
+        letters(&picture(plot));
+    }
+}

@@ -1,0 +1,88 @@
+//! The motion between the events of a finished run.
+
+use crate::complementarity::PerCable;
+use crate::contact::Contact;
+use crate::flight::Flight;
+use crate::series::Series;
+use crate::taut::tensions;
+use crate::taut_set::MAX_CABLES;
+use crate::trajectory::Trajectory;
+use crate::{State, TautSet};
+
+/// The motion at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// The time, held to the run's span \[T\].
+    pub t: f64,
+    /// The state; at an event's instant the one after it.
+    pub state: State,
+    /// The taut cables.
+    pub taut: TautSet,
+    /// Tensions by cable; 0 while slack \[F\].
+    pub tensions: PerCable<f64>,
+    /// Energy \[F L\].
+    pub energy: f64,
+}
+
+/// Plays a run back: computes the motion at any time, quickest for times that follow each other.
+#[derive(Clone, Debug)]
+pub struct Playback<'a> {
+    run: &'a Trajectory,
+    segment: Option<usize>,
+    flight: Flight<f64>,
+    series: Series<f64>,
+}
+
+impl<'a> Playback<'a> {
+    /// Of a run.
+    pub fn new(run: &'a Trajectory) -> Self {
+        Self {
+            run,
+            segment: None,
+            flight: Flight::new(run.system(), None, None),
+            series: Series::new(run.system(), None),
+        }
+    }
+
+    /// State, taut set, tensions and energy at time t, held to the run's span.
+    pub fn at(&mut self, t: f64) -> Motion {
+        let segments = self.run.segments();
+        let after = segments.partition_point(|segment| segment.t <= t);
+        // A run has at least the segment of its end; before the start it is the start that counts.
+        let index = after.saturating_sub(1);
+        let segment = &segments[index];
+        let s = (t - segment.t).clamp(0.0, (self.run.end().t - segment.t).max(0.0));
+        if self.segment != Some(index) {
+            self.begin(index);
+        }
+        let state = if s <= 0.0 {
+            segment.start
+        } else if segment.taut.is_empty() {
+            self.flight.state(s)
+        } else {
+            self.series.state(s)
+        };
+        let (system, t) = (self.run.system(), segment.t + s);
+        Motion {
+            t,
+            state,
+            taut: segment.taut,
+            tensions: tensions(system, t, &state, segment.taut),
+            energy: system.energy(&state),
+        }
+    }
+
+    fn begin(&mut self, index: usize) {
+        let segment = &self.run.segments()[index];
+        let (system, t, start) = (self.run.system(), segment.t, &segment.start);
+        // Gaps are not looked at here, so nothing need be known of them.
+        let contacts = [Contact::RESTING; MAX_CABLES];
+        if segment.taut.is_empty() {
+            self.flight.begin(system, t, start, &contacts);
+        } else {
+            self.series
+                .begin(system, t, start, &contacts, segment.taut, None);
+        }
+        self.segment = Some(index);
+    }
+}
