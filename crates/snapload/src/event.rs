@@ -44,8 +44,10 @@ pub(crate) struct Jet<T> {
     /// |f⃛(s + σ)| ≤ `third` + `fourth` σ.
     pub(crate) third: T,
     pub(crate) fourth: T,
-    /// Bound on the rounding error of `value`.
+    /// Bound on the rounding error of `value`, the motion taken as exact.
     pub(crate) noise: T,
+    /// What the rounding of the velocities at the motion's start may change `value` by.
+    pub(crate) blur: T,
     /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is f⃛.
     pub(crate) resting: bool,
     pub(crate) jerk: T,
@@ -62,6 +64,7 @@ impl<T: Real> Jet<T> {
             third: T::ZERO,
             fourth: T::ZERO,
             noise: T::ZERO,
+            blur: T::ZERO,
             resting: false,
             jerk: T::ZERO,
         }
@@ -141,7 +144,9 @@ const HARMLESS: f64 = 1e-15;
 
 /// The first instant in (0, horizon] at which a watched function reaches zero from below, or `None`.
 ///
-/// The crossing is good to (rounding of f)/ḟ plus a rounding of s.
+/// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of location
+/// overlap cross at one instant; the intervals allow for the rounding of the velocities, too, so that
+/// impacts which are simultaneous by symmetry stay so once rounding has broken it.
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl Watched<T>,
     horizon: T,
@@ -172,7 +177,7 @@ fn located<T: Real>(jets: &Jets<T>, s: T) -> Option<Crossing<T>> {
     let touches = |jet: &&Jet<T>| jet.rate > T::ZERO && jet.value >= -jet.noise;
     jets.iter().find(touches)?;
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
-    let spread = |jet: &Jet<T>| jet.noise / jet.rate + s * T::EPSILON;
+    let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
     let first = jets
         .iter()
         .filter(touches)

@@ -24,6 +24,8 @@ struct Tether<T> {
     gap_error: T,
     resting: bool,
     length: T,
+    /// |Ṗ|, at the start or just before the event there.
+    speed: T,
     /// Bounds on |P̈|, |P⃛|, |P⁗| over the flight.
     bounds: [T; 3],
 }
@@ -88,12 +90,13 @@ impl<T: Real> Flight<T> {
         }
     }
 
-    /// Begins the flight at time `t` from `start`.
+    /// Begins the flight at time `t` from `start`, which an event has made of the state `before`.
     pub(crate) fn begin(
         &mut self,
         system: &System<T>,
         t: T,
         start: &State<T>,
+        before: &State<T>,
         contacts: &Contacts<T>,
     ) {
         self.start = *start;
@@ -132,6 +135,8 @@ impl<T: Real> Flight<T> {
                 gap_error: contact.error,
                 resting: contact.resting,
                 length: cable.length(),
+                speed: length(velocity)
+                    .max(length([before.vx, before.vy]) + before.vtheta.abs() * reach),
                 bounds,
             };
         }
@@ -223,6 +228,7 @@ impl<T: Real> Flight<T> {
             third: (length(velocity) * a * 3.0 + tether.length * j) * 2.0,
             fourth: a * a * 6.0,
             noise: tether.gap_error + noise,
+            blur: tether.length * tether.speed * s * T::EPSILON * 16.0,
             ..Jet::new(
                 Watch::Gap(cable),
                 tether.gap + (linear + bend + square),

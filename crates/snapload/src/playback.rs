@@ -78,7 +78,7 @@ impl<'a> Playback<'a> {
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
         if segment.taut.is_empty() {
-            self.flight.begin(system, t, start, &contacts);
+            self.flight.begin(system, t, start, start, &contacts);
         } else {
             self.series
                 .begin(system, t, start, &contacts, segment.taut, None);

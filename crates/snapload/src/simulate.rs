@@ -30,6 +30,8 @@ pub struct Simulation<T: Real = f64> {
     v_stick: T,
     t: T,
     state: State<T>,
+    /// The state before the latest event.
+    before: State<T>,
     taut: TautSet,
     contacts: Contacts<T>,
     flight: Flight<T>,
@@ -116,6 +118,7 @@ impl<T: Real> Simulation<T> {
             v_stick,
             t,
             state: start.state,
+            before: start.state,
             taut: start.taut,
             contacts: start.contacts,
             impacts: 0,
@@ -178,7 +181,7 @@ impl<T: Real> Simulation<T> {
         let (t_start, start, taut) = (self.t, self.state, self.taut);
         let crossing = self.next_crossing();
         self.advance(&crossing);
-        let before = self.state;
+        self.before = self.state;
         let shock = self.apply_law(crossing.reached);
         Some(Step {
             t_start,
@@ -188,7 +191,7 @@ impl<T: Real> Simulation<T> {
             after: self.state,
             taut_after: self.taut,
             stop: self.stop,
-            before,
+            before: self.before,
             shock,
         })
     }
@@ -197,8 +200,13 @@ impl<T: Real> Simulation<T> {
     fn next_crossing(&mut self) -> Crossing<T> {
         let mut horizon = self.rules.t_end - self.t;
         let crossing = if self.taut.is_empty() {
-            self.flight
-                .begin(&self.system, self.t, &self.state, &self.contacts);
+            self.flight.begin(
+                &self.system,
+                self.t,
+                &self.state,
+                &self.before,
+                &self.contacts,
+            );
             first_crossing(&self.flight, horizon, &mut self.jets)
         } else {
             self.series.begin(
