@@ -2,7 +2,7 @@
 //!
 //! This crate knows axes, lines and letters, and no physics: it is handed points. Five functions
 //! ([`trajectory`], [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a
-//! [`Plot`]; [`draw`] puts one plot, or several over one another, on a [`Picture`] that gives
+//! [`Plot`]; [`draw()`] puts one plot, or several over one another, on a [`Picture`] that gives
 //! itself as SVG and, from that very SVG, as PNG.
 //!
 //! ```

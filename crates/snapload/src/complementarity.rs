@@ -60,16 +60,16 @@ fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<
         for i in set.iter().filter(|&i| i > k) {
             let factor = rows[i][k] / rows[k][k];
             for j in set.iter().filter(|&j| j >= k) {
-                rows[i][j] = rows[i][j] - factor * rows[k][j];
+                rows[i][j] -= factor * rows[k][j];
             }
-            z[i] = z[i] - factor * z[k];
+            z[i] -= factor * z[k];
         }
     }
     let mut solution = [T::ZERO; MAX_CABLES];
     for k in (0..MAX_CABLES).rev().filter(|&k| kept.contains(k)) {
         let mut sum = z[k];
         for j in kept.iter().filter(|&j| j > k) {
-            sum = sum - rows[k][j] * solution[j];
+            sum -= rows[k][j] * solution[j];
         }
         solution[k] = sum / rows[k][k];
     }

@@ -317,8 +317,9 @@ fn newton<T: Real>(value: impl Fn(T) -> T, slope: impl Fn(T) -> T, from: T) -> T
     let mut s = from;
     for _ in 0..80 {
         let next = s - value(s) / slope(s);
-        // Written so that a slope of zero (NaN or infinity) ends it, too.
-        if !((next - s).abs() > s.abs() * T::EPSILON * 2.0) {
+        let moves = (next - s).abs() > s.abs() * T::EPSILON * 2.0;
+        // A slope of zero gives infinity or NaN, and ends it, too.
+        if !moves || !next.to_f64().is_finite() {
             break;
         }
         s = next;

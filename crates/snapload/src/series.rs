@@ -114,8 +114,8 @@ impl<T: Real> Series<T> {
         for line in 0..self.cables {
             self.extend_geometry(system, line, 0);
             let span = system.cables[line].span(start);
-            for i in 0..2 {
-                self.lines[line].span[i][0] = span[i];
+            for (series, value) in self.lines[line].span.iter_mut().zip(span) {
+                series[0] = value;
             }
             self.extend_normal(system, line, 0);
         }

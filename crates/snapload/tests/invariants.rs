@@ -226,7 +226,7 @@ fn reliable(run: &Trajectory) -> &[snapload::Impact] {
         .impacts()
         .iter()
         .take_while(|impact| {
-            growth *= 1.0 + (1.0 + impact.before.vtheta.abs()) / impact.v_n.max(1e-12).min(1.0);
+            growth *= 1.0 + (1.0 + impact.before.vtheta.abs()) / impact.v_n.clamp(1e-12, 1.0);
             growth < 1e5
         })
         .count();

@@ -90,7 +90,7 @@ impl Breakwater {
 
 pub fn oracle(file: &str) -> Vec<Value> {
     let path = format!("{}/tests/oracle/{file}", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    let text = std::fs::read_to_string(&path).expect(&path);
     let whole: Value = serde_json::from_str(&text).expect("JSON");
     whole["cases"].as_array().expect("cases").clone()
 }
