@@ -107,21 +107,49 @@ fn every_figure_contains_its_labels() {
     ];
     assert_says(
         trajectory(&legs, [&up, &down], &marks),
-        &["x", "y", "g₁ = 0", "g₂ = 0", "I", "S,G", "slack", "rocking"],
+        &[
+            "x (nondimensional)",
+            "y (nondimensional)",
+            "g₁ = 0, θ = 0",
+            "g₂ = 0, θ = 0",
+            "I",
+            "S,G",
+            "slack",
+            "rocking",
+        ],
     );
     assert_says(
         rotation(&wave, Some(4.0)),
-        &["θ", "t", "π/2", "−π/2", "beyond the horizon"],
+        &[
+            "θ (rad)",
+            "t (nondimensional)",
+            "π/2",
+            "−π/2",
+            "beyond the horizon",
+        ],
     );
     assert_says(
         snap_velocities([&wave, &wave], None),
-        &["vₙ⁻", "t", "cable 1", "cable 2"],
+        &[
+            "vₙ⁻ (nondimensional)",
+            "t (nondimensional)",
+            "cable 1",
+            "cable 2",
+        ],
     );
     assert_says(
         tensions([&[up], &[down]], None),
-        &["T", "t", "cable 1", "cable 2"],
+        &[
+            "T (nondimensional)",
+            "t (nondimensional)",
+            "cable 1",
+            "cable 2",
+        ],
     );
-    assert_says(energy(&wave, None), &["E", "t"]);
+    assert_says(
+        energy(&wave, None),
+        &["E (nondimensional)", "t (nondimensional)"],
+    );
 }
 
 #[test]

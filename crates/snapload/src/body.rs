@@ -2,7 +2,7 @@
 
 use crate::real::Real;
 
-/// What the body looks like from outside; only the upper bound asks (MODEL.md section 7).
+/// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape<T = f64> {
     /// A point.
@@ -21,7 +21,7 @@ pub enum Shape<T = f64> {
     },
 }
 
-/// A rigid body of unit mass, or a point mass (MODEL.md section 2).
+/// A rigid body of unit mass, or a point mass (docs/model.md section 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body<T = f64> {
     shape: Shape<T>,

@@ -3,7 +3,7 @@
 use crate::State;
 use crate::real::{Real, dot, length, quarter_turn};
 
-/// An inextensible cable from a fixed anchor to a point of the body (MODEL.md section 2).
+/// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
 ///
 /// It is kept by its span where the body is at rest, x = y = θ = 0, and its gap there, because a gap
 /// computed as an increment from that place rounds in proportion to how far the body has moved, not
@@ -38,7 +38,7 @@ impl<T: Real> Normal<T> {
         dot(self.n, other.n) + self.arm * other.arm * inverse_inertia
     }
 
-    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (MODEL.md section 5).
+    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section 5).
     pub fn kick(&self, state: &mut State<T>, impulse: T, inverse_inertia: T) {
         state.vx -= impulse * self.n[0];
         state.vy -= impulse * self.n[1];

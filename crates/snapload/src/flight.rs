@@ -30,7 +30,7 @@ struct Tether<T> {
     bounds: [T; 3],
 }
 
-/// The free motion from a state, with no cable taut (MODEL.md section 4; any sum of sinusoids).
+/// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of sinusoids).
 ///
 /// Positions are start + velocity · s + a remainder of second order, and the remainder is computed
 /// without cancellation; so a gap that starts closed, and its rate, are known to a few roundings *of

@@ -24,7 +24,7 @@ pub struct Forcing<T = f64> {
 }
 
 impl<T: Real> Harmonic<T> {
-    /// The elliptical forcing f_x = f_o cos Ωt, f_y = ν f_o sin Ωt (MODEL.md section 3).
+    /// The elliptical forcing f_x = f_o cos Ωt, f_y = ν f_o sin Ωt (docs/model.md section 3).
     pub fn ellipse(f_o: T, nu: T, omega: T) -> Self {
         Self {
             omega,
@@ -93,7 +93,7 @@ impl<T: Real> Push<T> {
 
     /// With that of a harmonic added, which must be given relative to s = 0 ([`Harmonic::shifted`]).
     ///
-    /// The slack flight of MODEL.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
+    /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
     /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
     /// s (c (1 − z S) + d z C) and the force c (1 − z² C) + d (z − z² S).
     pub(crate) fn with_harmonic(mut self, harmonic: &Harmonic<T>, s: T) -> Self {
@@ -147,7 +147,7 @@ impl<T: Real> Forcing<T> {
 mod tests {
     use super::*;
 
-    /// The slack flight as MODEL.md section 4 prints it, where it does not cancel.
+    /// The slack flight as docs/model.md section 4 prints it, where it does not cancel.
     #[test]
     fn push_is_the_printed_closed_form() {
         let (f_o, nu, omega, t0): (f64, f64, f64, f64) = (0.3, 0.5, 0.9, 1.7);

@@ -15,7 +15,7 @@ pub(crate) struct Shock<T> {
     pub(crate) after: State<T>,
 }
 
-/// Impact of the closed cables, of which `taut` ones have no normal velocity (MODEL.md section 5):
+/// Impact of the closed cables, of which `taut` ones have no normal velocity (docs/model.md section 5):
 ///
 /// ```text
 /// 0 ≤ p  ⟂  −(v⁺ + e max(v⁻, 0)) ≥ 0,    v⁺ = v⁻ − W p,    W = G M⁻¹ Gᵀ

@@ -1,4 +1,26 @@
 //! Dynamics of bodies on cables that go slack and snap taut.
+//!
+//! A rigid body in the plane hangs on inextensible cables under forces that vary in time. With no
+//! cable taut it flies freely, in closed form; where a cable closes it snaps taut, an impact with
+//! restitution; with one cable taut the body slides along a circle like a double pendulum, with two it
+//! rocks. A [`Simulation`] goes from event to event; each is located with a proof that none is earlier.
+//!
+//! All quantities are nondimensional, in the units of the breakwater of `docs/model.md`.
+//!
+//! ```
+//! use snapload::{Case, Parameters};
+//!
+//! let case = Case::new(Parameters { e: 0.5, ..Parameters::STANDARD })?;
+//! let run = case.run();
+//! let first = run.impacts()[0];
+//! assert_eq!(first.cable, 1); // the left one: cables count from 0 here
+//! assert!((first.t - 0.406703543).abs() < 1e-9);
+//! assert!(run.at(0.5).energy < run.at(0.0).energy + 0.02);
+//! # Ok::<(), snapload::CaseError>(())
+//! ```
+//!
+//! [`Case`] is the thesis's breakwater, described by [`Parameters`]. The engine below it takes any
+//! [`System`]: a body, a list of cables, a constant force and sinusoids.
 
 mod body;
 mod cable;

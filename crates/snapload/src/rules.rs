@@ -2,7 +2,7 @@
 
 use crate::real::Real;
 
-/// The stop rules, each on or off (MODEL.md section 7).
+/// The stop rules, each on or off (docs/model.md section 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopRules<T = f64> {
     /// Stop when |θ| reaches this angle \[rad\].

@@ -1,6 +1,6 @@
 //! Sliding, rocking, and motion with any other set of taut cables: the Taylor series of the motion.
 //!
-//! Taut motion is a differential-algebraic problem of index 3 (MODEL.md section 6):
+//! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
 //! ```text
 //! (ẍ, ÿ) = f(t) − Σ T_i n_i,   θ̈ = −Σ T_i s_i / I,   g̈_i = 0 for the taut cables i

@@ -8,7 +8,7 @@ use crate::trajectory::Stop;
 use crate::{State, StopRules, System, TautSet};
 
 /// A start's gap counts as closed within this of zero, and its normal velocity as zero
-/// (MODEL.md section 5).
+/// (docs/model.md section 5).
 pub const START_TOLERANCE: f64 = 1e-9;
 
 /// Why a start is not legal.

@@ -18,7 +18,7 @@ pub struct System<T = f64> {
 }
 
 impl<T: Real> System<T> {
-    /// The breakwater of MODEL.md section 2: weight 1, anchors at (±1, h + b), fairleads at
+    /// The breakwater of docs/model.md section 2: weight 1, anchors at (±1, h + b), fairleads at
     /// (±a, b) on the body, cables of length r, forced along an ellipse.
     ///
     /// h = sqrt(r² − (1 − a)²), so that both cables are taut at x = y = θ = 0; r > |1 − a|.
@@ -48,7 +48,7 @@ impl<T: Real> System<T> {
         (0..self.cables.len().min(MAX_CABLES)).collect()
     }
 
-    /// Energy: kinetic, and potential in the constant force (MODEL.md section 1: unit F L).
+    /// Energy: kinetic, and potential in the constant force (docs/model.md section 1: unit F L).
     pub fn energy(&self, state: &State<T>) -> T {
         let translation = state.vx.squared() + state.vy.squared();
         let rotation = self.body.inertia() * state.vtheta.squared();
@@ -71,7 +71,7 @@ impl<T: Real> System<T> {
     }
 
     /// Acceleration along the normal that a cable of zero gap would see if no cable pulled:
-    /// n·f + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (MODEL.md section 6).
+    /// n·f + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
     pub fn free_normal_acceleration(&self, cable: usize, state: &State<T>, force: [T; 2]) -> T {
         let tether = &self.cables[cable];
         let (sine, cosine) = state.theta.sin_cos();
@@ -93,7 +93,7 @@ pub fn anchor_height<T: Real>(r: T, a: T) -> T {
 }
 
 impl<T: Real> Shape<T> {
-    /// The outline that MODEL.md section 2 gives half-sizes a and b: a circle of radius a where
+    /// The outline that docs/model.md section 2 gives half-sizes a and b: a circle of radius a where
     /// b = 0, else a rectangle.
     pub fn of_half_sizes(a: T, b: T) -> Self {
         if b > T::ZERO {

@@ -6,7 +6,7 @@ use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
 /// The set of cables that are taut from now on, among closed ones without normal velocity, by the
-/// complementarity problem on accelerations (MODEL.md section 6):
+/// complementarity problem on accelerations (docs/model.md section 6):
 ///
 /// ```text
 /// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T

@@ -110,7 +110,7 @@ fn grazes_are_neither_missed_nor_invented() {
                 "{id}: {t_error:e} at v_n = {v_n:e}"
             );
         }
-        // The touch at 1e-13 has v_n < 1e-6 without tension: the flight goes on (MODEL.md section 6),
+        // The touch at 1e-13 has v_n < 1e-6 without tension: the flight goes on (docs/model.md section 6),
         // where the file stops by the bare rule.
         assert_eq!(run.end().reason, Stop::RotationLimit, "{id}");
         if case["end"]["kind"] == "rotation_limit" {

@@ -1,4 +1,4 @@
-//! What the chapter reports and MODEL.md section 9 lists as evidence for the model's conventions.
+//! What the chapter reports and docs/model.md section 9 lists as evidence for the model's conventions.
 //!
 //! Only outcomes decided before double precision is exhausted are held to numbers; the rest to their
 //! kind.
@@ -139,7 +139,7 @@ fn the_standard_case_begins_as_known() {
 }
 
 /// Chapter 6.5.1.2. It slides with the left cable taut, strikes the other boundary and leaves the first
-/// there, slides again with further hits, and rocks (MODEL.md section 9: from 8.762 and 8.876). The
+/// there, slides again with further hits, and rocks (docs/model.md section 9: from about 8.76 and 8.876). The
 /// bounces after 8.008 multiply what the last bits and v_stick leave open to about 0.02, as a scan over
 /// v_stick shows, so no more than that is asked of the last two times.
 #[test]

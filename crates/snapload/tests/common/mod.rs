@@ -5,7 +5,7 @@ use serde_json::Value;
 use snapload::{Body, Harmonic, Shape, Simulation, State, StopRules, System, Trajectory};
 use std::f64::consts::FRAC_PI_2;
 
-/// The breakwater of MODEL.md, with everything that its cases vary.
+/// The breakwater of docs/model.md, with everything that its cases vary.
 #[derive(Clone, Copy, Debug)]
 pub struct Breakwater {
     pub r: f64,

@@ -1,0 +1,78 @@
+//! The documents say what is.
+
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(root().join(path)).expect(path)
+}
+
+/// Every file that the tree of ARCHITECTURE.md names is there, and every source of the library is named.
+#[test]
+fn the_architecture_is_true() {
+    let text = read("ARCHITECTURE.md");
+    let tree = text.split("```").nth(1).expect("a tree");
+    let mut folder = String::new();
+    let mut named = Vec::new();
+    for line in tree
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with("text"))
+    {
+        let name = line.split_whitespace().next().expect("a name");
+        if name.ends_with('/') && !line.starts_with(' ') {
+            folder = name.to_string();
+            assert!(root().join(name).is_dir(), "{name}");
+        } else if name.ends_with(".rs") {
+            let path = format!("{folder}src/{name}");
+            assert!(root().join(&path).is_file(), "{path}");
+            named.push(name.to_string());
+        } else if !line.starts_with(' ') {
+            assert!(root().join(name).exists(), "{name}");
+        }
+    }
+    for entry in std::fs::read_dir(root().join("crates/snapload/src")).expect("sources") {
+        let name = entry
+            .expect("a file")
+            .file_name()
+            .to_string_lossy()
+            .into_owned();
+        assert!(
+            named.contains(&name),
+            "ARCHITECTURE.md does not name {name}"
+        );
+    }
+}
+
+/// Links between the documents lead somewhere.
+#[test]
+fn links_lead_somewhere() {
+    let documents = [
+        "README.md",
+        "ARCHITECTURE.md",
+        "CONTRIBUTING.md",
+        "docs/README.md",
+    ];
+    let pages = std::fs::read_dir(root().join("docs")).expect("docs");
+    let pages = pages.filter_map(|page| {
+        let name = page.ok()?.file_name().to_string_lossy().into_owned();
+        name.ends_with(".md").then(|| format!("docs/{name}"))
+    });
+    for document in documents.map(str::to_owned).into_iter().chain(pages) {
+        let text = read(&document);
+        let folder = root().join(&document);
+        let folder = folder.parent().expect("a folder");
+        for target in text
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| rest.split(')').next())
+        {
+            if !target.starts_with("http") {
+                let file = target.split('#').next().unwrap_or_default();
+                assert!(folder.join(file).exists(), "{document} links to {target}");
+            }
+        }
+    }
+}
