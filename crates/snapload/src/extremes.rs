@@ -29,6 +29,13 @@ impl<T: Real> Extremes<T> {
         s: T,
         [up, y_bend, theta_bend]: [T; 3],
     ) {
+        let (first, last) = (state(T::ZERO), state(s));
+        let bulge = s * s * 0.125;
+        let y = first.y.max(last.y) + y_bend * bulge;
+        let theta = first.theta.abs().max(last.theta.abs()) + theta_bend * bulge;
+        if y <= self.y_max && theta <= self.theta_max {
+            return;
+        }
         let height = |s: T| {
             let now = state(s);
             (now.y, now.vy)

@@ -93,18 +93,19 @@ impl<T: Real> Polynomial<T> {
 
 /// Σ a_j b_{k−j}, the k-th coefficient of a product.
 pub(crate) fn convolve<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
-    let mut sum = T::ZERO;
-    for j in 0..=k {
-        sum += a[j] * b[k - j];
-    }
-    sum
+    sum_of_products(&a.0[..=k], &b.0[..=k])
 }
 
 /// The same without a_0 b_k: what is known of it while b_k is sought.
 pub(crate) fn convolve_tail<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
+    sum_of_products(&a.0[1..=k], &b.0[..k])
+}
+
+/// The first list's entries times the second's in reverse, summed in the order of the first.
+fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sum = T::ZERO;
-    for j in 1..=k {
-        sum += a[j] * b[k - j];
+    for (x, y) in a.iter().zip(b.iter().rev()) {
+        sum += *x * *y;
     }
     sum
 }

@@ -38,6 +38,8 @@ const STILL: f64 = 1e-12;
 struct Line<T: Real> {
     lever: [Polynomial<T>; 2],
     span: [Polynomial<T>; 2],
+    /// Ṗ.
+    velocity: [Polynomial<T>; 2],
     normal: [Polynomial<T>; 2],
     arm: Polynomial<T>,
     /// n·ρ.
@@ -57,7 +59,8 @@ pub(crate) struct Series<T: Real> {
     theta: Polynomial<T>,
     sine: Polynomial<T>,
     cosine: Polynomial<T>,
-    /// θ̇².
+    /// θ̇ and θ̇².
+    theta_rate: Polynomial<T>,
     spin: Polynomial<T>,
     force: [Polynomial<T>; 2],
     lines: Vec<Line<T>>,
@@ -82,6 +85,7 @@ impl<T: Real> Series<T> {
             theta: Polynomial::default(),
             sine: Polynomial::default(),
             cosine: Polynomial::default(),
+            theta_rate: Polynomial::default(),
             spin: Polynomial::default(),
             force: [Polynomial::default(); 2],
             lines: vec![Line::default(); cables],
@@ -121,7 +125,8 @@ impl<T: Real> Series<T> {
         }
         for k in 0..ORDER - 1 {
             self.extend_rotation(k + 1);
-            self.spin[k] = convolve_rates(&self.theta, k);
+            self.theta_rate[k] = self.theta[k + 1] * (k + 1) as f64;
+            self.spin[k] = convolve(&self.theta_rate, &self.theta_rate, k);
             for line in 0..self.cables {
                 self.extend_geometry(system, line, k + 1);
             }
@@ -175,6 +180,9 @@ impl<T: Real> Series<T> {
         for i in 0..2 {
             line.lever[i][k] = lever[i];
             line.span[i][k] = centre[i] + lever[i];
+            if k > 0 {
+                line.velocity[i][k - 1] = line.span[i][k] * k as f64;
+            }
         }
     }
 
@@ -234,7 +242,8 @@ impl<T: Real> Series<T> {
         let line = &self.lines[cable];
         let push = convolve(&line.normal[0], &self.force[0], k)
             + convolve(&line.normal[1], &self.force[1], k);
-        let speed = convolve_rates(&line.span[0], k) + convolve_rates(&line.span[1], k);
+        let [u, v] = &line.velocity;
+        let speed = convolve(u, u, k) + convolve(v, v, k);
         let centripetal = convolve(&self.spin, &line.reach, k);
         push + speed / system.cables[cable].length() - centripetal
     }
@@ -383,13 +392,4 @@ impl<T: Real> Watched<T> for Series<T> {
             jets.push(self.jet(Watch::Top, top, ORDER - 1, s));
         }
     }
-}
-
-/// The k-th coefficient of (ṗ)².
-fn convolve_rates<T: Real>(p: &Polynomial<T>, k: usize) -> T {
-    let mut sum = T::ZERO;
-    for j in 0..=k {
-        sum += p[j + 1] * p[k - j + 1] * ((j + 1) * (k - j + 1)) as f64;
-    }
-    sum
 }
