@@ -28,6 +28,18 @@ pub(crate) struct Input {
     pub(crate) name: String,
     /// The case, checked.
     pub(crate) case: Case,
+    entries: Vec<Entry>,
+}
+
+impl Input {
+    /// The same case with one key changed; what follows from it, such as the inertia, follows anew.
+    pub(crate) fn with(&self, key: &str, value: Value) -> Result<Parameters, CaseError> {
+        let given = self
+            .entries
+            .iter()
+            .map(|e| (e.key.as_str(), e.value.clone()));
+        Parameters::from_entries(given.chain([(key, value)]))
+    }
 }
 
 /// A key and its value, with the place it came from for the error messages.
@@ -56,7 +68,11 @@ impl CaseArgs {
             .map(|entry| (&entry.key, entry.value.clone()));
         let case = Parameters::from_entries(values).and_then(Case::new);
         let case = case.map_err(|error| located(&error, &entries))?;
-        Ok(Input { name, case })
+        Ok(Input {
+            name,
+            case,
+            entries,
+        })
     }
 }
 

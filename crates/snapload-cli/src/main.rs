@@ -2,8 +2,10 @@
 mod case_input;
 mod cases;
 mod completions;
+mod critical;
 mod failure;
 mod interrupt;
+mod json;
 mod keys;
 mod pictures;
 mod report;
@@ -29,6 +31,7 @@ Examples:
   snapload run --set f_o=0.5                   the same with a stronger force
   snapload run --case 2910001000-359           a built-in case (list: snapload cases)
   snapload run mooring.toml --out results      a case of your own, with tables and pictures
+  snapload critical --over e=0.5:1:11          critical force against restitution
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -36,6 +39,8 @@ Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 enum Verb {
     /// Run one case
     Run(run::Args),
+    /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
+    Critical(critical::Args),
     /// List the built-in cases
     Cases,
     /// Explain the keys of a case: meaning, default, what is allowed
@@ -48,6 +53,7 @@ fn main() -> ExitCode {
     interrupt::install();
     let result = match Cli::parse().verb {
         Verb::Run(args) => run::run(&args),
+        Verb::Critical(args) => critical::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
         Verb::Completions(args) => completions::run(&args),

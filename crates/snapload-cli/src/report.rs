@@ -4,7 +4,6 @@ use serde::{Serialize, Serializer};
 use snapload::{
     Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Stop, Trajectory, Value,
 };
-use std::io::{self, Write};
 
 /// Everything there is to say about a run.
 #[derive(Serialize)]
@@ -41,12 +40,6 @@ impl<'a> Report<'a> {
                 sampling,
             }),
         }
-    }
-
-    /// Writes it as one line of JSON.
-    pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        serde_json::to_writer(&mut *out, self)?;
-        writeln!(out)
     }
 }
 

@@ -1,13 +1,12 @@
 //! `snapload run`: one case, from its start to its end.
 use crate::case_input::{CaseArgs, Input};
 use crate::failure::{Failure, print};
+use crate::json::{Json, refuse_directory, to_line};
 use crate::pictures::pictures;
 use crate::report::{MOST_ROWS, Report, Sampling};
 use crate::stage::{Room, Stage};
 use crate::{summary, tables};
 use snapload::Trajectory;
-use std::fs::OpenOptions;
-use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -57,36 +56,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let report = Report::new(input.case.parameters(), &trajectory, sampling);
 
     if let Some((room, directory)) = outputs.directory.take() {
-        write_directory(
-            &mut outputs.stage,
-            room,
-            &directory,
-            &input,
-            &trajectory,
-            sampling,
-        )?;
-        outputs
-            .stage
-            .write(room, directory.join("run.json"), |out| report.write(out))?;
+        let stage = &mut outputs.stage;
+        write_directory(stage, room, &directory, &input, &trajectory, sampling)?;
+        stage.write(room, directory.join("run.json"), |out| {
+            to_line(&report, out)
+        })?;
     }
-    if let Json::File(room, path) = &outputs.json {
-        outputs
-            .stage
-            .write(*room, path.clone(), |out| report.write(out))?;
+    match outputs.json.write(outputs.stage, &report)? {
+        Some(written) => print(&summary::of(&input, &trajectory, &written)),
+        None => Ok(()),
     }
-    let mut written = outputs.stage.commit()?;
-    match outputs.json {
-        Json::Stdout => {
-            let mut out = BufWriter::new(io::stdout().lock());
-            return report
-                .write(&mut out)
-                .and_then(|()| out.flush())
-                .map_err(|error| Failure::write("standard output", &error));
-        }
-        Json::Device(path) => written.push(write_device(&report, path)?),
-        Json::None | Json::File(..) => {}
-    }
-    print(&summary::of(&input, &trajectory, &written))
 }
 
 /// A time step, as clap reads it.
@@ -116,25 +95,13 @@ struct Outputs {
     json: Json,
 }
 
-enum Json {
-    None,
-    Stdout,
-    File(Room, PathBuf),
-    /// Something that is no plain file, such as /dev/stdout or a pipe: written straight into.
-    Device(PathBuf),
-}
-
 /// The files of an output directory, without the pictures.
 const FILES: [&str; 4] = ["impacts.csv", "modes.csv", "motion.csv", "run.json"];
 
 impl Outputs {
     fn open(args: &Args) -> Result<Self, Failure> {
         let mut stage = Stage::default();
-        let json = match &args.json {
-            None => Json::None,
-            Some(path) if path.as_os_str() == "-" => Json::Stdout,
-            Some(path) => Self::open_json(&mut stage, path)?,
-        };
+        let json = Json::open(&mut stage, args.json.as_deref())?;
         let directory = match &args.out {
             None => None,
             Some(directory) => {
@@ -151,36 +118,6 @@ impl Outputs {
             json,
         })
     }
-
-    fn open_json(stage: &mut Stage, path: &Path) -> Result<Json, Failure> {
-        refuse_directory(path)?;
-        // A link is followed, so that what it points to is replaced and not the link.
-        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        if path.exists() && !path.is_file() {
-            return Ok(Json::Device(path));
-        }
-        let parent = path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        let room = stage.open(parent.unwrap_or(Path::new(".")))?;
-        Ok(Json::File(room, path))
-    }
-}
-
-fn refuse_directory(path: &Path) -> Result<(), Failure> {
-    if path.is_dir() {
-        let message = format!("can not write to {}: it is a directory", path.display());
-        return Err(Failure::BadInput(message));
-    }
-    Ok(())
-}
-
-fn write_device(report: &Report<'_>, path: PathBuf) -> Result<PathBuf, Failure> {
-    let file = OpenOptions::new().write(true).open(&path);
-    let mut out = BufWriter::new(file.map_err(|error| Failure::no_place(&path, &error))?);
-    let written = report.write(&mut out).and_then(|()| out.flush());
-    written.map_err(|error| Failure::write(path.display(), &error))?;
-    Ok(path)
 }
 
 fn write_directory(

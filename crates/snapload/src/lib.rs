@@ -22,6 +22,7 @@
 //! [`Case`] is the thesis's breakwater, described by [`Parameters`]. The engine below it takes any
 //! [`System`]: a body, a list of cables, a constant force and sinusoids.
 
+pub mod analysis;
 mod body;
 mod cable;
 mod case;

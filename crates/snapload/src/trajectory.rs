@@ -109,23 +109,13 @@ impl Trajectory {
             segments: Vec::new(),
             impacts: Vec::new(),
             modes: Vec::new(),
-            end: End {
-                reason: Stop::EndTime,
-                t: simulation.time(),
-                t_limit: None,
-                state: *simulation.state(),
-            },
+            end: End::of(&simulation),
             norms: Norms::default(),
         };
         while let Some(step) = simulation.step() {
             run.take(&step);
         }
-        run.end = End {
-            reason: simulation.stop().unwrap_or(Stop::EndTime),
-            t: simulation.time(),
-            t_limit: simulation.t_limit(),
-            state: *simulation.state(),
-        };
+        run.end = End::of(&simulation);
         run.segments.push(Segment {
             t: run.end.t,
             start: run.end.state,
@@ -194,8 +184,20 @@ impl Trajectory {
     }
 }
 
+impl End {
+    /// Of a simulation that has stopped.
+    pub(crate) fn of(simulation: &Simulation) -> Self {
+        Self {
+            reason: simulation.stop().unwrap_or(Stop::EndTime),
+            t: simulation.time(),
+            t_limit: simulation.t_limit(),
+            state: *simulation.state(),
+        }
+    }
+}
+
 impl Norms {
-    fn take(&mut self, impact: &Impact) {
+    pub(crate) fn take(&mut self, impact: &Impact) {
         self.rho1 = self.rho1.max(impact.v_n);
         self.rho3 += impact.v_n;
         if impact.t <= RHO2_UNTIL {

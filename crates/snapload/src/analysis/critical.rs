@@ -1,0 +1,166 @@
+//! The critical force: the smallest force amplitude at which the rotation limit or the upper bound is
+//! reached (chapter 6.4.2), and every other one that reaches it.
+
+use crate::analysis::Outcome;
+use crate::{Case, CaseError, Parameters, Stop, Value};
+use rayon::prelude::*;
+
+/// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceScan {
+    step: f64,
+    count: u32,
+}
+
+/// The most amplitudes of one scan.
+const MOST: f64 = 1e6;
+
+impl Default for ForceScan {
+    /// Hundredths up to 1.
+    fn default() -> Self {
+        Self {
+            step: 0.01,
+            count: 100,
+        }
+    }
+}
+
+impl ForceScan {
+    /// Steps of `step` up to `max`.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if `step` is not above 0, or `max` is below it or more than a million steps.
+    pub fn new(step: f64, max: f64) -> Result<Self, CaseError> {
+        let wrong =
+            |key, value, allowed: &str| Err(CaseError::value(key, Value::Number(value), allowed));
+        if !(step > 0.0 && step.is_finite()) {
+            return wrong("step", step, "a number above 0, such as 0.01");
+        }
+        // The last multiple may fall short of `max` by rounding.
+        let count = (max / step * (1.0 + 1e-12)).floor();
+        if !(1.0..=MOST).contains(&count) {
+            return wrong("max", max, "at least one step, and at most a million steps");
+        }
+        Ok(Self {
+            step,
+            count: count as u32,
+        })
+    }
+
+    /// The amplitudes. Where the step is one over a whole number, as 0.01 is, they are the doubles
+    /// nearest to its multiples, as one would write them.
+    pub fn amplitudes(self) -> impl Iterator<Item = f64> {
+        let inverse = (1.0 / self.step).round();
+        let whole = (inverse * self.step - 1.0).abs() < 1e-12;
+        (1..=self.count).map(move |k| {
+            if whole {
+                f64::from(k) / inverse
+            } else {
+                f64::from(k) * self.step
+            }
+        })
+    }
+}
+
+/// The first amplitude that exceeds, and how its run ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exceedance {
+    /// The critical force f_cr.
+    pub f_o: f64,
+    /// Which limit is reached.
+    pub reason: Stop,
+    /// When.
+    pub t: f64,
+}
+
+/// The answer of a scan over the force amplitude.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriticalForce {
+    /// The smallest amplitude that exceeds; none if none does.
+    pub first: Option<Exceedance>,
+    /// Every amplitude that exceeds, as intervals of neighbouring ones `[from, to]`. The set is no
+    /// interval: an amplitude above the critical one may settle.
+    pub exceeding: Vec<[f64; 2]>,
+}
+
+impl CriticalForce {
+    /// Runs the case at every amplitude of the scan, on all threads that there are.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if the case is not legal.
+    pub fn scan(parameters: &Parameters, scan: ForceScan) -> Result<Self, CaseError> {
+        let amplitudes: Vec<f64> = scan.amplitudes().collect();
+        let outcomes: Vec<(f64, Outcome)> = amplitudes
+            .into_par_iter()
+            .map(|f_o| {
+                let case = Case::new(Parameters { f_o, ..*parameters })?;
+                Ok((f_o, Outcome::of(&case)))
+            })
+            .collect::<Result<_, CaseError>>()?;
+        let first = outcomes.iter().find(|(_, outcome)| outcome.exceeds());
+        let exceeding = outcomes
+            .chunk_by(|a, b| a.1.exceeds() == b.1.exceeds())
+            .filter(|run| run[0].1.exceeds())
+            .map(|run| [run[0].0, run[run.len() - 1].0])
+            .collect();
+        Ok(Self {
+            first: first.map(|(f_o, outcome)| Exceedance {
+                f_o: *f_o,
+                reason: outcome.end.reason,
+                t: outcome.end.t,
+            }),
+            exceeding,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), CaseError> {
+        let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default())?;
+        let first = found.first.map(|first| (first.f_o, first.reason));
+        assert_eq!(first, Some((0.31, Stop::RotationLimit)));
+        let inside = |f_o: f64| {
+            found
+                .exceeding
+                .iter()
+                .any(|[a, b]| (*a..=*b).contains(&f_o))
+        };
+        assert!(inside(0.31) && inside(0.5) && !inside(0.4) && !inside(0.3));
+        Ok(())
+    }
+
+    #[test]
+    fn amplitudes_are_decimals() -> Result<(), CaseError> {
+        let all: Vec<f64> = ForceScan::default().amplitudes().collect();
+        assert_eq!((all.len(), all[56], all[99]), (100, 0.57, 1.0));
+        let fifths: Vec<f64> = ForceScan::new(0.3, 1.0)?.amplitudes().collect();
+        assert_eq!(fifths.len(), 3);
+        for (step, max) in [
+            (0.0, 1.0),
+            (-0.1, 1.0),
+            (f64::NAN, 1.0),
+            (0.1, 0.05),
+            (1e-9, 1.0),
+        ] {
+            assert!(ForceScan::new(step, max).is_err(), "{step} {max}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn none_may_exceed() -> Result<(), CaseError> {
+        let calm = Parameters {
+            e: 0.0,
+            a: 0.5,
+            inertia: Some(0.25),
+            ..Parameters::STANDARD
+        };
+        let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?)?;
+        assert_eq!((found.first, found.exceeding), (None, vec![]));
+        Ok(())
+    }
+}
