@@ -139,7 +139,7 @@ fn write_directory(
     stage.write(room, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
-    for picture in pictures(&input.name, &input.case, trajectory)? {
+    for picture in pictures(&input.name, trajectory)? {
         stage.write(room, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;

@@ -1,6 +1,7 @@
 //! Pictures of motions on cables, as SVG and PNG, fit for print.
 //!
-//! This crate knows axes, lines and letters, and no physics: it is handed points. Five functions
+//! This crate knows axes, lines and letters, and no physics: it is handed points, or a finished run
+//! ([`RunPlots`]) that tells it where they are. Five functions
 //! ([`trajectory`], [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a
 //! [`Plot`]; [`draw()`] puts one plot, or several over one another, on a [`Picture`] that gives
 //! itself as SVG and, from that very SVG, as PNG.
@@ -43,6 +44,7 @@ mod picture;
 mod place;
 mod plot;
 mod polyline;
+mod run;
 mod svg;
 mod text;
 
@@ -53,3 +55,4 @@ pub use picture::Picture;
 pub use plot::{
     Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
 };
+pub use run::RunPlots;

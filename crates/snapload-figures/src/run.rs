@@ -1,0 +1,209 @@
+//! The plots of a run: what of the motion goes into which.
+
+use crate::figures;
+use crate::{Leg, Mark, Mode, Plot, Point, Range};
+use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory};
+
+/// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
+const STEP: f64 = 0.01;
+const MOST_STEPS: f64 = 20_000.0;
+
+/// A run, sampled once for all its plots.
+#[derive(Clone, Debug)]
+pub struct RunPlots<'a> {
+    run: &'a Trajectory,
+    stretches: Vec<Stretch>,
+}
+
+/// A stretch of motion between two events, at the times at which it is drawn: its last one is just
+/// before the event at its end.
+#[derive(Clone, Debug)]
+struct Stretch {
+    taut: TautSet,
+    motion: Vec<Motion>,
+}
+
+impl Stretch {
+    fn points(&self, of: impl Fn(&Motion) -> Point) -> impl Iterator<Item = Point> {
+        self.motion.iter().map(of)
+    }
+}
+
+impl<'a> RunPlots<'a> {
+    /// Of a run.
+    pub fn new(run: &'a Trajectory) -> Self {
+        let mut playback = Playback::new(run);
+        let end = run.end().t;
+        let mut events: Vec<f64> = run.impacts().iter().map(|impact| impact.t).collect();
+        events.extend(run.modes().iter().map(|mode| mode.t_start));
+        events.push(end);
+        events.sort_by(f64::total_cmp);
+        events.dedup();
+        let step = STEP.max(end / MOST_STEPS);
+        let stretches = events.windows(2).map(|pair| {
+            let (from, to) = (pair[0], pair[1]);
+            let pieces = ((to - from) / step).ceil().max(1.0) as usize;
+            let inner = (0..pieces).map(|k| from + (to - from) * k as f64 / pieces as f64);
+            let times = inner.chain([to.next_down()]);
+            Stretch {
+                taut: playback.at(from).taut,
+                motion: times.map(|t| playback.at(t)).collect(),
+            }
+        });
+        let stretches = stretches.collect();
+        Self { run, stretches }
+    }
+
+    /// y against x, with the region's boundaries and the letters of chapter Figs 6.43 and 6.45: I start,
+    /// S sliding starts, R rocking starts, G the other boundary is struck while one cable is taut, E end;
+    /// each where it happens first.
+    pub fn trajectory(&self) -> Plot {
+        let mut legs: Vec<Leg> = Vec::new();
+        for stretch in &self.stretches {
+            let mode = match stretch.taut.len() {
+                0 => Mode::Slack,
+                1 => Mode::Sliding,
+                _ => Mode::Rocking,
+            };
+            let points = stretch.points(place);
+            match legs.last_mut() {
+                Some(leg) if leg.mode == mode => leg.points.extend(points),
+                _ => legs.push(Leg {
+                    mode,
+                    points: points.collect(),
+                }),
+            }
+        }
+        let boundaries = [0, 1].map(|cable| boundary(self.run, cable));
+        figures::trajectory(&legs, [&boundaries[0], &boundaries[1]], &self.marks())
+    }
+
+    /// θ against t.
+    pub fn rotation(&self) -> Plot {
+        self.from_zero(figures::rotation(
+            &self.points(|m| [m.t, m.state.theta]),
+            None,
+        ))
+    }
+
+    /// v_n⁻ against t.
+    pub fn snaps(&self) -> Plot {
+        let [first, second] = [0, 1].map(|cable| -> Vec<Point> {
+            let impacts = self.run.impacts().iter();
+            impacts
+                .filter(|impact| impact.cable == cable && impact.v_n > 0.0)
+                .map(|impact| [impact.t, impact.v_n])
+                .collect()
+        });
+        self.from_zero(figures::snap_velocities([&first, &second], None))
+    }
+
+    /// Tensions against t.
+    pub fn tensions(&self) -> Plot {
+        let [first, second] = [0, 1].map(|cable| self.tension_pieces(cable));
+        self.from_zero(figures::tensions([&first, &second], None))
+    }
+
+    /// Energy against t.
+    pub fn energy(&self) -> Plot {
+        self.from_zero(figures::energy(&self.points(|m| [m.t, m.energy]), None))
+    }
+
+    /// All five with their names.
+    pub fn all(&self) -> [(&'static str, Plot); 5] {
+        [
+            ("trajectory", self.trajectory()),
+            ("rotation", self.rotation()),
+            ("snaps", self.snaps()),
+            ("tensions", self.tensions()),
+            ("energy", self.energy()),
+        ]
+    }
+
+    fn points(&self, of: impl Fn(&Motion) -> Point) -> Vec<Point> {
+        self.stretches
+            .iter()
+            .flat_map(|stretch| stretch.points(&of))
+            .collect()
+    }
+
+    fn from_zero(&self, mut plot: Plot) -> Plot {
+        plot.x.range = Range::AtLeast(0.0, self.run.end().t);
+        plot
+    }
+
+    fn tension_pieces(&self, cable: usize) -> Vec<Vec<Point>> {
+        let mut pieces: Vec<Vec<Point>> = Vec::new();
+        let mut joined = false;
+        for stretch in &self.stretches {
+            let taut = stretch.taut.contains(cable);
+            if taut {
+                let points = stretch.points(|motion| [motion.t, motion.tensions[cable]]);
+                match pieces.last_mut() {
+                    Some(piece) if joined => piece.extend(points),
+                    _ => pieces.push(points.collect()),
+                }
+            }
+            joined = taut;
+        }
+        pieces
+    }
+
+    fn marks(&self) -> Vec<Mark> {
+        let run = self.run;
+        let starts = |taut: usize| {
+            let of_mode = |mode: &&ModeInterval| mode.taut.len() == taut;
+            let first = run.modes().iter().find(of_mode);
+            first.map(|mode| mode.t_start)
+        };
+        let struck_while_sliding = run.impacts().iter().find(|impact| {
+            let before = run.at(impact.t.next_down()).taut;
+            before.len() == 1 && !before.contains(impact.cable)
+        });
+        let letters = [
+            ("I", Some(0.0)),
+            ("S", starts(1)),
+            ("G", struck_while_sliding.map(|impact| impact.t)),
+            ("R", starts(2)),
+            ("E", Some(run.end().t)),
+        ];
+        let mark = |(letter, t): (&str, Option<f64>)| {
+            t.map(|t| Mark {
+                at: place(&run.at(t)),
+                letter: letter.to_owned(),
+            })
+        };
+        letters.into_iter().filter_map(mark).collect()
+    }
+}
+
+fn place(motion: &Motion) -> Point {
+    [motion.state.x, motion.state.y]
+}
+
+/// Where the centre is when a cable is taut with the body upright, from the lowest place of the region
+/// up to a little above the path.
+fn boundary(run: &Trajectory, cable: usize) -> Vec<Point> {
+    const POINTS: u32 = 200;
+    let Some(tether) = run.system().cables.get(cable) else {
+        return Vec::new();
+    };
+    let (anchor, fairlead) = (tether.anchor(), tether.fairlead());
+    let centre = [anchor[0] - fairlead[0], anchor[1] - fairlead[1]];
+    // The arc on the far side of the anchor, which passes through x = y = 0.
+    let outward = match centre[0] {
+        x if x > 0.0 => -1.0,
+        x if x < 0.0 => 1.0,
+        _ if cable == 0 => -1.0,
+        _ => 1.0,
+    };
+    let radius = tether.length();
+    let top = (1.15 * run.norms().y_max.max(0.05)).min(centre[1]);
+    (0..=POINTS)
+        .map(|k| {
+            let y = top * f64::from(k) / f64::from(POINTS);
+            let half = (radius * radius - (y - centre[1]).powi(2)).max(0.0).sqrt();
+            [centre[0] + outward * half, y]
+        })
+        .collect()
+}
