@@ -145,22 +145,16 @@ fn read_file(path: &Path) -> Result<Vec<Entry>, Failure> {
     let text = read_text(path)?;
     let shown = path.display();
     // Once for the values, once for the lines on which they stand.
-    let table: toml::Table = text.parse().map_err(|error: toml::de::Error| {
-        Failure::BadInput(format!("{shown}: {}", error.to_string().trim_end()))
-    })?;
+    let table: toml::Table = text
+        .parse()
+        .map_err(|error: toml::de::Error| malformed(path, &text, &error))?;
     let spans = toml::de::DeTable::parse(&text)
         .map(toml::Spanned::into_inner)
         .unwrap_or_default();
     let mut entries = Vec::new();
     for key in spans.keys() {
         let start = key.span().start;
-        let line = text
-            .bytes()
-            .take(start)
-            .filter(|byte| *byte == b'\n')
-            .count()
-            + 1;
-        let origin = format!("{shown}, line {line}");
+        let origin = format!("{shown}, line {}", line_of(&text, start));
         let Some(value) = table.get(key.get_ref().as_ref()) else {
             continue;
         };
@@ -178,6 +172,29 @@ fn read_file(path: &Path) -> Result<Vec<Entry>, Failure> {
     // In the order of the file, so that the first fault in it is the one reported.
     entries.sort_by_key(|(start, _)| *start);
     Ok(entries.into_iter().map(|(_, entry)| entry).collect())
+}
+
+/// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated, since
+/// it may be long, or hold what a terminal would obey.
+fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
+    let at = error.span().map_or(0, |span| span.start);
+    let line = line_of(text, at);
+    let before = text.get(..at).unwrap_or_default();
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    let said: String = error
+        .message()
+        .chars()
+        .filter(|c| !c.is_control())
+        .collect();
+    Failure::BadInput(format!(
+        "{}, line {line}, column {column}: {said}\nhint: a case file has one `key = value` a line, such as `f_o = 0.5`; \
+         words stand in quotes, and decimals have a point",
+        path.display()
+    ))
+}
+
+fn line_of(text: &str, at: usize) -> usize {
+    text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {

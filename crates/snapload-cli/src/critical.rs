@@ -2,9 +2,9 @@
 use crate::case_input::{CaseArgs, Input};
 use crate::failure::{Failure, print};
 use crate::json::Json;
+use crate::progress::Progress;
 use crate::report::reason;
 use crate::stage::Stage;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::analysis::{CriticalForce, ForceScan};
@@ -127,27 +127,19 @@ impl Many {
         });
         // All are checked before the first is run.
         let cases: Vec<_> = cases.collect::<Result<_, Failure>>()?;
-        let bar = progress(cases.len());
+        let mut progress = Progress::new("critical force", cases.len() as f64);
         let mut points = Vec::new();
         for (value, parameters) in over.values.iter().zip(&cases) {
             let found = CriticalForce::scan(parameters, scan)
                 .map_err(|error| Failure::BadInput(format!("--over: {error}")))?;
             points.push((*value, Row(found)));
-            bar.inc(1);
+            progress.show(points.len() as f64);
         }
-        bar.finish_and_clear();
         Ok(Self {
             key: over.key,
             points,
         })
     }
-}
-
-/// A bar with the time left, on standard error and only on a terminal.
-fn progress(length: usize) -> ProgressBar {
-    let bar = ProgressBar::new(length as u64);
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len}, {eta} left");
-    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// The shape of one answer in JSON.

@@ -1,4 +1,5 @@
-//! Ctrl-C: leave no scratch files, exit status 130.
+//! Ctrl-C, or a request to end: leave no scratch files, exit status 130.
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -39,6 +40,8 @@ impl Leftovers {
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
         leftovers().clear();
+        // Standard error may be closed; the status still tells.
+        let _ = writeln!(std::io::stderr(), "interrupted: nothing was written");
         std::process::exit(130);
     });
 }

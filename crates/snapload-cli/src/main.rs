@@ -8,6 +8,7 @@ mod interrupt;
 mod json;
 mod keys;
 mod pictures;
+mod progress;
 mod report;
 mod run;
 mod stage;

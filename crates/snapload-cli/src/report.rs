@@ -1,4 +1,5 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
+use crate::progress::Progress;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use snapload::{
@@ -262,10 +263,11 @@ struct MotionRows<'a> {
 impl Serialize for MotionRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut playback = Playback::new(self.trajectory);
-        let rows = self
-            .sampling
-            .times()
-            .map(|t| MotionRow::new(&playback.at(t)));
+        let mut progress = Progress::new("writing the motion", self.trajectory.end().t);
+        let rows = self.sampling.times().map(|t| {
+            progress.at(t);
+            MotionRow::new(&playback.at(t))
+        });
         serializer.collect_seq(rows)
     }
 }

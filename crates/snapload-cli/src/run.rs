@@ -3,6 +3,7 @@ use crate::case_input::{CaseArgs, Input};
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory, to_line};
 use crate::pictures::pictures;
+use crate::progress::Progress;
 use crate::report::{MOST_ROWS, Report, Sampling};
 use crate::stage::{Room, Stage};
 use crate::{summary, tables};
@@ -48,7 +49,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let input = args.case.read()?;
     let mut outputs = Outputs::open(args)?;
-    let trajectory = input.case.run();
+    let trajectory = simulate(&input);
     let sampling = args
         .sample
         .map(|dt| sampling(dt, &trajectory))
@@ -66,6 +67,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(written) => print(&summary::of(&input, &trajectory, &written)),
         None => Ok(()),
     }
+}
+
+fn simulate(input: &Input) -> Trajectory {
+    let mut progress = Progress::new("running", input.case.parameters().t_end);
+    Trajectory::record_watched(input.case.simulation(), |simulation| {
+        progress.at(simulation.time());
+    })
 }
 
 /// A time step, as clap reads it.
@@ -139,7 +147,7 @@ fn write_directory(
     stage.write(room, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
-    for picture in pictures(&input.name, trajectory)? {
+    for picture in pictures(&summary::case(input), trajectory)? {
         stage.write(room, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;

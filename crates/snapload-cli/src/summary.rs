@@ -1,6 +1,6 @@
 //! A run in a few lines, for a person.
 use crate::case_input::Input;
-use snapload::{Impact, Parameters, Stop, Trajectory, Value};
+use snapload::{Impact, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -50,7 +50,7 @@ impl Lines {
 }
 
 /// The name of the case, and where it differs from the standard one.
-fn case(input: &Input) -> String {
+pub(crate) fn case(input: &Input) -> String {
     let parameters = input.case.parameters();
     let differing: Vec<String> = parameters
         .entries()
@@ -84,13 +84,15 @@ fn end(trajectory: &Trajectory, parameters: &Parameters) -> String {
     let end = trajectory.end();
     let t = digits(end.t);
     match end.reason {
-        Stop::Settled => format!("settled at t = {t}: a cable stays taut below y = 0.05"),
+        Stop::Settled => format!("settled at t = {t}: taut below y = {SETTLING_HEIGHT}"),
         Stop::RotationLimit => format!("rotation limit at t = {t}: |theta| reached pi/2"),
         Stop::UpperBound => {
             format!("upper bound at t = {t}: the body reached the level of the anchors")
         }
         Stop::SlidingStart => {
-            format!("sliding starts at t = {t}: a cable stays taut at or above y = 0.05")
+            format!(
+                "sliding starts at t = {t}: a cable stays taut at or above y = {SETTLING_HEIGHT}"
+            )
         }
         Stop::EndTime => format!("end of the time asked for, t = {t}"),
         Stop::ImpactLimit => {
@@ -154,7 +156,11 @@ fn modes(lines: &mut Lines, trajectory: &Trajectory) {
             (count > 0).then(|| format!("{name} {} in {count} interval{plural}", digits(time)))
         })
         .collect();
-    lines.add("Modes", &sums.join(", "));
+    if sums.is_empty() {
+        lines.add("Modes", "none: the run ended where it started");
+    } else {
+        lines.add("Modes", &sums.join(", "));
+    }
     if (2..=FEW_MODES).contains(&intervals.len()) {
         for interval in intervals {
             let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();

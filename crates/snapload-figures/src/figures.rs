@@ -53,8 +53,9 @@ impl Mode {
     fn stroke(self) -> Stroke {
         let (colour, width_pt, dash) = match self {
             Self::Slack => (Colour::Black, 0.5, Dash::Solid),
-            Self::Sliding => (Colour::Blue, 1.3, Dash::Solid),
-            Self::Rocking => (Colour::Vermilion, 1.3, Dash::Dashed),
+            Self::Sliding => (Colour::Blue, 1.8, Dash::Solid),
+            // Solid: rocking goes over its own path, which would fill the gaps of a dashed line.
+            Self::Rocking => (Colour::Vermilion, 1.0, Dash::Solid),
             Self::BeyondHorizon => (Colour::SkyBlue, 0.5, Dash::Solid),
         };
         Stroke {
@@ -160,7 +161,7 @@ pub fn tensions(cables: [&[Vec<Point>]; 2], horizon: Option<f64>) -> Plot {
     layers.push(line(cables[1].to_vec(), CABLE_2, "cable 2"));
     let y = axis("*T* (nondimensional)", Range::AtLeast(0.0, 0.0));
     let plot = over_time("Tension of each cable against time", y, layers);
-    noted_if_empty(plot, "no cable was taut for a length of time")
+    noted_if_empty(plot, "no cable stayed taut")
 }
 
 /// The energy against time; a snap is two points at one time. For `horizon` see [`rotation`].

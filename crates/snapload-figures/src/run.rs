@@ -7,6 +7,8 @@ use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory};
 /// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
 const STEP: f64 = 0.01;
 const MOST_STEPS: f64 = 20_000.0;
+/// Shorter pieces than this are of no use to the eye.
+const SHORTEST: f64 = 2e-3;
 
 /// A run, sampled once for all its plots.
 #[derive(Clone, Debug)]
@@ -42,7 +44,9 @@ impl<'a> RunPlots<'a> {
         let step = STEP.max(end / MOST_STEPS);
         let stretches = events.windows(2).map(|pair| {
             let (from, to) = (pair[0], pair[1]);
-            let pieces = ((to - from) / step).ceil().max(1.0) as usize;
+            // A flight is a curve however long the run; the shortest ones are not seen as such.
+            let curved = ((to - from) / SHORTEST).ceil().min(16.0);
+            let pieces = ((to - from) / step).ceil().max(curved).max(1.0) as usize;
             let inner = (0..pieces).map(|k| from + (to - from) * k as f64 / pieces as f64);
             let times = inner.chain([to.next_down()]);
             Stretch {
@@ -156,8 +160,9 @@ impl<'a> RunPlots<'a> {
             let first = run.modes().iter().find(of_mode);
             first.map(|mode| mode.t_start)
         };
+        let mut playback = Playback::new(run);
         let struck_while_sliding = run.impacts().iter().find(|impact| {
-            let before = run.at(impact.t.next_down()).taut;
+            let before = playback.at(impact.t.next_down()).taut;
             before.len() == 1 && !before.contains(impact.cable)
         });
         let letters = [

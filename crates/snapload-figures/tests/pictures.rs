@@ -154,10 +154,7 @@ fn every_figure_contains_its_labels() {
 
 #[test]
 fn empty_figures_say_so() {
-    assert_says(
-        tensions([&[], &[]], None),
-        &["no cable was taut for a length of time"],
-    );
+    assert_says(tensions([&[], &[]], None), &["no cable stayed taut"]);
     assert_says(
         snap_velocities([&[], &[]], Some(1.0)),
         &["no cable snapped taut"],

@@ -95,31 +95,33 @@ fn start(p: &Parameters) -> State {
 
 /// An illegal start in the words of the case's keys.
 fn explain(error: StartError, p: &Parameters) -> CaseError {
-    let wrong = |key, value, allowed: String| CaseError::value(key, Value::Number(value), allowed);
     match error {
         StartError::CableTooShort { cable, gap } => {
             let over = p.r * ((1.0 + gap / (p.r * p.r)).sqrt() - 1.0);
-            let place = format!("x = {}, theta = {}", p.x, p.theta);
             let allowed = format!(
-                "a start within reach of both cables (g <= 1e-9); at {place}, cable {} would have \
-                 to be longer by {over:.3e} (its gap is g = {gap:.6e})",
+                "a start within reach of both cables; cable {} would have to be {over:.3} longer \
+                 (its gap is g = {gap:.3e}, and g <= 1e-9 is allowed)",
                 cable + 1
             );
-            wrong("y", p.y, allowed).with_hint("raise y, or move x and theta towards 0")
+            let hint = "raise y, or move x and theta towards 0";
+            CaseError::value("x, y, theta", place(p), allowed).with_hint(hint)
         }
         StartError::AboveUpperBound { top, level } => {
             let allowed = format!(
                 "a body below the upper bound y = {level:.6}; its highest point is at y = {top:.6}"
             );
-            wrong("y", p.y, allowed).with_hint("lower y")
+            CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
         }
-        StartError::BeyondRotationLimit => wrong(
-            "theta",
-            p.theta,
-            "-pi/2 <= theta <= pi/2, the rotation limit".to_owned(),
-        ),
-        StartError::NotFinite | StartError::TooManyCables => {
-            wrong("y", p.y, "a finite start".to_owned())
+        StartError::BeyondRotationLimit => {
+            let allowed = "-pi/2 <= theta <= pi/2, the rotation limit";
+            CaseError::value("theta", Value::Number(p.theta), allowed)
+        }
+        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
+            CaseError::value("x, y, theta", place(p), "a finite start")
         }
     }
+}
+
+fn place(p: &Parameters) -> String {
+    format!("{}, {}, {}", p.x, p.y, p.theta)
 }

@@ -11,7 +11,7 @@
 //! so f has no zero before the first root of U, and the search steps just there. Near a simple zero
 //! U differs from f by a third-order term, so the steps converge cubically, always from the safe
 //! side; above a graze that just misses, U stays negative once the step is short enough, and the
-//! search walks past. Cables open at the start of the search (a cable just struck, or released) enter
+//! search walks past. Cables closed at the start of the search (just struck, or released) enter
 //! with f = 0 *known*, not evaluated, so no tolerance or waiting time keeps them from being found
 //! again at once.
 
@@ -46,7 +46,8 @@ pub(crate) struct Jet<T> {
     pub(crate) fourth: T,
     /// Bound on the rounding error of `value`, the motion taken as exact.
     pub(crate) noise: T,
-    /// What the rounding of the velocities at the motion's start may change `value` by.
+    /// What the rounding of the velocities at the motion's start may change `value` by; for a function at
+    /// rest, what counts as zero.
     pub(crate) blur: T,
     /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is f⃛.
     pub(crate) resting: bool,
@@ -138,10 +139,6 @@ impl Reached {
     }
 }
 
-/// A function at rest on zero may be stepped over while it provably stays below this: it keeps the
-/// search moving through a touch of higher order than the bound resolves.
-const HARMLESS: f64 = 1e-15;
-
 /// The first instant in (0, horizon] at which a watched function reaches zero from below, or `None`.
 ///
 /// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of location
@@ -175,7 +172,6 @@ pub(crate) fn first_crossing<T: Real>(
 fn located<T: Real>(jets: &Jets<T>, s: T) -> Option<Crossing<T>> {
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
     let touches = |jet: &&Jet<T>| jet.rate > T::ZERO && jet.value >= -jet.noise;
-    jets.iter().find(touches)?;
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
     let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
     let first = jets
@@ -254,7 +250,9 @@ fn safe_step_from_rest<T: Real>(jet: &Jet<T>, limit: T) -> T {
     };
     let bound = |step: T| (a + (b + c * step) * step) * step * step;
     let mut harmless = limit;
-    while bound(harmless) > T::from_f64(HARMLESS) {
+    // While the function provably stays within a rounding of zero it may be stepped over: this keeps the
+    // search moving through a touch of higher order than the bound resolves.
+    while bound(harmless) > jet.blur {
         harmless = harmless * 0.5;
     }
     root.max(harmless).min(limit)
@@ -282,7 +280,8 @@ fn parabola_root<T: Real>(f: T, rate: T, accel: T) -> Option<T> {
 /// The first root in (0, reach] of U(σ) = f + ḟσ + f̈σ²/2 + kσ³/6 with f ≤ 0 ≤ k, or `reach`.
 ///
 /// U is concave up to its turning point −f̈/k and convex after it. On the concave side Newton's
-/// iteration from the left, on the convex side from the right, is monotone: neither passes the root.
+/// iteration from the left, on the convex side from the right, is monotone: neither passes the root in
+/// exact arithmetic, and a rounding past it is what `noise` allows for.
 fn cubic_root<T: Real>(f: T, rate: T, accel: T, k: T, reach: T) -> T {
     let value = |s: T| ((k * s * (1.0 / 6.0) + accel * 0.5) * s + rate) * s + f;
     let slope = |s: T| (k * s * 0.5 + accel) * s + rate;

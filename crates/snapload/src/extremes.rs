@@ -10,7 +10,7 @@ pub(crate) struct Extremes<T> {
     pub(crate) theta_max: T,
 }
 
-/// How exactly a maximum between two events is found: the square of this is what position is worth.
+/// A maximum between two events is known to this; its place, where the motion is flat, to the root of it.
 const RESOLUTION: f64 = 1e-15;
 
 impl<T: Real> Extremes<T> {
@@ -69,8 +69,7 @@ fn search<T: Real>(
     record: &mut T,
 ) {
     let width = right.0 - left.0;
-    // No maximum inside where the function falls throughout, or where it still rises at the end for
-    // having risen throughout.
+    // No maximum inside if the rate stays negative throughout, or positive throughout.
     if left.1.1 + up.max(T::ZERO) * width <= T::ZERO
         || right.1.1 - up.max(T::ZERO) * width >= T::ZERO
     {

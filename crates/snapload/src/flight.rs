@@ -24,7 +24,7 @@ struct Tether<T> {
     gap_error: T,
     resting: bool,
     length: T,
-    /// |Ṗ|, at the start or just before the event there.
+    /// The larger of |Ṗ| at the start and a bound on it just before the event there.
     speed: T,
     /// Bounds on |P̈|, |P⃛|, |P⁗| over the flight.
     bounds: [T; 3],
@@ -56,7 +56,7 @@ pub(crate) struct Flight<T> {
 /// The centre and the rotation at one instant of a flight.
 struct Instant<T> {
     push: Push<T>,
-    /// cos δ and sin δ, less their value and slope at δ = θ̇s = 0.
+    /// 1 − cos δ and δ − sin δ of the turn δ = θ̇s.
     chord: [T; 2],
     cosine_turn: T,
     sine_turn: T,
@@ -257,6 +257,7 @@ impl<T: Real> Flight<T> {
         let speed = length(tether.velocity) + a;
         Jet {
             resting: true,
+            blur: tether.length.squared() * T::EPSILON * 4.0,
             jerk: (dot(tether.velocity, accel) * 3.0 + dot(tether.span, jerk)) * 2.0,
             fourth: (a * a * 3.0 + speed * j * 4.0 + tether.length * k) * 2.0,
             ..jet

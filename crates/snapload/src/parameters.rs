@@ -1,6 +1,6 @@
 //! The values that make a case: a plain struct, its defaults, and the check at the border.
 use crate::error::CaseError;
-use crate::schema::{KEYS, check_entry};
+use crate::schema::{KEYS, LIGHTEST, check_entry};
 use crate::value::Value;
 
 /// What hangs on the cables.
@@ -208,15 +208,22 @@ impl Parameters {
     }
 
     fn check_rigid(&self) -> Result<(), CaseError> {
-        if self.inertia.is_some() {
+        let (a, b) = (Value::Number(self.a), Value::Number(self.b));
+        let Some(inertia) = self.inertia else {
+            let allowed = format!(
+                "a number, 1e-12 <= inertia <= 1e6, as a = {a} and b = {b} give a rigid body none"
+            );
+            let error = CaseError::value("inertia", "(left out)", allowed);
+            return Err(
+                error.with_hint("give inertia, or a size a or b, or choose body = \"point\"")
+            );
+        };
+        let least = LIGHTEST * (self.a * self.a + self.b * self.b);
+        if inertia >= least {
             return Ok(());
         }
-        let (a, b) = (Value::Number(self.a), Value::Number(self.b));
-        let allowed = format!(
-            "a number, 1e-12 <= inertia <= 1e12, as a = {a} and b = {b} give a rigid body none"
-        );
-        let error = CaseError::value("inertia", "(left out)", allowed);
-        Err(error.with_hint("give inertia, or a size a or b, or choose body = \"point\""))
+        let allowed = format!("inertia >= 1e-6 (a^2 + b^2) = {least:e} (a = {a}, b = {b})");
+        Err(CaseError::value("inertia", Value::Number(inertia), allowed))
     }
 }
 

@@ -4,12 +4,17 @@ use crate::error::CaseError;
 use crate::parameters::{BodyKind, Parameters};
 use crate::value::Value;
 
-/// Largest magnitude of a number in a case: beyond it rounding has eaten what a run could tell.
-const LARGEST: f64 = 1e6;
+/// Largest magnitude of a number in a case, in units in which all that matters is near 1.
+const LARGEST: f64 = 1e3;
+/// Latest end of a run.
+const LONGEST: f64 = 1e6;
 /// Largest moment of inertia: a^2 at the largest a, so that each derived value may be given too.
-const LARGEST_INERTIA: f64 = 1e12;
-/// Smallest moment of inertia: a body that turns under 1e6 times as fast as it moves.
+const LARGEST_INERTIA: f64 = 1e6;
+/// Smallest moment of inertia; see also [`LIGHTEST`].
 const LEAST_INERTIA: f64 = 1e-12;
+/// A moment of inertia may be this part of a^2 + b^2 and no less: a lighter body would turn a thousand
+/// times faster than it moves.
+pub(crate) const LIGHTEST: f64 = 1e-6;
 
 /// Below this y a cable that sticks, or two that are taut, settle the run (chapter 6.3.1).
 pub const SETTLING_HEIGHT: f64 = 0.05;
@@ -84,6 +89,11 @@ const POSITIVE: Kind = Kind::Number {
     low_included: false,
     high: LARGEST,
 };
+const DURATION: Kind = Kind::Number {
+    low: 0.0,
+    low_included: false,
+    high: LONGEST,
+};
 const INERTIA: Kind = Kind::Number {
     low: LEAST_INERTIA,
     low_included: true,
@@ -101,7 +111,7 @@ const STICKING: Kind = Kind::Number {
 };
 const IMPACTS: Kind = Kind::Count {
     low: 1,
-    high: 1_000_000_000,
+    high: 10_000_000,
 };
 
 /// Short form of a row whose symbol, conditions and default need no words.
@@ -153,7 +163,7 @@ pub static KEYS: &[Key] = &[
     key("b", "L", SIZE, Slot::Number(|p| &mut p.b), "half-height of the body; 0 is the circle")
         .default_in_words("0"),
     key("inertia", "m L^2", INERTIA, Slot::MaybeNumber(|p| &mut p.inertia), "moment of inertia")
-        .symbol("I").also("never given for a point mass")
+        .symbol("I").also("at least 1e-6 (a^2 + b^2); never given for a point mass")
         .default_in_words("a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle)"),
     key("f_o", "F", ANY, Slot::Number(|p| &mut p.f_o), "force amplitude: f_x = f_o cos(omega t)"),
     key("nu", "1", ANY, Slot::Number(|p| &mut p.nu),
@@ -169,7 +179,7 @@ pub static KEYS: &[Key] = &[
     key("vy", "L/T", ANY, Slot::Number(|p| &mut p.vy), "start: vertical velocity").symbol("ẏ"),
     key("vtheta", "rad/T", ANY, Slot::Number(|p| &mut p.vtheta), "start: angular velocity")
         .symbol("θ̇").also("0 for a point mass"),
-    key("t_end", "T", POSITIVE, Slot::Number(|p| &mut p.t_end), "the run ends here at the latest"),
+    key("t_end", "T", DURATION, Slot::Number(|p| &mut p.t_end), "the run ends here at the latest"),
     key("v_stick", "L/T", STICKING, Slot::Number(|p| &mut p.v_stick),
         "a slower snap makes the cable stay taut if its tension would be positive"),
     key("stop_when_settled", "", Kind::Flag, Slot::Flag(|p| &mut p.stop_when_settled),

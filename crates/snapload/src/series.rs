@@ -20,7 +20,7 @@
 //! some hundred lines of plain arithmetic, gives the same bits everywhere, and does not allocate.
 //! Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
 
-use crate::complementarity::solve;
+use crate::complementarity::{PerCable, solve};
 use crate::contact::{Contact, Contacts};
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
@@ -67,6 +67,8 @@ pub(crate) struct Series<T: Real> {
     /// W_ij of taut cables, symmetric: entry (i, j) with i ≤ j.
     coupling: Vec<Polynomial<T>>,
     contacts: Contacts<T>,
+    /// A gap below this counts as zero while its cable rests.
+    touch: PerCable<T>,
     tops: [Polynomial<T>; 4],
     tops_count: usize,
     rotation_limit: Option<T>,
@@ -91,6 +93,7 @@ impl<T: Real> Series<T> {
             lines: vec![Line::default(); cables],
             coupling: vec![Polynomial::default(); cables * cables],
             contacts: [Contact::CLOSED; MAX_CABLES],
+            touch: [T::ZERO; MAX_CABLES],
             tops: [Polynomial::default(); 4],
             tops_count: 0,
             rotation_limit,
@@ -110,6 +113,9 @@ impl<T: Real> Series<T> {
     ) {
         self.taut = taut;
         self.contacts = *contacts;
+        for (cable, tether) in system.cables.iter().enumerate() {
+            self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
+        }
         self.expand_force(system, t);
         (self.x[0], self.x[1]) = (start.x, start.vx);
         (self.y[0], self.y[1]) = (start.y, start.vy);
@@ -360,6 +366,7 @@ impl<T: Real> Series<T> {
         }
         Jet {
             noise: contact.error,
+            blur: self.touch[cable],
             resting: contact.resting,
             jerk: gap[3] * 6.0,
             fourth: if contact.resting {

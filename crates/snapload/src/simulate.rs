@@ -5,19 +5,19 @@ use crate::event::{Crossing, Jets, Reached, first_crossing};
 use crate::extremes::Extremes;
 use crate::flight::Flight;
 use crate::impact::{Shock, impact};
-use crate::real::Real;
+use crate::real::{Real, length};
 use crate::series::Series;
 use crate::start::{self, StartError};
 use crate::taut::{normal_acceleration, project_position, project_velocity, taut_next};
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
 
-/// A taut cable that an impulse neither loads nor unloads keeps its zero normal velocity up to this
-/// much rounding \[L/T\].
-const UNMOVED: f64 = 1e-14;
+/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
+/// an impulse neither loads nor unloads.
+const UNMOVED: f64 = 64.0;
 
 /// So many instants of impact in a row on the same cables count as a converging series.
-const SERIES: u32 = 5;
+const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
@@ -39,6 +39,8 @@ pub struct Simulation<T: Real = f64> {
     jets: Jets<T>,
     extremes: Extremes<T>,
     impacts: u64,
+    /// Steps of no length since time last moved on.
+    standstill: u64,
     last: LastImpacts<T>,
     stop: Option<Stop>,
     t_limit: Option<T>,
@@ -122,6 +124,7 @@ impl<T: Real> Simulation<T> {
             taut: start.taut,
             contacts: start.contacts,
             impacts: 0,
+            standstill: 0,
             last: LastImpacts {
                 cables: TautSet::SLACK,
                 v_n: T::ZERO,
@@ -183,6 +186,7 @@ impl<T: Real> Simulation<T> {
         self.advance(&crossing);
         self.before = self.state;
         let shock = self.apply_law(crossing.reached);
+        self.check_progress(t_start);
         Some(Step {
             t_start,
             start,
@@ -312,7 +316,7 @@ impl<T: Real> Simulation<T> {
             .collect();
         let at_rest: TautSet = closed
             .iter()
-            .filter(|&cable| shock.v_after[cable].abs() <= T::from_f64(UNMOVED))
+            .filter(|&cable| self.unmoved(&shock, cable, struck))
             .collect();
         let candidates = slow.union(at_rest);
         let mut halted = shock.after;
@@ -330,6 +334,18 @@ impl<T: Real> Simulation<T> {
         }
         self.check_rules(struck.intersection(self.taut));
         shock
+    }
+
+    /// Whether a closed cable has no normal velocity after the shock. A struck one was closing; if its
+    /// normal velocity is not positive all the same, it is zero but for rounding.
+    fn unmoved(&self, shock: &Shock<T>, cable: usize, struck: TautSet) -> bool {
+        if struck.contains(cable) && shock.v_before[cable] <= T::ZERO {
+            return true;
+        }
+        let reach = length(self.system.cables[cable].fairlead());
+        let speed = |s: &State<T>| length([s.vx, s.vy]) + s.vtheta.abs() * reach;
+        let rounding = speed(&self.state).max(speed(&self.before)) * T::EPSILON;
+        shock.v_after[cable].abs() <= rounding * UNMOVED
     }
 
     fn count(&mut self, shock: &Shock<T>, hit: TautSet) {
@@ -351,13 +367,23 @@ impl<T: Real> Simulation<T> {
         };
     }
 
+    /// Time need not move on from one bounce to the next where they accumulate; steps of no length count
+    /// like impacts, so that every run has an end.
+    fn check_progress(&mut self, t_start: T) {
+        self.standstill = if self.t > t_start {
+            0
+        } else {
+            self.standstill + 1
+        };
+        if self.stop.is_none() && self.standstill > self.rules.max_impacts {
+            self.stop = Some(Stop::ImpactLimit);
+        }
+    }
+
     /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
     fn release(&mut self, released: TautSet) {
         let before = self.taut;
-        let kept: TautSet = before
-            .iter()
-            .filter(|&cable| !released.contains(cable))
-            .collect();
+        let kept = released.iter().fold(before, TautSet::without);
         self.taut = taut_next(&self.system, self.t, &self.state, kept);
         self.check_rules(TautSet::SLACK);
     }
@@ -388,7 +414,7 @@ impl<T: Real> Simulation<T> {
             v_n,
             repeats,
         } = self.last;
-        let converging = repeats >= SERIES
+        let converging = repeats >= CONVERGING
             && e < T::ONE
             && !stuck.is_empty()
             && (cables.len() == 1 || cables == self.system.all_cables());

@@ -5,7 +5,7 @@ use crate::real::Real;
 use crate::taut::{project_position, project_velocity, taut_next};
 use crate::taut_set::MAX_CABLES;
 use crate::trajectory::Stop;
-use crate::{State, StopRules, System, TautSet};
+use crate::{Cable, State, StopRules, System, TautSet};
 
 /// A start's gap counts as closed within this of zero, and its normal velocity as zero
 /// (docs/model.md section 5).
@@ -30,8 +30,10 @@ pub enum StartError {
         /// The bound \[L\].
         level: f64,
     },
-    /// A number of the start is not finite.
+    /// A number of the start, or of what decides the run, is not finite.
     NotFinite,
+    /// The coefficient of restitution is not between 0 and 1.
+    Restitution,
     /// The system has more cables than [`MAX_CABLES`].
     TooManyCables,
 }
@@ -56,6 +58,9 @@ pub(crate) fn prepare<T: Real>(
         return Err(StartError::TooManyCables);
     }
     let numbers = [
+        t,
+        rules.t_end,
+        system.restitution,
         state.x,
         state.y,
         state.theta,
@@ -63,9 +68,18 @@ pub(crate) fn prepare<T: Real>(
         state.vy,
         state.vtheta,
     ];
-    if numbers.iter().any(|n| !n.to_f64().is_finite()) {
+    let lengths = system.cables.iter().map(Cable::length);
+    if numbers
+        .into_iter()
+        .chain(lengths)
+        .any(|n| !n.to_f64().is_finite())
+    {
         return Err(StartError::NotFinite);
     }
+    if system.restitution < T::ZERO || system.restitution > T::ONE {
+        return Err(StartError::Restitution);
+    }
+    let stop = stop_at_start(system, rules, t, state)?;
     let tolerance = T::from_f64(START_TOLERANCE);
     let mut closed = TautSet::SLACK;
     for (cable, tether) in system.cables.iter().enumerate() {
@@ -80,7 +94,6 @@ pub(crate) fn prepare<T: Real>(
             closed = closed.with(cable);
         }
     }
-    let stop = stop_at_start(system, rules, state)?;
     let mut state = *state;
     project_position(system, &mut state, closed);
     let velocity =
@@ -119,6 +132,7 @@ pub(crate) fn prepare<T: Real>(
 fn stop_at_start<T: Real>(
     system: &System<T>,
     rules: &StopRules<T>,
+    t: T,
     state: &State<T>,
 ) -> Result<Option<Stop>, StartError> {
     if let Some(limit) = rules.rotation_limit {
@@ -141,5 +155,5 @@ fn stop_at_start<T: Real>(
             return Ok(Some(Stop::UpperBound));
         }
     }
-    Ok((rules.t_end <= T::ZERO).then_some(Stop::EndTime))
+    Ok((rules.t_end <= t).then_some(Stop::EndTime))
 }

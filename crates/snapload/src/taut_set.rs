@@ -8,19 +8,23 @@ pub const MAX_CABLES: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct TautSet(u16);
 
+/// The bit of a cable; none for one that no system can have.
+const fn bit(cable: usize) -> u16 {
+    if cable < MAX_CABLES { 1 << cable } else { 0 }
+}
+
 impl TautSet {
     /// No cable: slack flight.
     pub const SLACK: Self = Self(0);
 
     /// The set of one cable.
     pub fn only(cable: usize) -> Self {
-        debug_assert!(cable < MAX_CABLES);
-        Self(1 << cable)
+        Self(bit(cable))
     }
 
     /// Whether the cable is in the set.
     pub fn contains(self, cable: usize) -> bool {
-        self.0 & (1 << cable) != 0
+        self.0 & bit(cable) != 0
     }
 
     /// The set with the cable added.
@@ -32,7 +36,7 @@ impl TautSet {
     /// The set with the cable taken out.
     #[must_use]
     pub fn without(self, cable: usize) -> Self {
-        Self(self.0 & !(1 << cable))
+        Self(self.0 & !bit(cable))
     }
 
     /// Cables of either set.

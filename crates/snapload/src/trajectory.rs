@@ -103,7 +103,12 @@ const RHO2_UNTIL: f64 = 10.0;
 
 impl Trajectory {
     /// Runs a simulation to its end and keeps all of it.
-    pub fn record(mut simulation: Simulation) -> Self {
+    pub fn record(simulation: Simulation) -> Self {
+        Self::record_watched(simulation, |_| {})
+    }
+
+    /// The same; `watch` is shown the simulation after every step.
+    pub fn record_watched(mut simulation: Simulation, mut watch: impl FnMut(&Simulation)) -> Self {
         let mut run = Self {
             system: simulation.system().clone(),
             segments: Vec::new(),
@@ -114,6 +119,7 @@ impl Trajectory {
         };
         while let Some(step) = simulation.step() {
             run.take(&step);
+            watch(&simulation);
         }
         run.end = End::of(&simulation);
         run.segments.push(Segment {
@@ -127,12 +133,12 @@ impl Trajectory {
     }
 
     fn take(&mut self, step: &Step) {
-        self.segments.push(Segment {
-            t: step.t_start,
-            start: step.start,
-            taut: step.taut,
-        });
         if step.t_end > step.t_start {
+            self.segments.push(Segment {
+                t: step.t_start,
+                start: step.start,
+                taut: step.taut,
+            });
             match self.modes.last_mut() {
                 Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,
                 _ => self.modes.push(ModeInterval {

@@ -167,7 +167,7 @@ fn taut_motion_agrees() {
                 };
                 off = off.max((motion.tensions[cable] - truth).abs());
             }
-            assert!(off < 1e-10, "{id}: off by {off:e} at t = {t}");
+            assert!(off < 1e-12, "{id}: off by {off:e} at t = {t}");
             worst = worst.max(off);
             compared += 1;
         }

@@ -1,0 +1,60 @@
+//! A sign of life from whatever takes longer than two seconds: on standard error, on a terminal only.
+use indicatif::{ProgressBar, ProgressStyle};
+use std::time::{Duration, Instant};
+
+/// So much time passes without a bar.
+const PATIENCE: Duration = Duration::from_secs(2);
+/// So many reports pass between two looks at the clock.
+const LOOK_EVERY: u32 = 1024;
+
+/// Reports how far something has come.
+pub(crate) struct Progress {
+    what: &'static str,
+    whole: f64,
+    began: Instant,
+    reports: u32,
+    bar: Option<ProgressBar>,
+}
+
+impl Progress {
+    /// Of something that goes from 0 to `whole`.
+    pub(crate) fn new(what: &'static str, whole: f64) -> Self {
+        Self {
+            what,
+            whole,
+            began: Instant::now(),
+            reports: 0,
+            bar: None,
+        }
+    }
+
+    /// It has come to `part`; cheap enough for an inner loop.
+    pub(crate) fn at(&mut self, part: f64) {
+        self.reports = self.reports.wrapping_add(1);
+        if self.reports.is_multiple_of(LOOK_EVERY) {
+            self.show(part);
+        }
+    }
+
+    /// The same for reports that are far between.
+    pub(crate) fn show(&mut self, part: f64) {
+        if self.began.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let style = ProgressStyle::with_template("{msg} {bar:40} {percent} %, {eta} left");
+            let bar = ProgressBar::new(1000).with_message(self.what);
+            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+                .with_elapsed(self.began.elapsed())
+        });
+        bar.set_position((1000.0 * part / self.whole) as u64);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
