@@ -74,3 +74,17 @@ fn links_lead_somewhere() {
         }
     }
 }
+
+/// What the documents print of the standard case is what the program prints.
+#[test]
+fn the_printed_output_is_the_programs() {
+    let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+    let output = program.arg("run").output().expect("a run").stdout;
+    let output = String::from_utf8(output).expect("text");
+    for document in ["README.md", "docs/start.md"] {
+        assert!(
+            read(document).contains(&output),
+            "{document} prints something else than\n{output}"
+        );
+    }
+}

@@ -1,7 +1,7 @@
 //! The number type that the physics is written over, and its elementary functions.
 //!
-//! Formulas of body, cable, forcing, flight and impact are generic over [`Real`], so that one text
-//! serves double precision and any other arithmetic. In a chaotic system a different last bit is a
+//! Formulas of body, cable, forcing, flight and impact are generic over [`Real`], so that another
+//! arithmetic can be added without writing them again; the thresholds are those of double precision. In a chaotic system a different last bit is a
 //! different picture: no function here calls the platform's `libm` (sine and cosine come from the
 //! Rust port in the crate `libm`, which is plain arithmetic in a fixed order), and a multiply is
 //! never fused with an add.

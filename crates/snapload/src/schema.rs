@@ -1,5 +1,5 @@
 //! The one description of the keys of a case: names, types, ranges, defaults and help texts. The
-//! case file, `--set`, the JSON echo, Python's keywords and the manual's table derive from it.
+//! case file, `--set`, the JSON echo, the error texts and `snapload keys` derive from it.
 use crate::error::CaseError;
 use crate::parameters::{BodyKind, Parameters};
 use crate::value::Value;
