@@ -84,7 +84,7 @@ impl<'a> RunPlots<'a> {
 
     /// θ against t.
     pub fn rotation(&self) -> Plot {
-        self.from_zero(figures::rotation(
+        self.over_whole_run(figures::rotation(
             &self.points(|m| [m.t, m.state.theta]),
             None,
         ))
@@ -99,18 +99,18 @@ impl<'a> RunPlots<'a> {
                 .map(|impact| [impact.t, impact.v_n])
                 .collect()
         });
-        self.from_zero(figures::snap_velocities([&first, &second], None))
+        self.over_whole_run(figures::snap_velocities([&first, &second], None))
     }
 
     /// Tensions against t.
     pub fn tensions(&self) -> Plot {
         let [first, second] = [0, 1].map(|cable| self.tension_pieces(cable));
-        self.from_zero(figures::tensions([&first, &second], None))
+        self.over_whole_run(figures::tensions([&first, &second], None))
     }
 
     /// Energy against t.
     pub fn energy(&self) -> Plot {
-        self.from_zero(figures::energy(&self.points(|m| [m.t, m.energy]), None))
+        self.over_whole_run(figures::energy(&self.points(|m| [m.t, m.energy]), None))
     }
 
     /// All five with their names.
@@ -131,7 +131,7 @@ impl<'a> RunPlots<'a> {
             .collect()
     }
 
-    fn from_zero(&self, mut plot: Plot) -> Plot {
+    fn over_whole_run(&self, mut plot: Plot) -> Plot {
         plot.x.range = Range::AtLeast(0.0, self.run.end().t);
         plot
     }

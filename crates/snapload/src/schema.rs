@@ -57,7 +57,7 @@ enum Slot {
 
 /// One key of a case.
 pub struct Key {
-    /// Its name in files, on the command line and in Python.
+    /// Its name in files and on the command line.
     pub name: &'static str,
     /// Its symbol in the text of the model; the name where there is none.
     pub symbol: &'static str,
