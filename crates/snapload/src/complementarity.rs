@@ -9,6 +9,8 @@ pub(crate) type PerCable<T> = [T; MAX_CABLES];
 
 /// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
 const DEPENDENT: f64 = 1e-12;
+/// A determinant below this part of the product of the diagonal is nothing but rounding.
+const NEARLY_ONE_LINE: f64 = 1e-15;
 
 /// Solves W z = q over the cables of a set, W symmetric and positive semidefinite. A cable whose
 /// constraint depends on those before it gets z = 0.
@@ -26,16 +28,34 @@ pub(crate) fn solve<T: Real>(
         (None, ..) => {}
         (Some(i), None, _) => z[i] = q[i] / w(i, i),
         (Some(i), Some(j), None) => {
-            let (a, b, c) = (w(i, i), w(i, j), w(j, j));
-            let determinant = a * c - b * b;
-            if determinant <= a * c * DEPENDENT {
-                z[i] = q[i] / a;
-            } else {
-                z[i] = (c * q[i] - b * q[j]) / determinant;
-                z[j] = (a * q[j] - b * q[i]) / determinant;
-            }
+            let pair = [w(i, i), w(i, j), w(j, j)];
+            let [x, y] = solve_pair(pair, [q[i], q[j]]);
+            (z[i], z[j]) = (x, y);
         }
         _ => z = eliminate(set, w, q),
+    }
+    z
+}
+
+/// Two equations with the matrix \[\[a, b\], \[b, c\]\]. Cramer's rule errs by a rounding over the
+/// determinant, which is small where the cables are almost in line, so its answer is put in twice for
+/// what is left over.
+fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
+    let determinant = a * c - b * b;
+    if determinant <= a * c * NEARLY_ONE_LINE {
+        return [q[0] / a, T::ZERO];
+    }
+    let cramer = |q: [T; 2]| {
+        [
+            (c * q[0] - b * q[1]) / determinant,
+            (a * q[1] - b * q[0]) / determinant,
+        ]
+    };
+    let mut z = cramer(q);
+    for _ in 0..2 {
+        let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
+        let more = cramer(left);
+        z = [z[0] + more[0], z[1] + more[1]];
     }
     z
 }

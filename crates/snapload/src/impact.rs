@@ -22,7 +22,11 @@ pub(crate) struct Shock<T> {
 /// ```
 ///
 /// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
-/// on it and goes slack when the impulse unloads it. Source: Moreau, in *Nonsmooth Mechanics and
+/// on it and goes slack when the impulse unloads it.
+///
+/// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the law
+/// it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is, it then
+/// snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
 /// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
 pub(crate) fn impact<T: Real>(
     system: &System<T>,
@@ -41,7 +45,11 @@ pub(crate) fn impact<T: Real>(
         load[cable] = v + e * v.max(T::ZERO);
     }
     let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-    let (impulse, pulling) = complementary(closed, w, &load);
+    let held: TautSet = closed
+        .iter()
+        .filter(|&cable| v_before[cable] >= T::ZERO)
+        .collect();
+    let (impulse, pulling) = complementary(held, w, &load);
 
     let mut after = *before;
     let mut v_after = [T::ZERO; MAX_CABLES];

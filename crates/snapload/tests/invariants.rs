@@ -144,12 +144,8 @@ proptest! {
             prop_assert!(pair[0].t <= pair[1].t);
             prop_assert!(!same_instant || pair[0].cable < pair[1].cable);
         }
-        for instant in run.impacts().chunk_by(|a, b| a.after == b.after) {
-            let lost: f64 = instant.iter().map(|impact| impact.energy_lost).sum();
-            prop_assert!(lost >= -1e-12, "an instant of impact gains {:e}", -lost);
-        }
         for impact in run.impacts() {
-            prop_assert!(impact.impulse > 0.0 && impact.v_n >= 0.0);
+            prop_assert!(impact.impulse > 0.0 && impact.v_n >= 0.0 && impact.energy_lost >= 0.0);
             let (b, a) = (impact.before, impact.after);
             prop_assert_eq!((b.x, b.y, b.theta), (a.x, a.y, a.theta));
             let cable = &run.system().cables[impact.cable];
@@ -309,6 +305,65 @@ fn work_of_forcing(run: &Trajectory) -> f64 {
         }
     }
     work
+}
+
+/// Started in the corner where both cables are closed, with any velocity: one may open while the other
+/// closes, and still no impact creates energy, and no gap opens.
+#[test]
+fn corner_starts_neither_gain_energy_nor_open_a_gap() {
+    let mut impacts = 0;
+    for (a, b, r) in [
+        (0.1, 0.0, 1.5),
+        (0.3, 0.1, 1.5),
+        (0.2, 0.2, 2.5),
+        (1.0, 0.2, 2.0),
+        (0.0, 0.0, 1.000_001),
+    ] {
+        for k in 0..40 {
+            let angle = f64::from(k) * 0.157;
+            for (e, vtheta) in [(1.0, 0.0), (0.9, 2.0), (0.5, -3.0), (0.0, 1.0)] {
+                let p = Parameters {
+                    r,
+                    e,
+                    a,
+                    b,
+                    inertia: Some(natural_inertia(a, b).unwrap_or(0.01)),
+                    f_o: 0.0,
+                    y: 0.0,
+                    vx: angle.cos(),
+                    vy: angle.sin(),
+                    vtheta,
+                    t_end: 1.0,
+                    stop_when_settled: false,
+                    ..Parameters::STANDARD
+                };
+                let run = run(&p);
+                let mut before = 0.5 * (1.0 + p.inertia.unwrap_or(0.0) * vtheta * vtheta);
+                for t in instants(&run) {
+                    let motion = run.at(t);
+                    assert!(
+                        motion.energy <= before + 1e-13,
+                        "{:e} {p:?}",
+                        motion.energy - before
+                    );
+                    before = motion.energy;
+                    let gaps = run
+                        .system()
+                        .cables
+                        .iter()
+                        .map(|cable| cable.gap(&motion.state));
+                    assert!(gaps.fold(-1.0, f64::max) <= 1e-11, "{p:?}");
+                }
+                assert!(
+                    run.impacts()
+                        .iter()
+                        .all(|impact| impact.energy_lost >= -1e-13)
+                );
+                impacts += run.impacts().len();
+            }
+        }
+    }
+    assert!(impacts > 1000);
 }
 
 /// Cases that are legal and unreasonable: very light bodies, very large ones, corners struck at speed.
