@@ -317,7 +317,7 @@ fn corner_starts_neither_gain_energy_nor_open_a_gap() {
         (0.3, 0.1, 1.5),
         (0.2, 0.2, 2.5),
         (1.0, 0.2, 2.0),
-        (0.0, 0.0, 1.000_001),
+        (0.0, 0.0, 1.001),
     ] {
         for k in 0..40 {
             let angle = f64::from(k) * 0.157;
