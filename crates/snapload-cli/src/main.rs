@@ -10,6 +10,7 @@ mod keys;
 mod pictures;
 mod progress;
 mod report;
+mod reproduce;
 mod run;
 mod stage;
 mod summary;
@@ -42,6 +43,8 @@ enum Verb {
     Run(run::Args),
     /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
     Critical(critical::Args),
+    /// Reproduce the chapter's tables and figures as one report
+    Reproduce(reproduce::Args),
     /// List the built-in cases
     Cases,
     /// Explain the keys of a case: meaning, default, what is allowed
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().verb {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
+        Verb::Reproduce(args) => reproduce::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
         Verb::Completions(args) => completions::run(&args),

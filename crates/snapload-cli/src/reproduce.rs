@@ -1,0 +1,61 @@
+//! `snapload reproduce`: the chapter's tables and figures as one report.
+use crate::failure::{Failure, print};
+use crate::stage::Stage;
+use indicatif::{ProgressBar, ProgressStyle};
+use snapload_reproduce::{Report, Study};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Computes every run of the chapter's studies, in two readings, and writes report.html (one page that needs
+nothing else), the tables as CSV, and every figure as SVG with its data as CSV.
+
+Examples:
+  snapload reproduce
+      into the directory `reproduction`
+  snapload reproduce --out /tmp/chapter-6";
+
+/// Where to put it.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    /// Directory of the report, created if absent
+    #[arg(long, value_name = "DIR", default_value = "reproduction")]
+    out: PathBuf,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut stage = Stage::default();
+    let room = stage.create_and_open(&args.out)?;
+    let pictures = args.out.join("figures");
+    let picture_room = stage.create_and_open(&pictures)?;
+
+    let style = ProgressStyle::with_template("{bar:40} {percent} %  {msg}");
+    let bar =
+        ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let study = Study::compute(&|what, part| {
+        bar.set_position((100.0 * part) as u64);
+        bar.set_message(what.to_owned());
+    });
+    let study = study.map_err(|error| Failure::Failed(format!("the study failed: {error}")))?;
+    bar.set_message("the figures");
+    let report = Report::new(&study)
+        .map_err(|error| Failure::Failed(format!("a figure can not be drawn: {error}")))?;
+    bar.finish_and_clear();
+
+    for (name, contents) in &report.files {
+        let room = if name.starts_with("figures/") {
+            picture_room
+        } else {
+            room
+        };
+        stage.write(room, args.out.join(name), |out| out.write_all(contents))?;
+    }
+    let written = stage.commit()?.len();
+    let page = args.out.join("report.html");
+    print(&format!(
+        "{}\nand {} files beside it\n",
+        page.display(),
+        written - 1
+    ))
+}

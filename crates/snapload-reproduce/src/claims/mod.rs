@@ -1,0 +1,63 @@
+//! What the chapter's text claims, checked. No verdict is typed in: each comes out of a computation.
+
+mod tools;
+
+pub use tools::{ensemble, robust, spearman};
+
+use crate::study::Study;
+
+/// What the computation says of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The computation agrees.
+    Reproduced,
+    /// It disagrees.
+    NotReproduced,
+    /// It hangs on motion past the horizon: starts that differ by 1e-12 disagree.
+    NotDecidable,
+}
+
+impl Verdict {
+    /// Of a claim that either holds or does not.
+    pub fn of(holds: bool) -> Self {
+        if holds {
+            Self::Reproduced
+        } else {
+            Self::NotReproduced
+        }
+    }
+
+    /// As it is written in `claims.json` and in the report.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::NotReproduced => "not reproduced",
+            Self::NotDecidable => "not decidable",
+        }
+    }
+}
+
+/// A claim of the chapter and what became of it.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// A name that stays, such as `6.4.1-03`.
+    pub id: &'static str,
+    /// The chapter's section.
+    pub section: &'static str,
+    /// The claim in our words.
+    pub claim: &'static str,
+    /// What the computation says.
+    pub verdict: Verdict,
+    /// The figures on which the verdict rests.
+    pub evidence: String,
+    /// Why we disagree, as far as it can be known; empty where we agree.
+    pub remark: &'static str,
+}
+
+/// Checks all claims, in the chapter's order.
+///
+/// # Errors
+/// [`snapload::CaseError`] only for a fault of the program.
+pub fn claims(_study: &Study) -> Result<Vec<Claim>, snapload::CaseError> {
+    Ok(Vec::new())
+}
