@@ -1,5 +1,6 @@
-//! The chapter's figures 6.1-6.38, 6.43 and 6.45, each under its number.
+//! The chapter's figures, each under its number.
 
+use crate::configurations::configurations;
 use crate::study::{CaseRuns, CriticalCurve, NormCurve, Reading, Study};
 use snapload::Trajectory;
 use snapload::analysis::Outcome;
@@ -142,12 +143,30 @@ pub fn figures(study: &Study) -> Result<Vec<Row>, FigureError> {
     }
     rows.extend(critical_rows(study)?);
     rows.extend(norm_rows(study)?);
+    let mut drawn = Vec::new();
+    for configuration in configurations(study) {
+        let (caption, command) = (configuration.caption.clone(), configuration.command.clone());
+        drawn.push(finish(
+            configuration.number,
+            caption,
+            command,
+            configuration.plot(),
+        )?);
+    }
+    let rocking = drawn.split_off(drawn.len().saturating_sub(1));
     rows.push(Row {
-        title: "Sliding and rocking",
-        figures: vec![
-            example("6.43", "sliding-example", &study.sliding)?,
-            example("6.45", "rocking-example", &study.rocking)?,
-        ],
+        title: "Sliding: configurations and path",
+        figures: drawn
+            .into_iter()
+            .chain([example("6.43", "sliding-example", &study.sliding)?])
+            .collect(),
+    });
+    rows.push(Row {
+        title: "Rocking: configuration and path",
+        figures: rocking
+            .into_iter()
+            .chain([example("6.45", "rocking-example", &study.rocking)?])
+            .collect(),
     });
     Ok(rows)
 }

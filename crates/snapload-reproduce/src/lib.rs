@@ -5,6 +5,7 @@
 //! begins to slide; the motion really slides on. [`Report`] makes files of it.
 
 pub mod claims;
+mod configurations;
 mod figures;
 mod html;
 mod story;
