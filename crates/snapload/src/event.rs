@@ -139,13 +139,15 @@ impl Reached {
     }
 }
 
-/// The first instant in (0, horizon] at which a watched function reaches zero from below, or `None`.
+/// The first instant in (0, horizon] after time `t` at which a watched function reaches zero from below, or
+/// `None`.
 ///
 /// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of location
-/// overlap cross at one instant; the intervals allow for the rounding of the velocities, too, so that
+/// overlap, or whose times are bit-equal, cross at one instant; the intervals allow for the rounding of the velocities, too, so that
 /// impacts which are simultaneous by symmetry stay so once rounding has broken it.
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl Watched<T>,
+    t: T,
     horizon: T,
     jets: &mut Jets<T>,
 ) -> Option<Crossing<T>> {
@@ -153,7 +155,7 @@ pub(crate) fn first_crossing<T: Real>(
     loop {
         jets.clear();
         motion.watch(s, jets);
-        if let Some(crossing) = located(jets, s) {
+        if let Some(crossing) = located(jets, t, s) {
             return (crossing.s <= horizon).then_some(crossing);
         }
         if s >= horizon {
@@ -169,7 +171,7 @@ pub(crate) fn first_crossing<T: Real>(
 }
 
 /// The crossing at hand, if a function has come within its rounding of zero, still rising.
-fn located<T: Real>(jets: &Jets<T>, s: T) -> Option<Crossing<T>> {
+fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
     let touches = |jet: &&Jet<T>| jet.rate > T::ZERO && jet.value >= -jet.noise;
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
@@ -181,7 +183,8 @@ fn located<T: Real>(jets: &Jets<T>, s: T) -> Option<Crossing<T>> {
         .reduce(|a, b| if b.0 < a.0 { b } else { a })?;
     let mut reached = Reached::default();
     for jet in jets.iter().filter(|jet| jet.rate > T::ZERO) {
-        if root(jet) - spread(jet) <= first.0 + first.1 {
+        let same_time = t + root(jet) == t + first.0;
+        if same_time || root(jet) - spread(jet) <= first.0 + first.1 {
             reached.add(jet.watch);
         }
     }

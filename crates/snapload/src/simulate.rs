@@ -211,7 +211,7 @@ impl<T: Real> Simulation<T> {
                 &self.before,
                 &self.contacts,
             );
-            first_crossing(&self.flight, horizon, &mut self.jets)
+            first_crossing(&self.flight, self.t, horizon, &mut self.jets)
         } else {
             self.series.begin(
                 &self.system,
@@ -222,7 +222,7 @@ impl<T: Real> Simulation<T> {
                 self.rules.upper_bound,
             );
             horizon = horizon.min(self.series.step());
-            first_crossing(&self.series, horizon, &mut self.jets)
+            first_crossing(&self.series, self.t, horizon, &mut self.jets)
         };
         crossing.unwrap_or(Crossing {
             s: horizon,
