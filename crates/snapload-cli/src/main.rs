@@ -43,7 +43,7 @@ enum Verb {
     Run(run::Args),
     /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
     Critical(critical::Args),
-    /// Reproduce the chapter's tables and figures as one report
+    /// Reproduce the chapter's tables, figures and claims as one report
     Reproduce(reproduce::Args),
     /// List the built-in cases
     Cases,

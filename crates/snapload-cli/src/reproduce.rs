@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let study = study.map_err(|error| Failure::Failed(format!("the study failed: {error}")))?;
     bar.set_message("the figures");
     let report = Report::new(&study)
-        .map_err(|error| Failure::Failed(format!("a figure can not be drawn: {error}")))?;
+        .map_err(|error| Failure::Failed(format!("the report failed: {error}")))?;
     bar.finish_and_clear();
 
     for (name, contents) in &report.files {

@@ -67,8 +67,26 @@ fn the_report_opens_with_every_figure() {
     let files = listing(&d.path().join("chapter"));
     assert_eq!(
         files,
-        ["figures", "report.html", "table-6-1.csv", "table-6-2.csv"]
+        [
+            "claims.json",
+            "figures",
+            "report.html",
+            "table-6-1.csv",
+            "table-6-2.csv"
+        ]
     );
+    let claims = fs::read_to_string(d.path().join("chapter/claims.json")).unwrap();
+    let claims: serde_json::Value = serde_json::from_str(&claims).unwrap();
+    let claims = claims.as_array().unwrap();
+    assert!(claims.len() >= 60, "{}", claims.len());
+    for claim in claims {
+        let text = |key: &str| claim[key].as_str().unwrap();
+        assert!(["reproduced", "not reproduced", "not decidable"].contains(&text("verdict")));
+        for key in ["id", "section", "claim", "evidence"] {
+            assert!(!text(key).is_empty(), "{claim}");
+        }
+        assert!(dom.contains(&format!("id=\"claim-{}\"", text("id"))));
+    }
     for table in ["table-6-1.csv", "table-6-2.csv"] {
         let text = fs::read_to_string(d.path().join("chapter").join(table)).unwrap();
         assert!(text.lines().count() > 30, "{table}");

@@ -1,5 +1,6 @@
 //! The report as one page of HTML that needs nothing else.
 
+use crate::claims::{Claim, Verdict};
 use crate::figures::{Figure, Row};
 use crate::story::story;
 use crate::study::{Reading, Study};
@@ -11,7 +12,7 @@ use snapload::Trajectory;
 const STYLE: &str = include_str!("report.css");
 
 /// The page.
-pub fn page(study: &Study, figures: &[Row]) -> String {
+pub fn page(study: &Study, figures: &[Row], claims: &[Claim]) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
@@ -28,6 +29,7 @@ pub fn page(study: &Study, figures: &[Row]) -> String {
                 (table_6_2(study))
                 @for row in figures { (figure_row(row)) }
                 (stories(study))
+                (claims_table(claims))
             }
         }
     }
@@ -76,6 +78,7 @@ fn contents(figures: &[Row]) -> Markup {
                     }
                 }
                 li { a href="#stories" { "Sliding and rocking in words" } }
+                li { a href="#claims" { "Every claim of the text, checked" } }
             }
         }
     }
@@ -235,6 +238,45 @@ fn told(title: &str, code: &str, run: &Trajectory, theirs: &str) -> Markup {
                     }
                 }
                 p { code { "snapload run --case " (code) } }
+            }
+        }
+    }
+}
+
+fn claims_table(claims: &[Claim]) -> Markup {
+    let count = |verdict| {
+        claims
+            .iter()
+            .filter(|claim| claim.verdict == verdict)
+            .count()
+    };
+    html! {
+        section id="claims" {
+            h2 { "Every claim of the text, checked" }
+            p {
+                (claims.len()) " statements, in our words. No verdict is typed in: each comes out of the \
+                 computation whose figures stand beside it, by the chapter's reading. Reproduced: "
+                (count(Verdict::Reproduced)) ", not reproduced: " (count(Verdict::NotReproduced))
+                ", not decidable (starts that differ by 1e-12 disagree): " (count(Verdict::NotDecidable))
+                ". Data: " code { "claims.json" } ", made again by " code { "snapload reproduce" } "."
+            }
+            div class="wide" {
+                table {
+                    thead { tr { th { "id" } th { "claim" } th { "verdict" } th { "evidence" } } }
+                    tbody {
+                        @for claim in claims {
+                            tr id={ "claim-" (claim.id) } {
+                                td { (claim.id) }
+                                td class="long" { (claim.claim) }
+                                td { (claim.verdict.words()) }
+                                td class="long" {
+                                    (claim.evidence)
+                                    @if !claim.remark.is_empty() { br; i { (claim.remark) } }
+                                }
+                            }
+                        }
+                    }
+                }
             }
         }
     }

@@ -1,5 +1,17 @@
 //! What the chapter's text claims, checked. No verdict is typed in: each comes out of a computation.
 
+mod equations;
+mod near;
+mod newton;
+mod section_6_3;
+mod section_6_4_1;
+mod section_6_4_1_shape;
+mod section_6_4_1_waves;
+mod section_6_5_1_1;
+mod section_6_5_1_2;
+mod section_6_5_2_1;
+mod sliding;
+mod sliding_story;
 mod tools;
 
 pub use tools::{ensemble, robust, spearman};
@@ -58,6 +70,17 @@ pub struct Claim {
 ///
 /// # Errors
 /// [`snapload::CaseError`] only for a fault of the program.
-pub fn claims(_study: &Study) -> Result<Vec<Claim>, snapload::CaseError> {
-    Ok(Vec::new())
+pub fn claims(study: &Study) -> Result<Vec<Claim>, snapload::CaseError> {
+    let sections = [
+        section_6_3::claims,
+        section_6_4_1::claims,
+        section_6_5_1_1::claims,
+        section_6_5_1_2::claims,
+        section_6_5_2_1::claims,
+    ];
+    let parts: Vec<Vec<Claim>> = sections
+        .iter()
+        .map(|section| section(study))
+        .collect::<Result<_, _>>()?;
+    Ok(parts.into_iter().flatten().collect())
 }
