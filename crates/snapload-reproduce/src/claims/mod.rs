@@ -7,6 +7,9 @@ mod section_6_3;
 mod section_6_4_1;
 mod section_6_4_1_shape;
 mod section_6_4_1_waves;
+mod section_6_4_2;
+mod section_6_4_3;
+mod section_6_5;
 mod section_6_5_1_1;
 mod section_6_5_1_2;
 mod section_6_5_2_1;
@@ -74,6 +77,9 @@ pub fn claims(study: &Study) -> Result<Vec<Claim>, snapload::CaseError> {
     let sections = [
         section_6_3::claims,
         section_6_4_1::claims,
+        section_6_4_2::claims,
+        section_6_4_3::claims,
+        section_6_5::claims,
         section_6_5_1_1::claims,
         section_6_5_1_2::claims,
         section_6_5_2_1::claims,

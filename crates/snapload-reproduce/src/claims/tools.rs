@@ -1,7 +1,9 @@
 //! What several claims need.
 
-use super::Verdict;
-use snapload::Parameters;
+use super::{Claim, Verdict};
+use rayon::prelude::*;
+use snapload::analysis::{ForceScan, Outcome};
+use snapload::{Case, CaseError, Impact, Parameters, Stop, Trajectory};
 
 /// How far the neighbours of a start are from it.
 const NEAR: f64 = 1e-12;
@@ -71,6 +73,71 @@ pub fn spearman(points: &[(f64, f64)]) -> f64 {
     } else {
         0.0
     }
+}
+
+/// What the computation says, and the figures behind it.
+pub(super) type Finding = (Verdict, String);
+
+/// A claim with what was found; the remark stands only where the computation disagrees.
+pub(super) fn judged(
+    id: &'static str,
+    claim: &'static str,
+    (verdict, evidence): Finding,
+    remark: &'static str,
+) -> Claim {
+    let agrees = verdict == Verdict::Reproduced;
+    Claim {
+        id,
+        section: id.rsplit_once('-').map_or(id, |(section, _)| section),
+        claim,
+        verdict,
+        evidence,
+        remark: if agrees { "" } else { remark },
+    }
+}
+
+/// The runs of many cases, in their order.
+pub(super) fn run_all(cases: &[Parameters]) -> Result<Vec<Trajectory>, CaseError> {
+    cases
+        .par_iter()
+        .map(|parameters| Ok(Case::new(*parameters)?.run()))
+        .collect()
+}
+
+/// The first force amplitude of a scan that exceeds, with the reason; nothing beyond it is run.
+pub(super) fn first_exceeding(
+    parameters: &Parameters,
+    scan: ForceScan,
+) -> Result<Option<(f64, Stop)>, CaseError> {
+    for f_o in scan.amplitudes() {
+        let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
+        if outcome.exceeds() {
+            return Ok(Some((f_o, outcome.end.reason)));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether an impact is one that a reader of a printed plot can see.
+pub(super) fn is_clear(impact: &Impact) -> bool {
+    impact.v_n > 1e-2
+}
+
+/// Mean and standard deviation; zero of nothing.
+pub(super) fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
+    (mean, square.sqrt())
+}
+
+/// The least and the greatest value.
+pub(super) fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    values
+        .into_iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(v), high.max(v))
+        })
 }
 
 #[cfg(test)]
