@@ -3,11 +3,10 @@
 use super::equations::*;
 use super::newton::{Jet, Moment, Mooring, Numbers, Side, holds, largest, verdict, words};
 use super::sliding::{BODIES, SEED, Sliding, random_states};
+use super::tools::claim;
 use super::{Claim, Verdict};
 use crate::study::Study;
 use snapload::{CaseError, Motion, Parameters, Playback, Real, Trajectory};
-
-const SECTION: &str = "6.5.1.1";
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
@@ -24,27 +23,6 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     all.push(origin(study));
     all.push(double_pendulum(&left));
     Ok(all)
-}
-
-fn claim(
-    id: &'static str,
-    claim: &'static str,
-    verdict: Verdict,
-    evidence: String,
-    remark: &'static str,
-) -> Claim {
-    Claim {
-        id,
-        section: SECTION,
-        claim,
-        verdict,
-        evidence,
-        remark: if verdict == Verdict::Reproduced {
-            ""
-        } else {
-            remark
-        },
-    }
 }
 
 /// A claim that an equation holds in all states.

@@ -1,6 +1,7 @@
 //! 6.5.1.2: when bodies slide, and the sliding example (eq. 6.57).
 
 use super::sliding_story::{LEFT, Story};
+use super::tools::claim;
 use super::{Claim, Verdict, ensemble, robust};
 use crate::study::{Reading, Study};
 use rayon::prelude::*;
@@ -10,7 +11,6 @@ use snapload::{
     named_case, natural_inertia,
 };
 
-const SECTION: &str = "6.5.1.2";
 /// Neighbours of a start.
 const NEIGHBOURS: usize = 8;
 
@@ -31,27 +31,6 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     all.push(ends(study)?);
     all.sort_by_key(|claim| claim.id);
     Ok(all)
-}
-
-fn claim(
-    id: &'static str,
-    claim: &'static str,
-    verdict: Verdict,
-    evidence: String,
-    remark: &'static str,
-) -> Claim {
-    Claim {
-        id,
-        section: SECTION,
-        claim,
-        verdict,
-        evidence,
-        remark: if verdict == Verdict::Reproduced {
-            ""
-        } else {
-            remark
-        },
-    }
 }
 
 fn slides(parameters: Parameters) -> Result<bool, CaseError> {

@@ -78,11 +78,13 @@ pub fn spearman(points: &[(f64, f64)]) -> f64 {
 /// What the computation says, and the figures behind it.
 pub(super) type Finding = (Verdict, String);
 
-/// A claim with what was found; the remark stands only where the computation disagrees.
-pub(super) fn judged(
+/// A claim with what was found; its section is the head of its id, and the remark stands only where the
+/// computation disagrees.
+pub(super) fn claim(
     id: &'static str,
     claim: &'static str,
-    (verdict, evidence): Finding,
+    verdict: Verdict,
+    evidence: String,
     remark: &'static str,
 ) -> Claim {
     let agrees = verdict == Verdict::Reproduced;
@@ -94,6 +96,16 @@ pub(super) fn judged(
         evidence,
         remark: if agrees { "" } else { remark },
     }
+}
+
+/// The same of a finding.
+pub(super) fn judged(
+    id: &'static str,
+    text: &'static str,
+    (verdict, evidence): Finding,
+    remark: &'static str,
+) -> Claim {
+    claim(id, text, verdict, evidence, remark)
 }
 
 /// The runs of many cases, in their order.
