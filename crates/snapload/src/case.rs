@@ -1,8 +1,9 @@
 //! A case: parameters that were checked once, at the border, and the system that they describe.
 
 use crate::error::CaseError;
-use crate::parameters::{BodyKind, Parameters};
-use crate::schema::{ROTATION_LIMIT, SETTLING_HEIGHT};
+use crate::parameters::{BodyKind, Parameters, natural_inertia};
+use crate::real::Real;
+use crate::schema::SETTLING_HEIGHT;
 use crate::start::StartError;
 use crate::value::Value;
 use crate::{
@@ -31,14 +32,7 @@ impl Case {
     /// A [`CaseError`] that names the key, its value and what is allowed.
     pub fn new(parameters: Parameters) -> Result<Self, CaseError> {
         parameters.check()?;
-        let simulation = Simulation::new(
-            system(&parameters),
-            rules(&parameters),
-            parameters.v_stick,
-            0.0,
-            start(&parameters),
-        )
-        .map_err(|error| explain(error, &parameters))?;
+        let simulation = begin(&parameters).map_err(|error| explain(error, &parameters))?;
         Ok(Self {
             parameters,
             simulation,
@@ -55,13 +49,34 @@ impl Case {
         self.simulation.clone()
     }
 
+    /// The same motion in another arithmetic; `number` is told each number's key. An inertia that is the
+    /// natural one of the size stays so.
+    ///
+    /// # Errors
+    /// [`StartError`] where that arithmetic finds the start illegal, as it may on the very edge.
+    pub fn simulation_over<T: Real>(
+        &self,
+        number: impl FnMut(&'static str, f64) -> T,
+    ) -> Result<Simulation<T>, StartError> {
+        let p = &self.parameters;
+        let mut numbers = p.map(number);
+        if p.inertia.is_some() && p.inertia == natural_inertia(p.a, p.b) {
+            numbers.inertia = natural_inertia(numbers.a, numbers.b);
+        }
+        begin(&numbers)
+    }
+
     /// Runs it to its end and keeps all of it.
     pub fn run(&self) -> Trajectory {
         Trajectory::record(self.simulation())
     }
 }
 
-fn system(p: &Parameters) -> System {
+fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
+    Simulation::new(system(p), rules(p), p.v_stick, T::ZERO, start(p))
+}
+
+fn system<T: Real>(p: &Parameters<T>) -> System<T> {
     let body = match (p.body, p.inertia) {
         (BodyKind::Rigid, Some(inertia)) => Body::rigid(Shape::of_half_sizes(p.a, p.b), inertia),
         _ => Body::point(),
@@ -70,19 +85,20 @@ fn system(p: &Parameters) -> System {
     System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
 }
 
-fn rules(p: &Parameters) -> StopRules {
+fn rules<T: Real>(p: &Parameters<T>) -> StopRules<T> {
     let rotates = p.body == BodyKind::Rigid;
+    let settling_height = T::from_decimal(SETTLING_HEIGHT);
     StopRules {
-        rotation_limit: rotates.then_some(ROTATION_LIMIT),
+        rotation_limit: rotates.then(T::half_pi),
         upper_bound: Some(anchor_height(p.r, p.a) + p.b),
-        settled_below: p.stop_when_settled.then_some(SETTLING_HEIGHT),
-        sliding_above: p.stop_when_sliding.then_some(SETTLING_HEIGHT),
+        settled_below: p.stop_when_settled.then_some(settling_height),
+        sliding_above: p.stop_when_sliding.then_some(settling_height),
         t_end: p.t_end,
         max_impacts: p.max_impacts,
     }
 }
 
-fn start(p: &Parameters) -> State {
+fn start<T: Real>(p: &Parameters<T>) -> State<T> {
     State {
         x: p.x,
         y: p.y,

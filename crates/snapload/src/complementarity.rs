@@ -9,8 +9,8 @@ pub(crate) type PerCable<T> = [T; MAX_CABLES];
 
 /// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
 const DEPENDENT: f64 = 1e-12;
-/// A determinant below this part of the product of the diagonal is nothing but rounding.
-const NEARLY_ONE_LINE: f64 = 1e-15;
+/// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
+const NEARLY_ONE_LINE: f64 = 4.5;
 
 /// Solves W z = q over the cables of a set, W symmetric and positive semidefinite. A cable whose
 /// constraint depends on those before it gets z = 0.
@@ -42,7 +42,7 @@ pub(crate) fn solve<T: Real>(
 /// what is left over.
 fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
     let determinant = a * c - b * b;
-    if determinant <= a * c * NEARLY_ONE_LINE {
+    if determinant <= a * c * (T::EPSILON * NEARLY_ONE_LINE) {
         return [q[0] / a, T::ZERO];
     }
     let cramer = |q: [T; 2]| {

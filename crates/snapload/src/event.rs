@@ -166,7 +166,12 @@ pub(crate) fn first_crossing<T: Real>(
             .iter()
             .fold(remaining, |step, jet| safe_step(jet, step));
         // Never less than a rounding forward, so that the search ends.
-        s = (s + step.max((s + horizon * T::EPSILON) * T::EPSILON)).min(horizon);
+        let next = s + step.max((s + horizon * T::EPSILON) * T::EPSILON);
+        s = if next < horizon {
+            next.detached()
+        } else {
+            horizon
+        };
     }
 }
 
@@ -321,7 +326,7 @@ fn newton<T: Real>(value: impl Fn(T) -> T, slope: impl Fn(T) -> T, from: T) -> T
         let next = s - value(s) / slope(s);
         let moves = (next - s).abs() > s.abs() * T::EPSILON * 2.0;
         // A slope of zero gives infinity or NaN, and ends it, too.
-        if !moves || !next.to_f64().is_finite() {
+        if !moves || !next.is_finite() {
             break;
         }
         s = next;

@@ -1,5 +1,6 @@
 //! The values that make a case: a plain struct, its defaults, and the check at the border.
 use crate::error::CaseError;
+use crate::real::Real;
 use crate::schema::{KEYS, LIGHTEST, check_entry};
 use crate::value::Value;
 
@@ -34,44 +35,44 @@ impl BodyKind {
 }
 
 /// The values of all keys of a case, in nondimensional units (length L, mass m, force F, time T of
-/// the model).
+/// the model), with numbers of type `T`.
 ///
 /// [`Parameters::from_entries`] fills in what is left out and checks the rest. One that is filled
 /// in by hand is checked by [`Parameters::check`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+pub struct Parameters<T = f64> {
     /// Length of the cables.
-    pub r: f64,
+    pub r: T,
     /// Coefficient of restitution.
-    pub e: f64,
+    pub e: T,
     /// Half-width of the body.
-    pub a: f64,
+    pub a: T,
     /// Half-height of the body; 0 is the circle.
-    pub b: f64,
+    pub b: T,
     /// Moment of inertia I; none for a point mass.
-    pub inertia: Option<f64>,
+    pub inertia: Option<T>,
     /// Force amplitude.
-    pub f_o: f64,
+    pub f_o: T,
     /// Axis ratio ν of the forcing ellipse.
-    pub nu: f64,
+    pub nu: T,
     /// Frequency Ω of the forcing.
-    pub omega: f64,
+    pub omega: T,
     /// Start: horizontal position.
-    pub x: f64,
+    pub x: T,
     /// Start: vertical position.
-    pub y: f64,
+    pub y: T,
     /// Start: rotation θ.
-    pub theta: f64,
+    pub theta: T,
     /// Start: horizontal velocity.
-    pub vx: f64,
+    pub vx: T,
     /// Start: vertical velocity.
-    pub vy: f64,
+    pub vy: T,
     /// Start: angular velocity.
-    pub vtheta: f64,
+    pub vtheta: T,
     /// End of the run.
-    pub t_end: f64,
+    pub t_end: T,
     /// Normal velocity below which a cable under tension sticks.
-    pub v_stick: f64,
+    pub v_stick: T,
     /// Whether a run stops where it settles.
     pub stop_when_settled: bool,
     /// Whether a run stops where it begins to slide.
@@ -80,6 +81,34 @@ pub struct Parameters {
     pub max_impacts: u64,
     /// Rigid body or point mass.
     pub body: BodyKind,
+}
+
+impl<T: Copy> Parameters<T> {
+    /// The same case with its numbers in another arithmetic; `number` is told each one's key.
+    pub fn map<U>(&self, mut number: impl FnMut(&'static str, T) -> U) -> Parameters<U> {
+        Parameters {
+            r: number("r", self.r),
+            e: number("e", self.e),
+            a: number("a", self.a),
+            b: number("b", self.b),
+            inertia: self.inertia.map(|inertia| number("inertia", inertia)),
+            f_o: number("f_o", self.f_o),
+            nu: number("nu", self.nu),
+            omega: number("omega", self.omega),
+            x: number("x", self.x),
+            y: number("y", self.y),
+            theta: number("theta", self.theta),
+            vx: number("vx", self.vx),
+            vy: number("vy", self.vy),
+            vtheta: number("vtheta", self.vtheta),
+            t_end: number("t_end", self.t_end),
+            v_stick: number("v_stick", self.v_stick),
+            stop_when_settled: self.stop_when_settled,
+            stop_when_sliding: self.stop_when_sliding,
+            max_impacts: self.max_impacts,
+            body: self.body,
+        }
+    }
 }
 
 impl Default for Parameters {
@@ -229,11 +258,11 @@ impl Parameters {
 
 /// The moment of inertia that follows from the size: a thin ring where b = 0, else a solid
 /// rectangle. None where that is nothing: without size, or one so small that its square vanishes.
-pub fn natural_inertia(a: f64, b: f64) -> Option<f64> {
-    let inertia = if b == 0.0 {
+pub fn natural_inertia<T: Real>(a: T, b: T) -> Option<T> {
+    let inertia = if b == T::ZERO {
         a * a
     } else {
         (a * a + b * b) / 3.0
     };
-    (inertia > 0.0).then_some(inertia)
+    (inertia > T::ZERO).then_some(inertia)
 }

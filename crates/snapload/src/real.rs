@@ -1,10 +1,10 @@
 //! The number type that the physics is written over, and its elementary functions.
 //!
-//! Formulas of body, cable, forcing, flight and impact are generic over [`Real`], so that another
-//! arithmetic can be added without writing them again; the thresholds are those of double precision. In a chaotic system a different last bit is a
-//! different picture: no function here calls the platform's `libm` (sine and cosine come from the
-//! Rust port in the crate `libm`, which is plain arithmetic in a fixed order), and a multiply is
-//! never fused with an add.
+//! The whole motion is generic over [`Real`]: doubles for the ordinary run, [`crate::Dual`] numbers
+//! for its derivatives, [`crate::Precise`] ones for its proof. In a chaotic system a different last bit
+//! is a different picture: no function of a double calls the platform's `libm` (sine and cosine come
+//! from the Rust port in the crate `libm`, which is plain arithmetic in a fixed order), and a multiply
+//! is never fused with an add.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -33,9 +33,16 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
+    const NEWTON_STEPS: usize;
 
     /// The number of this arithmetic that equals `value`.
     fn from_f64(value: f64) -> Self;
+    /// The number that is written as `value` is: 0.1 is one tenth in every arithmetic, as far as that can
+    /// hold it, and not the double next to a tenth.
+    fn from_decimal(value: f64) -> Self;
+    /// π/2.
+    fn half_pi() -> Self;
     /// The nearest double.
     fn to_f64(self) -> f64;
     /// Square root, correctly rounded.
@@ -64,6 +71,14 @@ pub trait Real:
     fn squared(self) -> Self {
         self * self
     }
+    /// The same number as one that depends on nothing: where a search looks is no part of the motion.
+    fn detached(self) -> Self {
+        self
+    }
+    /// Whether it is neither infinite nor NaN.
+    fn is_finite(self) -> bool {
+        self.to_f64().is_finite()
+    }
 }
 
 /// Number of terms that bring the series of [`Real::versines`] below half a rounding at |z| ≤ 1:
@@ -88,9 +103,16 @@ impl Real for f64 {
     const EPSILON: Self = f64::EPSILON;
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    const NEWTON_STEPS: usize = 2;
 
     fn from_f64(value: f64) -> Self {
         value
+    }
+    fn from_decimal(value: f64) -> Self {
+        value
+    }
+    fn half_pi() -> Self {
+        std::f64::consts::FRAC_PI_2
     }
     fn to_f64(self) -> f64 {
         self

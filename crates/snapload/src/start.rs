@@ -69,18 +69,14 @@ pub(crate) fn prepare<T: Real>(
         state.vtheta,
     ];
     let lengths = system.cables.iter().map(Cable::length);
-    if numbers
-        .into_iter()
-        .chain(lengths)
-        .any(|n| !n.to_f64().is_finite())
-    {
+    if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
         return Err(StartError::NotFinite);
     }
     if system.restitution < T::ZERO || system.restitution > T::ONE {
         return Err(StartError::Restitution);
     }
     let stop = stop_at_start(system, rules, t, state)?;
-    let tolerance = T::from_f64(START_TOLERANCE);
+    let tolerance = T::from_decimal(START_TOLERANCE);
     let mut closed = TautSet::SLACK;
     for (cable, tether) in system.cables.iter().enumerate() {
         let gap = tether.gap(state);

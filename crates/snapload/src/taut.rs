@@ -74,10 +74,10 @@ fn load<T: Real>(
 
 /// Moves the body by the least distance in the mass metric so that the gaps of a set close.
 ///
-/// Two Newton steps: from 1e-9 one already leaves 1e-17.
+/// As many Newton steps as a start's tolerance of 1e-9 may need.
 pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
     let inverse_inertia = system.body.inverse_inertia();
-    for _ in 0..2 {
+    for _ in 0..T::NEWTON_STEPS {
         let normals = system.normals(state, set);
         let mut distance = [T::ZERO; MAX_CABLES];
         for cable in set.iter() {
