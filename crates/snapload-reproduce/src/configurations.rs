@@ -105,7 +105,7 @@ impl Slides {
              stronger force."
         };
         let angles = "with half-sizes and the angles α and β";
-        let forces = "with forces and virtual displacements";
+        let forces = "with forces (1 is the net buoyancy) and virtual displacements";
         let right = ("Right", &self.right, 0, "");
         let left = ("Left", &self.left, 1, why);
         let mut all = Vec::new();
