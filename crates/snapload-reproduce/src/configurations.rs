@@ -1,13 +1,18 @@
 //! The chapter's drawn configurations, Figs 6.39-6.42 and 6.44, from real states.
 
+use crate::source::{Number, decimals};
 use crate::study::Study;
-use snapload::{ModeInterval, Motion, Playback, System, TautSet, Trajectory};
+use snapload::{
+    Case, CaseError, ModeInterval, Motion, Parameters, Playback, TautSet, Trajectory, named_case,
+};
 use snapload_figures::{Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke};
+use std::f64::consts::FRAC_PI_2;
 
 /// A state of a run, to be drawn.
 pub(crate) struct Configuration<'a> {
     pub(crate) number: &'static str,
     pub(crate) caption: String,
+    pub(crate) numbers: Vec<Number>,
     pub(crate) command: String,
     run: &'a Trajectory,
     half_sizes: [f64; 2],
@@ -24,8 +29,8 @@ enum Marks {
     Forces,
     /// The wave's force.
     Wave,
-    /// Both cables' tensions.
-    Tensions,
+    /// Rotation, and both cables' tensions.
+    Rocking,
 }
 
 const BODY: Stroke = line(Colour::Black, 1.1, Dash::Solid);
@@ -45,96 +50,124 @@ const fn line(colour: Colour, width_pt: f64, dash: Dash) -> Stroke {
 /// Length of an arrow per unit of force.
 const PER_FORCE: f64 = 0.5;
 
-/// The states that are drawn: the longest sliding with either cable among the cases of Table 6.1 as
-/// printed, the sliding example's first slide, and the rocking example at its largest rotation.
-pub(crate) fn configurations(study: &Study) -> Vec<Configuration<'_>> {
-    let mut all = Vec::new();
-    for (number, cable, marks, what) in [
-        (
-            "6.39",
-            0,
-            Marks::Angles,
-            "Right cable taut, with the angles α and β",
-        ),
-        (
-            "6.40",
-            1,
-            Marks::Angles,
-            "Left cable taut, with the angles α and β",
-        ),
-        (
-            "6.41",
-            1,
-            Marks::Forces,
-            "Left cable taut, with forces and virtual displacements",
-        ),
-    ] {
-        if let Some((code, size, run, t)) = longest_slide(study, cable) {
+/// The box that slides on its right cable in the run of this built-in case.
+const RIGHT: &str = "1931001000-559";
+/// The box that slides on its left cable under this force; it does so early, where the run can be trusted.
+const LEFT: &str = "1922001000-559";
+const FORCE: f64 = 0.65;
+
+/// A box and its run: the chapter draws a box, with both half-sizes.
+struct Boxed {
+    case: String,
+    half_sizes: [f64; 2],
+    run: Trajectory,
+}
+
+impl Boxed {
+    fn new(case: String, parameters: Parameters) -> Result<Self, CaseError> {
+        Ok(Self {
+            case,
+            half_sizes: [parameters.a, parameters.b],
+            run: Case::new(parameters)?.run(),
+        })
+    }
+}
+
+/// The runs of boxes that slide with either cable.
+pub(crate) struct Slides {
+    right: Boxed,
+    left: Boxed,
+    /// Whether a box of Table 6.1 slides on its left cable in a run of ours.
+    printed: bool,
+}
+
+impl Slides {
+    pub(crate) fn compute(study: &Study) -> Result<Self, CaseError> {
+        let left = Parameters {
+            f_o: FORCE,
+            ..named_case(LEFT)?.parameters
+        };
+        let boxes = study.cases.iter().filter(|case| case.parameters.b > 0.0);
+        let mut modes = boxes.flat_map(|case| case.runs.sliding_on.modes());
+        Ok(Self {
+            right: Boxed::new(RIGHT.to_owned(), named_case(RIGHT)?.parameters)?,
+            left: Boxed::new(format!("{LEFT} --set f_o={FORCE}"), left)?,
+            printed: modes.any(|mode| mode.taut == TautSet::only(1)),
+        })
+    }
+
+    /// Figs 6.39-6.42: the longest slide of either run, and the sliding example's first, halfway.
+    pub(crate) fn configurations<'a>(&'a self, study: &'a Study) -> Vec<Configuration<'a>> {
+        let why = if self.printed {
+            ""
+        } else {
+            " No box of Table 6.1 slides on its left cable in our runs, so this is a square of the table under a \
+             stronger force."
+        };
+        let angles = "with half-sizes and the angles α and β";
+        let forces = "with forces (1 is the net buoyancy) and virtual displacements";
+        let right = ("Right", &self.right, 0, "");
+        let left = ("Left", &self.left, 1, why);
+        let mut all = Vec::new();
+        for (number, (side, boxed, cable, why), marks, what) in [
+            ("6.39", right, Marks::Angles, angles),
+            ("6.40", left, Marks::Angles, angles),
+            ("6.41", left, Marks::Forces, forces),
+        ] {
+            if let Some(t) = longest_slide(&boxed.run, cable) {
+                let what = format!("{side} cable taut, {what}.{why}");
+                let at = (&boxed.run, t);
+                let sizes = boxed.half_sizes;
+                all.push(Configuration::new(
+                    number,
+                    &what,
+                    &boxed.case,
+                    at,
+                    sizes,
+                    marks,
+                ));
+            }
+        }
+        let mut slides = study.sliding.modes().iter();
+        if let Some(mode) = slides.find(|mode| mode.taut.len() == 1) {
+            let at = (&study.sliding, 0.5 * (mode.t_start + mode.t_end));
+            let what = "One cable taut (sliding), the wave pushing the body to its boundary.";
+            let code = "sliding-example";
             all.push(Configuration::new(
-                number,
+                "6.42",
                 what,
                 code,
-                (run, t),
-                size,
-                marks,
+                at,
+                [0.1, 0.0],
+                Marks::Wave,
             ));
         }
+        all
     }
-    let first = study
-        .sliding
-        .modes()
-        .iter()
-        .find(|mode| mode.taut.len() == 1);
-    if let Some(mode) = first {
-        let t = 0.5 * (mode.t_start + mode.t_end);
-        let what = "One cable taut, the wave pushing the body to its boundary";
-        let at = (&study.sliding, t);
-        all.push(Configuration::new(
-            "6.42",
-            what,
-            "sliding-example",
-            at,
-            [0.1, 0.0],
-            Marks::Wave,
-        ));
-    }
-    let t = most_turned(&study.rocking);
-    let what = "Circular body rocking, with both tensions";
-    let at = (&study.rocking, t);
-    all.push(Configuration::new(
+}
+
+/// Fig. 6.44: the rocking example at its largest rotation.
+pub(crate) fn rocking(study: &Study) -> Configuration<'_> {
+    let at = (&study.rocking, most_turned(&study.rocking));
+    let what = "Circular body rocking, with its rotation and both tensions.";
+    Configuration::new(
         "6.44",
         what,
         "rocking-example",
         at,
         [0.1, 0.0],
-        Marks::Tensions,
-    ));
-    all
+        Marks::Rocking,
+    )
 }
 
-fn longest_slide(
-    study: &Study,
-    cable: usize,
-) -> Option<(&'static str, [f64; 2], &Trajectory, f64)> {
-    let cases = study.cases.iter().map(|case| {
-        let size = [case.parameters.a, case.parameters.b];
-        (case.code, size, &case.runs.sliding_on)
-    });
-    let examples = [("sliding-example", [0.1, 0.0], &study.sliding)];
-    let slides = cases.chain(examples).flat_map(|(code, size, run)| {
-        let of_cable = move |mode: &&ModeInterval| mode.taut == TautSet::only(cable);
-        let modes = run.modes().iter().filter(of_cable);
-        modes.map(move |mode| (code, size, run, mode))
-    });
-    // Boxes first: they show both half-sizes.
-    let (code, size, run, mode) = slides.max_by(|p, q| {
-        let rank = |(_, size, _, mode): &(&str, [f64; 2], &Trajectory, &ModeInterval)| {
-            (size[1] > 0.0, mode.t_end - mode.t_start)
-        };
-        let (p, q) = (rank(p), rank(q));
-        p.0.cmp(&q.0).then(p.1.total_cmp(&q.1))
-    })?;
-    Some((code, size, run, 0.5 * (mode.t_start + mode.t_end)))
+/// The middle of the longest slide with a cable.
+fn longest_slide(run: &Trajectory, cable: usize) -> Option<f64> {
+    let length = |mode: &ModeInterval| mode.t_end - mode.t_start;
+    let slides = run.modes().iter();
+    slides
+        .filter(|mode| mode.taut == TautSet::only(cable))
+        .max_by(|p, q| length(p).total_cmp(&length(q)))
+        .map(|mode| 0.5 * (mode.t_start + mode.t_end))
 }
 
 fn most_turned(run: &Trajectory) -> f64 {
@@ -153,25 +186,31 @@ impl<'a> Configuration<'a> {
     fn new(
         number: &'static str,
         what: &str,
-        code: &str,
+        case: &str,
         (run, t): (&'a Trajectory, f64),
         half_sizes: [f64; 2],
         marks: Marks,
     ) -> Self {
+        // A time that one would write.
+        let t = (1000.0 * t).round() / 1000.0;
         let motion = run.at(t);
-        let tensions: Vec<String> = motion
-            .taut
-            .iter()
-            .map(|cable| format!("T{} = {:.3}", cable + 1, motion.tensions[cable]))
-            .collect();
+        let command = format!("snapload run --case {case} --sample {t} --json -");
+        let read = |name, value: f64, key: &str| Number {
+            name,
+            shown: decimals(value, 3),
+            command: command.clone(),
+            key: format!(".motion[1].{key}"),
+        };
+        let mut numbers = vec![read("θ = ", motion.state.theta, "theta")];
+        for cable in motion.taut.iter() {
+            let (name, key) = [("T₁ = ", "T1"), ("T₂ = ", "T2")][cable.min(1)];
+            numbers.push(read(name, motion.tensions[cable], key));
+        }
         Self {
             number,
-            caption: format!(
-                "{what}: {code} at t = {t:.3}, θ = {:.3}, {}.",
-                motion.state.theta,
-                tensions.join(", ")
-            ),
-            command: format!("snapload run --case {code} --sample {t} --json -"),
+            caption: format!("{what} A state of a real run, at t = {t}:"),
+            numbers,
+            command,
             run,
             half_sizes,
             motion,
@@ -181,7 +220,12 @@ impl<'a> Configuration<'a> {
 
     /// Draws it.
     pub(crate) fn plot(&self) -> Plot {
-        let mut layers = vec![ink(vec![self.outline()], BODY, "body")];
+        let mut layers = Vec::new();
+        if self.marks == Marks::Angles {
+            // Under the lines that they name.
+            self.add_sizes(&mut layers);
+        }
+        layers.push(ink(vec![self.outline()], BODY, "body"));
         let mut letters = vec![mark("c", self.centre())];
         let system = self.run.system();
         for cable in 0..2 {
@@ -201,7 +245,7 @@ impl<'a> Configuration<'a> {
             });
             letters.push(mark(["V", "W"][cable], fairlead));
         }
-        self.add_marks(&mut layers, &mut letters);
+        self.add_marks(&mut layers);
         layers.push(Layer::Letters(letters));
         let axis = |label: &str| Axis {
             label: label.to_owned(),
@@ -245,70 +289,116 @@ impl<'a> Configuration<'a> {
             .collect()
     }
 
-    fn add_marks(&self, layers: &mut Vec<Layer>, letters: &mut Vec<Mark>) {
-        let system = self.run.system();
-        let taut = self.motion.taut.iter().next().unwrap_or(0);
-        let mut arrows = Vec::new();
-        let mut arrow = |letter: &str, from: Point, by: Point| {
-            arrows.push(headed(from, by));
-            letters.push(mark(letter, [from[0] + by[0], from[1] + by[1]]));
-        };
-        let force = system.forcing.at(self.motion.t).map(|f| f * PER_FORCE);
-        match self.marks {
-            Marks::Angles => self.add_angles(taut, layers, letters),
-            Marks::Forces => {
-                let weight = system.forcing.constant[1] * PER_FORCE;
-                arrow("fₓ", self.centre(), [force[0], 0.0]);
-                arrow("f_y", self.centre(), [0.0, force[1] - weight]);
-                arrow("1", self.centre(), [0.0, weight]);
-                self.add_tension(taut, &mut arrow);
+    fn add_marks(&self, layers: &mut Vec<Layer>) {
+        let constant = self.run.system().forcing.constant[1] * PER_FORCE;
+        let [fx, fy] = self.run.system().forcing.at(self.motion.t);
+        let wave = [fx * PER_FORCE, fy * PER_FORCE - constant];
+        let centre = self.centre();
+        let arrows = match self.marks {
+            Marks::Angles => {
+                self.add_angles(layers);
+                Vec::new()
+            }
+            Marks::Forces => vec![
+                ("*fx*", centre, [wave[0], 0.0]),
+                ("*fy*", centre, [0.0, wave[1]]),
+                ("1", centre, [0.0, constant]),
+                self.tension(self.taut()),
                 // Beside the body, where there is room.
-                arrow("δx", [-0.8, 0.0], [0.2, 0.0]);
-                arrow("δy", [-0.8, 0.0], [0.0, 0.2]);
+                ("*δx*", [-0.8, 0.0], [0.2, 0.0]),
+                ("*δy*", [-0.8, 0.0], [0.0, 0.2]),
+            ],
+            Marks::Wave => vec![("*f*", centre, wave)],
+            Marks::Rocking => {
+                self.add_rotation(layers);
+                let cables = self.motion.taut.iter();
+                cables.map(|cable| self.tension(cable)).collect()
             }
-            Marks::Wave => {
-                let weight = system.forcing.constant[1] * PER_FORCE;
-                arrow("f", self.centre(), [force[0], force[1] - weight]);
-            }
-            Marks::Tensions => {
-                for cable in self.motion.taut.iter() {
-                    self.add_tension(cable, &mut arrow);
-                }
-            }
-        }
-        if !arrows.is_empty() {
-            layers.push(ink(arrows, ARROW, ""));
+        };
+        for (name, from, by) in arrows {
+            let shaft = vec![from, [from[0] + by[0], from[1] + by[1]]];
+            layers.push(named(shaft, name));
+            layers.push(ink(vec![headed(from, by)], ARROW, ""));
         }
     }
 
-    fn add_tension(&self, cable: usize, arrow: &mut impl FnMut(&str, Point, Point)) {
+    /// The taut cable, or the first of two.
+    fn taut(&self) -> usize {
+        self.motion.taut.iter().next().unwrap_or(0)
+    }
+
+    fn tension(&self, cable: usize) -> (&'static str, Point, Point) {
         let system = self.run.system();
         let (anchor, fairlead) = (system.cables[cable].anchor(), self.fairlead(cable));
         let pull = self.motion.tensions[cable] * PER_FORCE / system.cables[cable].length();
         let by = [0, 1].map(|i| (anchor[i] - fairlead[i]) * pull);
-        arrow(["T₁", "T₂"][cable.min(1)], fairlead, by);
+        (["*T*₁", "*T*₂"][cable.min(1)], fairlead, by)
     }
 
     /// α, from the vertical at the anchor to the cable; β, from the vertical at the fairlead to the body.
-    fn add_angles(&self, cable: usize, layers: &mut Vec<Layer>, letters: &mut Vec<Mark>) {
-        let system: &System = self.run.system();
-        let (anchor, fairlead) = (system.cables[cable].anchor(), self.fairlead(cable));
+    fn add_angles(&self, layers: &mut Vec<Layer>) {
+        let cable = self.taut();
+        let anchor = self.run.system().cables[cable].anchor();
+        let fairlead = self.fairlead(cable);
         // The chapter's angles open to the inside: to the right of the left cable's vertical.
         let side = if cable == 1 { 1.0 } else { -1.0 };
         let span = [fairlead[0] - anchor[0], fairlead[1] - anchor[1]];
         let alpha = (side * span[0]).atan2(-span[1]);
-        let beta = std::f64::consts::FRAC_PI_2 + side * self.motion.state.theta;
-        for (letter, at, angle, radius) in [("α", anchor, alpha, 0.35), ("β", fairlead, beta, 0.22)]
+        let beta = FRAC_PI_2 + side * self.motion.state.theta;
+        for (name, at, angle, radius) in
+            [("*α*", anchor, alpha, 0.45), ("*β*", fairlead, beta, 0.2)]
         {
-            let down = [at[0], at[1] - 1.3 * radius];
-            let on_arc = |part: f64| {
-                let (sine, cosine) = (angle * part).sin_cos();
-                [at[0] + side * radius * sine, at[1] - radius * cosine]
-            };
-            let arc = (0..=24).map(|k| on_arc(f64::from(k) / 24.0)).collect();
-            layers.push(ink(vec![vec![at, down], arc], HELP, ""));
-            letters.push(mark(letter, on_arc(0.5)));
+            let down = [at[0], at[1] - 1.5 * radius];
+            let turn = |part: f64| side * angle * part - FRAC_PI_2;
+            layers.push(ink(vec![vec![at, down]], HELP, ""));
+            layers.push(named(arc(at, radius, turn), name));
         }
+    }
+
+    /// r, a and b along the lines that have these lengths.
+    fn add_sizes(&self, layers: &mut Vec<Layer>) {
+        let [_, b] = self.half_sizes;
+        let cable = self.taut();
+        let fairlead = self.fairlead(cable);
+        let anchor = self.run.system().cables[cable].anchor();
+        let top = self.placed([0.0, b]);
+        // Each names its line in the middle or away from the fairlead, where V or W and β stand.
+        let part = |from: Point, to: Point, [p, q]: [f64; 2]| {
+            let at = |s: f64| [0, 1].map(|i| from[i] + s * (to[i] - from[i]));
+            vec![at(p), at(q)]
+        };
+        layers.push(named(part(anchor, fairlead, [0.45, 0.55]), "*r*"));
+        layers.push(named(part(top, fairlead, [0.0, 0.4]), "*a*"));
+        if b > 0.0 {
+            layers.push(named(vec![self.centre(), top], "*b*"));
+        }
+    }
+
+    /// θ, from the horizontal at the centre to the line between the fairleads.
+    fn add_rotation(&self, layers: &mut Vec<Layer>) {
+        let centre = self.centre();
+        let theta = self.motion.state.theta;
+        let level = vec![centre, [centre[0] + 0.45, centre[1]]];
+        let line = vec![centre, self.placed([0.45, 0.0])];
+        layers.push(ink(vec![level, line], HELP, ""));
+        layers.push(named(arc(centre, 0.35, |part| theta * part), "*θ*"));
+    }
+}
+
+/// An arc of a circle, by the direction at each part of it.
+fn arc(centre: Point, radius: f64, direction: impl Fn(f64) -> f64) -> Vec<Point> {
+    let point = |k: i32| {
+        let (sine, cosine) = direction(f64::from(k) / 24.0).sin_cos();
+        [centre[0] + radius * cosine, centre[1] + radius * sine]
+    };
+    (0..=24).map(point).collect()
+}
+
+/// A thin line with its name beside it.
+fn named(points: Vec<Point>, name: &str) -> Layer {
+    Layer::Boundary {
+        points,
+        label: name.to_owned(),
     }
 }
 

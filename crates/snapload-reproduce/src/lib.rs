@@ -8,12 +8,14 @@ pub mod claims;
 mod configurations;
 mod figures;
 mod html;
+mod source;
 mod story;
 mod study;
 mod tables;
 
-pub use figures::{Figure, Row, figures};
-pub use story::story;
+pub use figures::{Figure, Row, Source, figures};
+pub use source::Number;
+pub use story::{Step, story};
 pub use study::{
     Both, CaseRuns, CriticalCurve, CriticalPoint, CriticalRow, NormCurve, Progress, Reading, Study,
 };
@@ -55,6 +57,14 @@ impl From<CaseError> for ReportError {
     }
 }
 
+/// The section in a claim's id: `6.4.1` of `6.4.1-03`.
+fn section_of(claim: &Claim) -> &'static str {
+    claim
+        .id
+        .rsplit_once('-')
+        .map_or(claim.id, |(section, _)| section)
+}
+
 /// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where we do.
 fn claims_json(claims: &[Claim]) -> String {
     let rows: Vec<serde_json::Value> = claims
@@ -89,7 +99,9 @@ impl Report {
     /// [`ReportError`] only for a fault of the program.
     pub fn new(study: &Study) -> Result<Self, ReportError> {
         let rows = figures(study)?;
-        let claims = claims::claims(study)?;
+        let mut claims = claims::claims(study)?;
+        // In the chapter's order, section by section.
+        claims.sort_by_key(section_of);
         let mut files = vec![
             (
                 "report.html".to_owned(),

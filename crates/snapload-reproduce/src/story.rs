@@ -5,39 +5,58 @@ use snapload::{TautSet, Trajectory};
 /// Shorter stretches of a mode are told together as bouncing.
 const SHORT: f64 = 0.02;
 
-/// The sentences of the story, each with its time.
-pub fn story(run: &Trajectory) -> Vec<(f64, String)> {
-    let mut told: Vec<(f64, String)> = Vec::new();
-    let mut bouncing: Option<(f64, usize)> = None;
-    for mode in run.modes() {
+/// A sentence of the story.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// Which of the run's modes it begins with.
+    pub mode: usize,
+    /// When it begins.
+    pub t: f64,
+    /// What happens.
+    pub what: String,
+}
+
+/// Bouncing in short stretches: the first of them, when, and how often a cable was taut.
+type Bouncing = (usize, f64, usize);
+
+/// The story.
+pub fn story(run: &Trajectory) -> Vec<Step> {
+    let mut told: Vec<Step> = Vec::new();
+    let mut bouncing: Option<Bouncing> = None;
+    for (k, mode) in run.modes().iter().enumerate() {
         let long = mode.t_end - mode.t_start >= SHORT;
         let began = mode.t_start;
         if !long {
-            let (since, times) = bouncing.unwrap_or((began, 0));
-            bouncing = Some((since, times + usize::from(!mode.taut.is_empty())));
+            let (first, since, times) = bouncing.unwrap_or((k, began, 0));
+            bouncing = Some((first, since, times + usize::from(!mode.taut.is_empty())));
             continue;
         }
-        if let Some((since, times)) = bouncing.take() {
-            told.push((since, bounces(since, began, times)));
-        }
-        told.push((began, begins(run, mode.taut, began, mode.t_end)));
+        told.extend(bouncing.take().map(|bouncing| bounces(bouncing, began)));
+        told.push(Step {
+            mode: k,
+            t: began,
+            what: begins(run, mode.taut, began, mode.t_end),
+        });
     }
-    if let Some((since, times)) = bouncing {
-        told.push((since, bounces(since, run.end().t, times)));
-    }
+    told.extend(bouncing.map(|bouncing| bounces(bouncing, run.end().t)));
     told
 }
 
-fn bounces(since: f64, until: f64, times: usize) -> String {
-    let sliding = match times {
+fn bounces((mode, t, times): Bouncing, until: f64) -> Step {
+    let taut = match times {
         0 => String::new(),
         1 => ", once with a cable taut for a moment".to_owned(),
         _ => format!(", {times} times with a cable taut for a moment"),
     };
-    format!(
-        "bounces in short flights until t = {until:.3}, {:.3} in all{sliding}",
-        until - since
-    )
+    let lasts = match until - t {
+        short if short < 1e-3 => "less than 0.001".to_owned(),
+        long => format!("{long:.3}"),
+    };
+    Step {
+        mode,
+        t,
+        what: format!("bounces in short flights for {lasts}{taut}"),
+    }
 }
 
 fn begins(run: &Trajectory, taut: TautSet, from: f64, to: f64) -> String {
@@ -64,5 +83,13 @@ fn begins(run: &Trajectory, taut: TautSet, from: f64, to: f64) -> String {
         }
         _ => "rocks with both cables taut".to_owned(),
     };
-    format!("{what}, from y = {y:.4} for {:.3}", to - from)
+    let end = if to == run.end().t {
+        ", to the end of the run"
+    } else {
+        ""
+    };
+    format!(
+        "at height y = {y:.4}, {what}; this lasts {:.3}{end}",
+        to - from
+    )
 }
