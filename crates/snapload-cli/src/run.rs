@@ -71,7 +71,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 fn simulate(input: &Input) -> Trajectory {
     let mut progress = Progress::new("running", input.case.parameters().t_end);
-    Trajectory::record_watched(input.case.simulation(), |simulation| {
+    Trajectory::record_watched(input.case.simulation(), |simulation, _| {
         progress.at(simulation.time());
     })
 }

@@ -1,6 +1,6 @@
 //! The body: its inertia and its outline.
 
-use crate::real::Real;
+use crate::real::{Real, length};
 
 /// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,27 @@ impl<T: Real> Body<T> {
         }
     }
 
+    /// The same body in another arithmetic.
+    pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U) -> Body<U> {
+        let shape = match self.shape {
+            Shape::Point => Shape::Point,
+            Shape::Circle { radius } => Shape::Circle {
+                radius: number(radius),
+            },
+            Shape::Rectangle {
+                half_width,
+                half_height,
+            } => Shape::Rectangle {
+                half_width: number(half_width),
+                half_height: number(half_height),
+            },
+        };
+        Body {
+            shape,
+            inverse_inertia: number(self.inverse_inertia),
+        }
+    }
+
     /// The outline.
     pub fn shape(&self) -> Shape<T> {
         self.shape
@@ -81,6 +102,16 @@ impl<T: Real> Body<T> {
                 T::ZERO,
             ),
         }
+    }
+
+    /// How far the outline reaches from the centre.
+    pub(crate) fn reach(&self) -> T {
+        let (outline, radius) = self.outline();
+        outline
+            .points()
+            .iter()
+            .fold(T::ZERO, |reach, point| reach.max(length(*point)))
+            + radius
     }
 
     /// Height of the highest point above the centre, at the rotation with this sine and cosine.

@@ -78,6 +78,17 @@ impl<T: Real> Cable<T> {
         }
     }
 
+    /// The same cable in another arithmetic.
+    pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Cable<U> {
+        Cable {
+            fairlead: self.fairlead.map(number),
+            length: number(self.length),
+            rest_span: self.rest_span.map(number),
+            rest_gap: number(self.rest_gap),
+            rest_gap_error: number(self.rest_gap_error),
+        }
+    }
+
     /// Length r \[L\].
     pub fn length(&self) -> T {
         self.length

@@ -66,7 +66,7 @@ impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
 impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
     fn add(mut self, other: Self) -> Self {
-        self.value = self.value + other.value;
+        self.value += other.value;
         for (slope, more) in self.slope.iter_mut().zip(other.slope) {
             *slope += more;
         }
@@ -77,7 +77,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
 impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
     fn sub(mut self, other: Self) -> Self {
-        self.value = self.value - other.value;
+        self.value -= other.value;
         for (slope, less) in self.slope.iter_mut().zip(other.slope) {
             *slope -= less;
         }

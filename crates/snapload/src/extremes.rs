@@ -51,6 +51,14 @@ impl<T: Real> Extremes<T> {
     }
 }
 
+/// The highest point above `floor` that a search for one inside \[0, s\] comes across, on a function with
+/// |f̈| ≤ `bend`; none if there is no maximum above the floor.
+pub(crate) fn peak<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T, floor: T) -> Option<T> {
+    let mut record = floor;
+    search(f, (T::ZERO, f(T::ZERO)), (s, f(s)), bend, bend, &mut record);
+    (record > floor).then_some(record)
+}
+
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
 /// halving the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be beaten.
 fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {

@@ -114,6 +114,19 @@ impl<T: Real> Push<T> {
 }
 
 impl<T: Real> Forcing<T> {
+    /// The same forces in another arithmetic.
+    pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Forcing<U> {
+        let harmonic = |harmonic: &Harmonic<T>| Harmonic {
+            omega: number(harmonic.omega),
+            cosine: harmonic.cosine.map(number),
+            sine: harmonic.sine.map(number),
+        };
+        Forcing {
+            constant: self.constant.map(number),
+            harmonics: self.harmonics.iter().map(harmonic).collect(),
+        }
+    }
+
     /// The force at time t.
     pub fn at(&self, t: T) -> [T; 2] {
         self.harmonics.iter().fold(self.constant, |sum, harmonic| {

@@ -74,6 +74,25 @@ pub(crate) fn impact<T: Real>(
     }
 }
 
+/// The same for one cable that is closed by itself and closing: p = (1 + e) v_n/w.
+pub(crate) fn impact_alone<T: Real>(
+    system: &System<T>,
+    before: &State<T>,
+    cable: usize,
+) -> State<T> {
+    let inverse_inertia = system.body.inverse_inertia();
+    let normal = system.cables[cable].normal(before);
+    let v_n = normal.velocity(before);
+    let w = normal.coupling(&normal, inverse_inertia);
+    let mut after = *before;
+    normal.kick(
+        &mut after,
+        (v_n + system.restitution * v_n) / w,
+        inverse_inertia,
+    );
+    after
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,6 +127,7 @@ mod tests {
         let lost = system.energy(&before) - system.energy(&shock.after);
         assert!((lost - (1.0 - 0.49) * v_n * v_n / (2.0 * w)).abs() < 1e-15);
         assert!((lost - shock.impulse[1] * (v_n - 0.7 * v_n) / 2.0).abs() < 1e-15);
+        assert_eq!(impact_alone(&system, &before, 1), shock.after);
     }
 
     #[test]

@@ -177,6 +177,15 @@ impl Parameters {
         Ok(p)
     }
 
+    /// Whether a small change of a key that holds a number changes the motion smoothly. A point mass has no
+    /// size and no rotation, and a circle no half-height.
+    pub fn moves_by(&self, name: &str) -> bool {
+        match self.body {
+            BodyKind::Point => !["a", "b", "inertia", "theta", "vtheta"].contains(&name),
+            BodyKind::Rigid => name != "b" || self.b > 0.0,
+        }
+    }
+
     /// The value of a key; none for an unknown key, and for the inertia of a point mass.
     pub fn get(&self, name: &str) -> Option<Value> {
         KEYS.iter().find(|key| key.name == name)?.get(self)

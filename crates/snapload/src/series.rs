@@ -340,6 +340,19 @@ impl<T: Real> Series<T> {
         }
     }
 
+    /// g and ġ of a slack cable a time `s` after the start.
+    pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+        let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER - 1);
+        (gap, rate)
+    }
+
+    /// Bound on |g̈| of a slack cable over the step.
+    pub(crate) fn gap_bend(&self, cable: usize) -> T {
+        self.lines[cable]
+            .gap
+            .derivative_bound(2, self.step, ORDER - 1)
+    }
+
     /// Bounds on |ÿ| and |θ̈| over the step.
     pub(crate) fn steepest(&self) -> [T; 2] {
         [&self.y, &self.theta].map(|p| p.derivative_bound(2, self.step, ORDER))

@@ -2,7 +2,7 @@
 
 use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Jets, Reached, first_crossing};
-use crate::extremes::Extremes;
+use crate::extremes::{Extremes, peak};
 use crate::flight::Flight;
 use crate::impact::{Shock, impact};
 use crate::real::{Real, length};
@@ -15,6 +15,9 @@ use crate::{State, StopRules, System, TautSet};
 /// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
 /// an impulse neither loads nor unloads.
 const UNMOVED: f64 = 64.0;
+
+/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
+const LOOKS: usize = 64;
 
 /// So many instants of impact in a row on the same cables count as a converging series.
 const CONVERGING: u32 = 5;
@@ -71,8 +74,21 @@ pub struct Step<T: Real = f64> {
     pub taut_after: TautSet,
     /// Why the motion stops here, if it does.
     pub stop: Option<Stop>,
-    before: State<T>,
+    /// The state at the end, before the event there.
+    pub before: State<T>,
+    pub(crate) event: Event,
     shock: Option<Shock<T>>,
+}
+
+/// What there was at the end of a stretch, before the law was applied.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Event {
+    /// What was reached.
+    pub(crate) reached: Reached,
+    /// The cables whose gap is zero, known and not evaluated.
+    pub(crate) closed: TautSet,
+    /// Those of them without normal velocity.
+    pub(crate) still: TautSet,
 }
 
 impl<T: Real> Step<T> {
@@ -140,6 +156,11 @@ impl<T: Real> Simulation<T> {
         &self.system
     }
 
+    /// The stop rules.
+    pub fn rules(&self) -> &StopRules<T> {
+        &self.rules
+    }
+
     /// The time reached.
     pub fn time(&self) -> T {
         self.t
@@ -185,7 +206,8 @@ impl<T: Real> Simulation<T> {
         let crossing = self.next_crossing();
         self.advance(&crossing);
         self.before = self.state;
-        let shock = self.apply_law(crossing.reached);
+        let event = self.event(crossing.reached);
+        let shock = self.apply_law(&event);
         self.check_progress(t_start);
         Some(Step {
             t_start,
@@ -196,8 +218,75 @@ impl<T: Real> Simulation<T> {
             taut_after: self.taut,
             stop: self.stop,
             before: self.before,
+            event,
             shock,
         })
+    }
+
+    /// The state a time `s` into the stretch that the latest step made.
+    pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
+        if step.taut.is_empty() {
+            self.flight.state(s)
+        } else {
+            self.series.state(s)
+        }
+    }
+
+    /// The gap of a cable at the time reached.
+    pub(crate) fn gap(&self, cable: usize) -> T {
+        self.contacts[cable].gap
+    }
+
+    /// The closest that a slack cable came to being taut within the latest step without reaching it: the
+    /// largest gap there, if it is above `floor` < 0.
+    pub(crate) fn closest_approach(&self, step: &Step<T>, cable: usize, floor: T) -> Option<T> {
+        let s = step.t_end - step.t_start;
+        if step.taut.is_empty() {
+            let bend = self.flight.gap_bend(cable, s);
+            let ends = self.flight.gap_at_start(cable).max(self.gap(cable));
+            if ends + bend * s * s * 0.125 < floor {
+                return None;
+            }
+            peak(&|s| self.flight.gap_and_rate(cable, s), s, bend, floor)
+        } else {
+            let bend = self.series.gap_bend(cable);
+            peak(&|s| self.series.gap_and_rate(cable, s), s, bend, floor)
+        }
+    }
+
+    /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
+    pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
+        let s = step.t_end - step.t_start;
+        let [y_bend, theta_bend] = if step.taut.is_empty() {
+            [self.flight.steepest(), T::ZERO]
+        } else {
+            self.series.steepest()
+        };
+        let reach = self.system.body.reach();
+        let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
+        if rough < floor {
+            return rough;
+        }
+        let width = s / LOOKS as f64;
+        let spin = step.start.vtheta.abs() + theta_bend * s;
+        let bend = y_bend + (spin * spin + theta_bend) * reach;
+        (0..=LOOKS)
+            .map(|k| self.system.top(&self.within(step, width * k as f64)))
+            .fold(step.start.y, T::max)
+            + bend * width * width * 0.125
+    }
+
+    /// How far the latest expansion of taut motion may be used.
+    pub(crate) fn expansion(&self) -> T {
+        self.series.step()
+    }
+
+    fn event(&self, reached: Reached) -> Event {
+        Event {
+            reached,
+            closed: self.closed(),
+            still: self.resting(),
+        }
     }
 
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
@@ -276,20 +365,27 @@ impl<T: Real> Simulation<T> {
     }
 
     /// The cables whose gap is zero, known and not evaluated.
-    fn closed(&self) -> TautSet {
+    pub(crate) fn closed(&self) -> TautSet {
         let known = |&cable: &usize| {
             self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
         };
         (0..self.system.cables.len()).filter(known).collect()
     }
 
-    fn apply_law(&mut self, reached: Reached) -> Option<Shock<T>> {
+    /// The closed cables without normal velocity.
+    pub(crate) fn resting(&self) -> TautSet {
+        let still = |&cable: &usize| self.contacts[cable].resting;
+        self.closed().iter().filter(still).collect()
+    }
+
+    fn apply_law(&mut self, event: &Event) -> Option<Shock<T>> {
+        let reached = event.reached;
         if reached.rotation {
             self.stop = Some(Stop::RotationLimit);
         } else if reached.top {
             self.stop = Some(Stop::UpperBound);
         } else if !reached.gaps.is_empty() {
-            return Some(self.snap(reached.gaps));
+            return Some(self.snap(event));
         } else if !reached.tensions.is_empty() {
             self.release(reached.tensions);
         } else if self.t >= self.rules.t_end {
@@ -299,12 +395,9 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Cables snap taut: impact, then sticking, then the choice of the taut set.
-    fn snap(&mut self, struck: TautSet) -> Shock<T> {
-        let closed = self.closed();
-        let still: TautSet = closed
-            .iter()
-            .filter(|&cable| self.contacts[cable].resting)
-            .collect();
+    fn snap(&mut self, event: &Event) -> Shock<T> {
+        let Event { closed, still, .. } = *event;
+        let struck = event.reached.gaps;
         let shock = impact(&self.system, &self.state, closed, still);
         self.state = shock.after;
         let hit: TautSet = struck.intersection(shock.pulling);

@@ -17,3 +17,22 @@ pub struct State<T = f64> {
     /// Angular velocity \[rad/T\].
     pub vtheta: T,
 }
+
+impl<T> State<T> {
+    /// x, y, θ, ẋ, ẏ, θ̇.
+    pub fn components(self) -> [T; 6] {
+        [self.x, self.y, self.theta, self.vx, self.vy, self.vtheta]
+    }
+
+    /// From its components, in the same order.
+    pub fn from_components([x, y, theta, vx, vy, vtheta]: [T; 6]) -> Self {
+        Self {
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+        }
+    }
+}

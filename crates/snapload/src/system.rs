@@ -43,6 +43,16 @@ impl<T: Real> System<T> {
         }
     }
 
+    /// The same system in another arithmetic.
+    pub fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> System<U> {
+        System {
+            body: self.body.map(number),
+            cables: self.cables.iter().map(|cable| cable.map(number)).collect(),
+            forcing: self.forcing.map(number),
+            restitution: number(self.restitution),
+        }
+    }
+
     /// The set of all cables.
     pub fn all_cables(&self) -> TautSet {
         (0..self.cables.len().min(MAX_CABLES)).collect()

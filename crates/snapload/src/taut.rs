@@ -42,6 +42,29 @@ pub(crate) fn tensions<T: Real>(
     )
 }
 
+/// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).
+pub(crate) fn acceleration<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    taut: TautSet,
+) -> [T; 3] {
+    let [fx, fy] = system.forcing.at(t);
+    if taut.is_empty() {
+        return [fx, fy, T::ZERO];
+    }
+    let tension = tensions(system, t, state, taut);
+    let inverse_inertia = system.body.inverse_inertia();
+    taut.iter().fold([fx, fy, T::ZERO], |[x, y, theta], cable| {
+        let (normal, pull) = (system.cables[cable].normal(state), tension[cable]);
+        [
+            x - pull * normal.n[0],
+            y - pull * normal.n[1],
+            theta - pull * normal.arm * inverse_inertia,
+        ]
+    })
+}
+
 /// g̈/(2r) of a closed cable while the cables of `taut` pull.
 pub(crate) fn normal_acceleration<T: Real>(
     system: &System<T>,

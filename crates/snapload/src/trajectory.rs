@@ -104,11 +104,14 @@ const RHO2_UNTIL: f64 = 10.0;
 impl Trajectory {
     /// Runs a simulation to its end and keeps all of it.
     pub fn record(simulation: Simulation) -> Self {
-        Self::record_watched(simulation, |_| {})
+        Self::record_watched(simulation, |_, _| {})
     }
 
-    /// The same; `watch` is shown the simulation after every step.
-    pub fn record_watched(mut simulation: Simulation, mut watch: impl FnMut(&Simulation)) -> Self {
+    /// The same; `watch` is shown the simulation after every step, and the step.
+    pub fn record_watched(
+        mut simulation: Simulation,
+        mut watch: impl FnMut(&Simulation, &Step),
+    ) -> Self {
         let mut run = Self {
             system: simulation.system().clone(),
             segments: Vec::new(),
@@ -119,7 +122,7 @@ impl Trajectory {
         };
         while let Some(step) = simulation.step() {
             run.take(&step);
-            watch(&simulation);
+            watch(&simulation, &step);
         }
         run.end = End::of(&simulation);
         run.segments.push(Segment {

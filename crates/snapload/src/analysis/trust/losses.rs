@@ -1,0 +1,104 @@
+//! Where neighbours may have another event than the run.
+
+use super::Loss;
+use super::spread::Spread;
+use crate::taut::normal_acceleration;
+use crate::{Normal, Simulation, Step, StepMap};
+
+/// Neighbours are held to reach this many standard deviations.
+const REACH: f64 = 3.0;
+
+/// Whether, and why, neighbours may leave the run's sequence of events at this step. `spread` is told just
+/// before the event, at the time of the one before.
+pub(super) fn loss(
+    simulation: &Simulation,
+    step: &Step,
+    map: &StepMap,
+    spread: &Spread,
+    closing: Option<Closing>,
+) -> Option<Loss> {
+    let struck = step.event.reached.gaps;
+    if struck.len() > 1 {
+        return Some(Loss::Simultaneous);
+    }
+    let graze = closing
+        .filter(|closing| may_miss(map, spread, closing))
+        .map(|closing| Loss::Graze {
+            cable: closing.cable,
+        });
+    let near = || {
+        (0..simulation.system().cables.len())
+            .filter(|cable| !(step.event.closed.contains(*cable) || step.taut.contains(*cable)))
+            .find(|&cable| may_snap(simulation, step, spread, cable))
+            .map(|cable| Loss::NearMiss { cable })
+    };
+    let stop = || may_stop(simulation, step, spread).then_some(Loss::StopRule);
+    graze.or_else(near).or_else(stop)
+}
+
+/// How a gap closes, just before the one impact of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closing {
+    pub(super) cable: usize,
+    /// Normal velocity.
+    pub(super) v_n: f64,
+    /// Normal acceleration α = g̈/(2r).
+    pub(super) alpha: f64,
+}
+
+impl Closing {
+    /// Of a step that ends with one cable's impact.
+    pub(super) fn of(simulation: &Simulation, step: &Step, map: &StepMap) -> Option<Self> {
+        let mut struck = step.event.reached.gaps.iter();
+        let (Some(cable), None) = (struck.next(), struck.next()) else {
+            return None;
+        };
+        let system = simulation.system();
+        let v_n = system.cables[cable]
+            .normal(&step.before)
+            .velocity(&step.before);
+        let alpha = if step.taut.is_empty() {
+            let [.., x, y, _] = *map.rate();
+            system.free_normal_acceleration(cable, &step.before, [x, y])
+        } else {
+            normal_acceleration(system, step.t_end, &step.before, cable, step.taut)
+        };
+        Some(Self { cable, v_n, alpha })
+    }
+}
+
+/// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in time,
+/// which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
+fn may_miss(map: &StepMap, spread: &Spread, closing: &Closing) -> bool {
+    let Closing { v_n, alpha, .. } = *closing;
+    alpha < 0.0 && REACH * spread.along(map.delay()) * 2.0 * -alpha >= v_n
+}
+
+/// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its end.
+fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize) -> bool {
+    let tether = &simulation.system().cables[cable];
+    let Normal { n, arm } = tether.normal(&step.before);
+    let direction = [n[0], n[1], arm, 0.0, 0.0, 0.0];
+    let margin = 2.0 * tether.length() * REACH * spread.along(&direction);
+    simulation.gap(cable) > -margin || simulation.closest_approach(step, cable, -margin).is_some()
+}
+
+/// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.
+fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
+    let rules = simulation.rules();
+    let (before, reached) = (&step.before, step.event.reached);
+    let reach = |i: usize| REACH * spread.of_component(i);
+    let turns = rules
+        .rotation_limit
+        .is_some_and(|limit| !reached.rotation && before.theta.abs() + reach(2) >= limit);
+    let rises = rules.upper_bound.is_some_and(|level| {
+        let margin = reach(1) + reach(2);
+        !reached.top && simulation.highest_within(step, level - margin) + margin >= level
+    });
+    let sticks = step.taut_after.len() > step.taut.len();
+    let settles = [rules.settled_below, rules.sliding_above]
+        .into_iter()
+        .flatten()
+        .any(|height| sticks && (before.y - height).abs() <= reach(1));
+    turns || rises || settles
+}

@@ -1,0 +1,180 @@
+//! How far a run can be trusted.
+//!
+//! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is carried along
+//! the run by the linearised motion ([`crate::Tangent`]) as the spread of (w, τ), the deviation of state and
+//! time told at the events. The *horizon* is the first event where the standard deviation passes a
+//! tolerance, or where neighbours within three standard deviations may have another event than the run:
+//! there the linearisation ends, and with it the knowledge of what follows.
+
+mod losses;
+mod spread;
+mod witness;
+
+pub use witness::Witness;
+
+use crate::{Case, CaseError, Key, Trajectory, Value, key_named};
+
+/// What of a run is uncertain. The motion is computed from the values given; each may be off by up to its
+/// uncertainty, either way, all values in between being equally likely.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doubt {
+    /// Of each component of the start: x, y, θ, ẋ, ẏ, θ̇.
+    pub start: [f64; 6],
+    /// Of parameters, by name of their key.
+    pub keys: Vec<(&'static str, f64)>,
+    /// A result with a larger standard deviation is not known.
+    pub tolerance: f64,
+}
+
+impl Default for Doubt {
+    /// No more than rounding, and three digits asked for.
+    fn default() -> Self {
+        Self {
+            start: [0.0; 6],
+            keys: Vec::new(),
+            tolerance: 1e-3,
+        }
+    }
+}
+
+/// The keys of the start, in the order of its components.
+pub const START_KEYS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
+
+impl Doubt {
+    /// With every component of the start off by up to `size`.
+    pub fn of_start(size: f64) -> Self {
+        Self {
+            start: [size; 6],
+            ..Self::default()
+        }
+    }
+
+    /// Adds the uncertainty of one key.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is negative or
+    /// not finite.
+    pub fn set(&mut self, key: &str, size: f64) -> Result<(), CaseError> {
+        let key: &'static Key = key_named(key)?;
+        if !(size >= 0.0 && size.is_finite()) {
+            let allowed = "an uncertainty of 0 or more";
+            return Err(CaseError::value(key.name, Value::Number(size), allowed));
+        }
+        if let Some(component) = START_KEYS.iter().position(|name| *name == key.name) {
+            self.start[component] = size;
+        } else if UNCERTAIN_KEYS.contains(&key.name) {
+            self.keys.retain(|(name, _)| *name != key.name);
+            self.keys.push((key.name, size));
+        } else {
+            let allowed = format!("no uncertainty: it is no quantity of the motion; {} are", {
+                let mut all = START_KEYS.to_vec();
+                all.extend(UNCERTAIN_KEYS);
+                all.join(", ")
+            });
+            return Err(CaseError::value(key.name, Value::Number(size), allowed));
+        }
+        Ok(())
+    }
+}
+
+/// The keys, but for those of the start, that a motion depends on smoothly.
+pub const UNCERTAIN_KEYS: [&str; 8] = ["r", "e", "a", "b", "inertia", "f_o", "nu", "omega"];
+
+/// Why a run can not be trusted any further.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// The deviation has grown past the tolerance.
+    Tolerance,
+    /// An impact so slow that a neighbour may miss it.
+    Graze {
+        /// The cable.
+        cable: usize,
+    },
+    /// A cable comes so close to being taut that a neighbour may snap there and then.
+    NearMiss {
+        /// The cable.
+        cable: usize,
+    },
+    /// Several cables snap at one instant: which is first decides what follows.
+    Simultaneous,
+    /// A stop rule that a neighbour may meet where the run does not, or the other way round.
+    StopRule,
+}
+
+/// Where trust ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Horizon {
+    /// When \[T\].
+    pub t: f64,
+    /// The number of the impact, from 1; of the next one where trust ends between impacts.
+    pub impact: usize,
+    /// Why.
+    pub loss: Loss,
+}
+
+/// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred: the
+/// linearisation diverges there like 1/v_n.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Graze {
+    /// The number of the impact, from 1.
+    pub impact: usize,
+    /// Normal velocity v_n⁻ \[L/T\].
+    pub v_n: f64,
+    /// By how much a deviation of the state can grow in it.
+    pub factor: f64,
+}
+
+/// How far a run can be trusted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trust {
+    /// Standard deviation at each impact: the largest of its time and of its states' components, each relative
+    /// to its value where that is above 1; infinite once neighbours may have other events.
+    pub errors: Vec<f64>,
+    /// Where trust ends; none if the whole run can be trusted, its end included.
+    pub horizon: Option<Horizon>,
+    /// Standard deviation of the time at which the run ends \[T\]; infinite past the horizon.
+    pub end_error: f64,
+    /// Impacts that magnify deviations.
+    pub grazes: Vec<Graze>,
+    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that sticking closes.
+    pub exponents: [f64; 6],
+}
+
+/// What a double can hold.
+const MOST_DIGITS: f64 = 15.95;
+
+impl Trust {
+    /// Decimal digits that are expected to be right, impact by impact.
+    pub fn digits(&self) -> impl Iterator<Item = f64> + '_ {
+        self.errors
+            .iter()
+            .map(|error| (-libm::log10(*error)).clamp(0.0, MOST_DIGITS))
+    }
+
+    /// Whether the way in which the run ends is certain: neighbours within the uncertainty end alike.
+    pub fn decides_the_end(&self) -> bool {
+        self.horizon.is_none()
+    }
+}
+
+/// Runs a case and says how far it can be trusted.
+///
+/// ```
+/// use snapload::analysis::{Doubt, trusted_run};
+/// use snapload::{Case, Parameters};
+/// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
+/// let (run, trust) = trusted_run(&case, &Doubt::default())?;
+/// assert_eq!(run.impacts().len(), 12);
+/// assert!(trust.decides_the_end() && trust.errors[11] < 1e-12);
+/// # Ok::<(), snapload::CaseError>(())
+/// ```
+///
+/// # Errors
+/// A [`CaseError`] if a key that is in doubt can not be varied about this start.
+pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), CaseError> {
+    let mut witness = Witness::of_case(case, doubt)?;
+    let run = Trajectory::record_watched(case.simulation(), |simulation, step| {
+        witness.follow(simulation, step);
+    });
+    Ok((run, witness.verdict()))
+}

@@ -1,0 +1,258 @@
+//! Follows a run and keeps account of what is known of it.
+
+use super::losses::{Closing, loss};
+use super::spread::Spread;
+use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
+use crate::analysis::Frame;
+use crate::{Case, CaseError, Deviation, Dual, Simulation, State, Step, StepMap, Tangent, Value};
+
+/// An impact that magnifies more than this is told.
+const MAGNIFIES: f64 = 100.0;
+
+/// What rounding adds in one step to a component of size 1, as standard deviation.
+const ROUNDING: f64 = f64::EPSILON;
+
+/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
+const LOST: f64 = 1e30;
+
+/// Follows a run, step by step, and says in the end how far it can be trusted.
+#[derive(Clone, Debug)]
+pub struct Witness {
+    tolerance: f64,
+    tangent: Tangent,
+    spread: Spread,
+    keys: Vec<KeyDoubt>,
+    frame: Frame,
+    errors: Vec<f64>,
+    grazes: Vec<Graze>,
+    horizon: Option<Horizon>,
+    end_error: f64,
+    end: f64,
+}
+
+/// The same run with its derivatives by an uncertain parameter.
+#[derive(Clone, Debug)]
+struct KeyDoubt {
+    simulation: Simulation<Dual<f64, 1>>,
+    /// Standard deviation of the parameter.
+    size: f64,
+    /// That of (w, τ), at the latest event.
+    deviation: Deviation,
+}
+
+/// The standard deviation of a value that lies anywhere within ± `size`.
+fn uniform(size: f64) -> f64 {
+    size / 3.0_f64.sqrt()
+}
+
+impl Witness {
+    /// Of a motion about to begin, whose start may be off by `start`.
+    pub fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
+        let tangent = Tangent::new(simulation.system());
+        let projection = tangent.of_start(simulation);
+        let mut spread = Spread {
+            covariance: [[0.0; 7]; 7],
+            columns: Vec::new(),
+        };
+        for (i, size) in start.iter().enumerate() {
+            spread.covariance[i][i] = uniform(*size).powi(2);
+        }
+        spread.map_covariance(|w| {
+            let mut projected = *w;
+            for (component, row) in projected.iter_mut().zip(&projection) {
+                *component = row.iter().zip(w).map(|(p, w)| p * w).sum();
+            }
+            projected
+        });
+        spread.add_noise(&rounding(simulation.state()));
+        Self {
+            tolerance,
+            tangent,
+            spread,
+            keys: Vec::new(),
+            frame: Frame::new(),
+            errors: Vec::new(),
+            grazes: Vec::new(),
+            horizon: None,
+            end_error: 0.0,
+            end: simulation.time(),
+        }
+    }
+
+    /// Of a case, with all that is in doubt.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a key that is in doubt has no value in this case.
+    pub fn of_case(case: &Case, doubt: &Doubt) -> Result<Self, CaseError> {
+        let mut start = doubt.start;
+        // What the case does not have can not be in doubt.
+        for (size, key) in start.iter_mut().zip(START_KEYS) {
+            if !case.parameters().moves_by(key) {
+                *size = 0.0;
+            }
+        }
+        let mut witness = Self::new(&case.simulation(), &start, doubt.tolerance);
+        for (name, size) in &doubt.keys {
+            witness.keys.push(KeyDoubt::new(case, name, *size)?);
+        }
+        witness.spread.columns = witness.keys.iter().map(|key| key.deviation).collect();
+        Ok(witness)
+    }
+
+    /// Takes in the step that `simulation` has just made.
+    pub fn follow(&mut self, simulation: &Simulation, step: &Step) {
+        let map = self.tangent.of_step(simulation, step);
+        self.frame.follow(&map);
+        self.end = step.t_end;
+        let rows = step.impacts().count();
+        let closing = Closing::of(simulation, step, &map);
+        self.note_graze(closing, &map);
+        let error = if self.is_lost() {
+            f64::INFINITY
+        } else {
+            self.carry(simulation, step, &map, closing)
+        };
+        self.errors.extend(std::iter::repeat_n(error, rows));
+    }
+
+    /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    fn is_lost(&self) -> bool {
+        let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
+        other_events
+            || !self
+                .spread
+                .covariance
+                .iter()
+                .flatten()
+                .all(|c| c.abs() < LOST)
+    }
+
+    /// Carries the spread through the step; returns the error at its event.
+    fn carry(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        map: &StepMap,
+        closing: Option<Closing>,
+    ) -> f64 {
+        let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
+        let stage = |spread: &Spread, i: usize, f: &dyn Fn(&Deviation) -> Deviation| Spread {
+            columns: columns.iter().map(|column| column[i]).collect(),
+            ..spread.mapped(f)
+        };
+        let along = stage(&self.spread, 0, &|w| map.along(w));
+        if let Some(loss) = loss(simulation, step, map, &along, closing) {
+            self.lose(step, loss);
+        }
+        let met = stage(&along, 1, &|w| map.meet(w));
+        let mut after = stage(&met, 2, &|w| map.through(w));
+        let error =
+            relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
+        after.add_noise(&rounding(&step.after));
+        self.spread = after;
+        self.end_error = self.spread.of_component(6);
+        if error > self.tolerance {
+            self.lose(step, Loss::Tolerance);
+        }
+        if self.is_lost() { f64::INFINITY } else { error }
+    }
+
+    /// Trust ends once.
+    fn lose(&mut self, step: &Step, loss: Loss) {
+        self.horizon.get_or_insert(Horizon {
+            t: step.t_end,
+            impact: self.errors.len() + 1,
+            loss,
+        });
+    }
+
+    fn note_graze(&mut self, closing: Option<Closing>, map: &StepMap) {
+        let Some(Closing { v_n, alpha, .. }) = closing else {
+            return;
+        };
+        let factor = map.magnification();
+        if alpha < 0.0 && factor > MAGNIFIES {
+            self.grazes.push(Graze {
+                impact: self.errors.len() + 1,
+                v_n,
+                factor,
+            });
+        }
+    }
+
+    /// What there is to say, at the end of the run or wherever it has come to.
+    pub fn verdict(self) -> Trust {
+        let end_error = if self.is_lost() {
+            f64::INFINITY
+        } else {
+            self.end_error
+        };
+        Trust {
+            errors: self.errors,
+            horizon: self.horizon,
+            end_error,
+            grazes: self.grazes,
+            exponents: self.frame.exponents(self.end),
+        }
+    }
+}
+
+impl KeyDoubt {
+    fn new(case: &Case, name: &'static str, size: f64) -> Result<Self, CaseError> {
+        if !case.parameters().moves_by(name) {
+            let allowed = "no uncertainty, as this case has no such quantity";
+            return Err(CaseError::value(name, Value::Number(size), allowed));
+        }
+        let lift = |key, number| {
+            if key == name {
+                Dual::variable(number, 0)
+            } else {
+                Dual::constant(number)
+            }
+        };
+        let simulation = case.simulation_over(lift).map_err(|_| {
+            let allowed = "an uncertainty about a start that is not on the very edge";
+            CaseError::value(name, Value::Number(size), allowed)
+        })?;
+        let size = uniform(size);
+        let w = simulation.state().components().map(|c| c.slope[0] * size);
+        Ok(Self {
+            simulation,
+            size,
+            deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
+        })
+    }
+
+    /// The deviation just before the event told at the time of the last one, just before it at its own time,
+    /// and after it.
+    fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
+        let Some(step) = self.simulation.step() else {
+            return [self.deviation; 3];
+        };
+        let tau = step.t_end.slope[0] * self.size;
+        let at = |state: &State<Dual<f64, 1>>| -> Deviation {
+            let w = state.components().map(|c| c.slope[0] * self.size);
+            [w[0], w[1], w[2], w[3], w[4], w[5], tau]
+        };
+        let met = at(&step.before);
+        let along = map.before_meeting(&met, self.deviation[6]);
+        self.deviation = at(&step.after);
+        [along, met, self.deviation]
+    }
+}
+
+/// The largest standard deviation of time and state, of each relative to its value where that is above 1.
+fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
+    let values = state.components().into_iter().chain([t]);
+    values
+        .enumerate()
+        .map(|(i, value)| spread.of_component(i) / value.abs().max(1.0))
+        .fold(0.0, f64::max)
+}
+
+/// What rounding adds to a state in one step.
+fn rounding(state: &State) -> [f64; 6] {
+    state
+        .components()
+        .map(|component| ROUNDING * component.abs().max(1.0))
+}

@@ -1,0 +1,139 @@
+//! Proof by more digits: the same motion again in multi-precision.
+
+use crate::analysis::{Doubt, Trust, trusted_run};
+use crate::{Case, CaseError, Impact, Precise, Real, Simulation, State, Stop, Trajectory, Value};
+
+/// The most digits that [`verify`] can compute with.
+pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
+
+/// An ordinary run beside the same run with many digits.
+#[derive(Clone, Debug)]
+pub struct Verification {
+    /// Decimal digits that the second run was computed with.
+    pub digits: u32,
+    /// Digits of those that are still right at its end: what its own growth of errors leaves.
+    pub digits_left: f64,
+    /// The ordinary run.
+    pub run: Trajectory,
+    /// What was predicted of it.
+    pub trust: Trust,
+    /// Difference of the two at each impact that both have: the largest of time and states, of each relative
+    /// to its value where that is above 1.
+    pub differences: Vec<f64>,
+    /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one of them
+    /// has.
+    pub proven: Option<usize>,
+    /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack flight,
+    /// impacts and the stop rules.
+    pub end: Option<Stop>,
+    /// When it ends.
+    pub t: f64,
+    /// How many impacts it has.
+    pub impacts: usize,
+}
+
+/// Runs a case with at least `digits` decimal digits beside the ordinary run. `watch` is told the time
+/// reached after every step.
+///
+/// The numbers of the case count as decimals: 0.1 is a tenth in the run with many digits, while the
+/// ordinary one begins with the double next to it.
+///
+/// # Errors
+/// A [`CaseError`] if there are more digits asked for than [`MOST_DIGITS`], or if the start, on the very edge of
+/// what is legal, is illegal with more digits.
+pub fn verify(
+    case: &Case,
+    digits: u32,
+    tolerance: f64,
+    watch: impl FnMut(f64),
+) -> Result<Verification, CaseError> {
+    if digits <= Precise::<4>::DIGITS {
+        with_words::<4>(case, tolerance, watch)
+    } else if digits <= Precise::<8>::DIGITS {
+        with_words::<8>(case, tolerance, watch)
+    } else if digits <= MOST_DIGITS {
+        with_words::<16>(case, tolerance, watch)
+    } else {
+        let allowed = format!("1 <= digits <= {MOST_DIGITS}");
+        Err(CaseError::value(
+            "digits",
+            Value::Integer(digits.into()),
+            allowed,
+        ))
+    }
+}
+
+fn with_words<const WORDS: usize>(
+    case: &Case,
+    tolerance: f64,
+    mut watch: impl FnMut(f64),
+) -> Result<Verification, CaseError> {
+    let doubt = Doubt {
+        tolerance,
+        ..Doubt::default()
+    };
+    let (run, trust) = trusted_run(case, &doubt)?;
+    let simulation = case.simulation_over(|_, number| Precise::<WORDS>::from_decimal(number));
+    let mut simulation = simulation.map_err(|_| {
+        let allowed = "a start that is legal with more digits, too; this one is on the very edge";
+        CaseError::value("x, y, theta", "(the start)", allowed)
+    })?;
+    let mut differences = Vec::new();
+    let mut proven = None;
+    let mut impacts = 0;
+    while let Some(step) = simulation.step() {
+        let stuck = simulation.stop().is_none() && !step.taut_after.is_empty();
+        for exact in step.impacts() {
+            match run.impacts().get(impacts) {
+                Some(ours) if ours.cable == exact.cable => {
+                    differences.push(difference(ours, &exact))
+                }
+                _ => {
+                    proven.get_or_insert(impacts + 1);
+                }
+            }
+            impacts += 1;
+        }
+        watch(simulation.time().to_f64());
+        if stuck {
+            break;
+        }
+    }
+    let wrong = differences.iter().position(|d| *d > tolerance);
+    proven = [proven, wrong.map(|k| k + 1)].into_iter().flatten().min();
+    if simulation.stop().is_some() && run.impacts().len() > impacts {
+        proven = proven.or(Some(impacts + 1));
+    }
+    Ok(Verification {
+        digits: Precise::<WORDS>::DIGITS,
+        digits_left: digits_left::<WORDS>(&trust, &simulation),
+        run,
+        trust,
+        differences,
+        proven,
+        end: simulation.stop(),
+        t: simulation.time().to_f64(),
+        impacts,
+    })
+}
+
+/// The digits that the growth of errors leaves at the end.
+fn digits_left<const WORDS: usize>(trust: &Trust, simulation: &Simulation<Precise<WORDS>>) -> f64 {
+    let growth = trust.exponents[0].max(0.0) * simulation.time().to_f64();
+    f64::from(Precise::<WORDS>::DIGITS) - growth * std::f64::consts::LOG10_E
+}
+
+fn difference<T: Real>(ours: &Impact, exact: &Impact<T>) -> f64 {
+    let states = |ours: &State, exact: &State<T>| {
+        let pairs = ours.components().into_iter().zip(exact.components());
+        pairs.map(|(a, b)| relative(a, b)).fold(0.0, f64::max)
+    };
+    relative(ours.t, exact.t)
+        .max(states(&ours.before, &exact.before))
+        .max(states(&ours.after, &exact.after))
+}
+
+fn relative<T: Real>(ours: f64, exact: T) -> f64 {
+    let difference = (T::from_f64(ours) - exact).to_f64().abs();
+    difference / exact.to_f64().abs().max(1.0)
+}

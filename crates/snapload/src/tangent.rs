@@ -1,0 +1,395 @@
+//! The linearised motion: what becomes of a small deviation from a run.
+//!
+//! Two neighbours reach an event at different times, and between these times they differ by a
+//! whole jump of velocity, however close they are. So a deviation is told here *at the events*, as
+//! (w, τ): the neighbour is at z + w at the time t + τ, when it has had the same events as the run. A
+//! deviation δz at one time is (δz, 0), and (w, τ) is δz = w − ż τ at one time.
+//!
+//! Along a stretch from t to t + s, with Φ = ∂z(t + s)/∂z(t) for the taut set that it has,
+//!
+//! ```text
+//! w ← Φ w + (ż₋ − Φ ż₊) τ              ż₊ at the stretch's start, ż₋ at its end
+//! δs = −∇h·w / (ḣ)                      the event function h(z, t) reaches zero that much later
+//! w ← R' (w + ż₋ δs),   τ ← τ + δs      R the law of impact
+//! ```
+//!
+//! which with δz = w − ż τ is the saltation matrix
+//! S = R' + (ż₊ − R' ż₋) ∇h / ḣ (Aizerman & Gantmakher 1958; Müller, *Chaos, Solitons & Fractals* 5 (1995)
+//! 1671). R' is the law of [`crate::impact`] itself over [`Dual`] numbers, sticking and several cables
+//! included.
+
+use crate::dual::Dual;
+use crate::impact::{impact, impact_alone};
+use crate::simulate::{Simulation, Step};
+use crate::taut::{acceleration, project_position, project_velocity};
+use crate::{State, System, TautSet};
+
+/// ∂z/∂z, rows by what changes: 6 × 6, order x, y, θ, ẋ, ẏ, θ̇.
+pub type Matrix = [[f64; 6]; 6];
+
+/// A deviation (w, τ): six of the state, and the time.
+pub type Deviation = [f64; 7];
+
+type Number = Dual<f64, 6>;
+
+/// Φ along taut motion is integrated in so many steps for each expansion of the motion, whose length
+/// goes with the motion's own time scale; with the rule of Runge and Kutta this leaves about 1e-4 of Φ.
+const SUBSTEPS: f64 = 2.0;
+
+/// The linearised motion along a run.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    system: System<Number>,
+}
+
+/// One step of the linearised motion.
+#[derive(Clone, Copy, Debug)]
+pub struct StepMap {
+    flow: Flow,
+    /// ż₋ − Φ ż₊.
+    lag: [f64; 6],
+    /// ż₋.
+    rate: [f64; 6],
+    /// −∇h/ḣ; zero without an event.
+    delay: [f64; 6],
+    /// Rows of R' that belong to the velocities; none without an impact.
+    law: Option<[[f64; 6]; 3]>,
+    /// ż after the event.
+    rate_after: [f64; 6],
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Flow {
+    /// Slack: positions drift with the velocities for a time s.
+    Free(f64),
+    Taut(Matrix),
+}
+
+impl Flow {
+    fn of(&self, w: &[f64; 6]) -> [f64; 6] {
+        match self {
+            Flow::Free(s) => [
+                w[0] + s * w[3],
+                w[1] + s * w[4],
+                w[2] + s * w[5],
+                w[3],
+                w[4],
+                w[5],
+            ],
+            Flow::Taut(phi) => phi.map(|row| dot6(&row, w)),
+        }
+    }
+}
+
+impl StepMap {
+    /// Along the stretch: (w, τ) just before the event, told at the previous event's time.
+    pub fn along(&self, deviation: &Deviation) -> Deviation {
+        let (w, tau) = split(deviation);
+        let moved = self.flow.of(&w);
+        join(&add_scaled(&moved, &self.lag, tau), tau)
+    }
+
+    /// To the event's own time.
+    pub fn meet(&self, deviation: &Deviation) -> Deviation {
+        let (w, tau) = split(deviation);
+        let later = dot6(&self.delay, &w);
+        join(&add_scaled(&w, &self.rate, later), tau + later)
+    }
+
+    /// What [`StepMap::meet`] undoes: the deviation told at the previous event's time, when τ was `tau`.
+    pub(crate) fn before_meeting(&self, deviation: &Deviation, tau: f64) -> Deviation {
+        let (w, now) = split(deviation);
+        join(&add_scaled(&w, &self.rate, tau - now), tau)
+    }
+
+    /// Through the law of the event.
+    pub fn through(&self, deviation: &Deviation) -> Deviation {
+        let Some(law) = &self.law else {
+            return *deviation;
+        };
+        let (mut w, tau) = split(deviation);
+        let velocities = law.map(|row| dot6(&row, &w));
+        w[3..].copy_from_slice(&velocities);
+        join(&w, tau)
+    }
+
+    /// The deviation at one time, of one that is told at the event at the end of the step.
+    pub fn at_one_time(&self, deviation: &Deviation) -> [f64; 6] {
+        let (w, tau) = split(deviation);
+        add_scaled(&w, &self.rate_after, -tau)
+    }
+
+    /// All of the step for a deviation at one time, at its start and at its end.
+    pub fn fundamental(&self, deviation: &[f64; 6]) -> [f64; 6] {
+        let w = self.along(&join(deviation, 0.0));
+        self.at_one_time(&self.through(&self.meet(&w)))
+    }
+
+    /// −∇h/ḣ: how much later the event comes for a deviation just before it.
+    pub fn delay(&self) -> &[f64; 6] {
+        &self.delay
+    }
+
+    /// The length of (ż₊ − R' ż₋) ∇h/ḣ: by how much a deviation can grow because the event comes at
+    /// another time.
+    pub(crate) fn magnification(&self) -> f64 {
+        let through = self.through(&join(&self.rate, 0.0));
+        let jump = add_scaled(&self.rate_after, &split(&through).0, -1.0);
+        (dot6(&jump, &jump) * dot6(&self.delay, &self.delay)).sqrt()
+    }
+
+    /// ż just before the event.
+    pub fn rate(&self) -> &[f64; 6] {
+        &self.rate
+    }
+
+    /// Whether the step ends with an impact.
+    pub fn has_impact(&self) -> bool {
+        self.law.is_some()
+    }
+}
+
+impl Tangent {
+    /// Of the motions of a system.
+    pub fn new(system: &System) -> Self {
+        Self {
+            system: system.map(Number::constant),
+        }
+    }
+
+    /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
+    pub fn of_start(&self, simulation: &Simulation) -> Matrix {
+        let mut state = variables(simulation.state());
+        project_position(&self.system, &mut state, simulation.closed());
+        project_velocity(&self.system, &mut state, simulation.resting());
+        state.components().map(|component| component.slope)
+    }
+
+    /// Of the step that `simulation` has just made.
+    pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
+        let system = simulation.system();
+        let s = step.t_end - step.t_start;
+        let flow = if step.taut.is_empty() {
+            Flow::Free(s)
+        } else {
+            Flow::Taut(self.taut_flow(simulation, step))
+        };
+        let first = rate(system, step.t_start, &step.start, step.taut);
+        let last = rate(system, step.t_end, &step.before, step.taut);
+        let rate_after = if step.taut == step.taut_after && step.taut.is_empty() {
+            // In flight the force alone accelerates, and it does not jump.
+            let State { vx, vy, vtheta, .. } = step.after;
+            [vx, vy, vtheta, last[3], last[4], last[5]]
+        } else {
+            rate(system, step.t_end, &step.after, step.taut_after)
+        };
+        StepMap {
+            flow,
+            lag: add_scaled(&last, &flow.of(&first), -1.0),
+            rate: last,
+            delay: self.delay(system, step),
+            law: (!step.event.reached.gaps.is_empty()).then(|| self.law(step)),
+            rate_after,
+        }
+    }
+
+    /// Φ along a stretch with taut cables: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the rule of Runge and
+    /// Kutta. The motion itself is known to rounding; its deviation need only be known to some digits.
+    fn taut_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
+        let s = step.t_end - step.t_start;
+        let count = (SUBSTEPS * s / simulation.expansion()).ceil().max(1.0);
+        let h = s / count;
+        let jacobian = |s: f64| {
+            let state = variables(&simulation.within(step, s));
+            let t = Number::constant(step.t_start + s);
+            acceleration(&self.system, t, &state, step.taut).map(|a| a.slope)
+        };
+        let mut phi = identity();
+        let mut left = jacobian(0.0);
+        for k in 0..count as u32 {
+            let at = f64::from(k) * h;
+            let (middle, right) = (jacobian(at + 0.5 * h), jacobian(at + h));
+            for column in 0..6 {
+                let w = phi.map(|row| row[column]);
+                let k1 = change(&left, &w);
+                let k2 = change(&middle, &add_scaled(&w, &k1, 0.5 * h));
+                let k3 = change(&middle, &add_scaled(&w, &k2, 0.5 * h));
+                let k4 = change(&right, &add_scaled(&w, &k3, h));
+                for row in 0..6 {
+                    phi[row][column] += h / 6.0 * (k1[row] + 2.0 * (k2[row] + k3[row]) + k4[row]);
+                }
+            }
+            left = right;
+        }
+        phi
+    }
+
+    /// −∇h/ḣ of what was reached: a gap, the rotation limit or the upper bound. A tension that is lost changes
+    /// no velocity and hardly an acceleration, so its time does not matter.
+    fn delay(&self, system: &System, step: &Step) -> [f64; 6] {
+        let (before, reached) = (&step.before, step.event.reached);
+        if let Some(cable) = reached.gaps.iter().next() {
+            let normal = system.cables[cable].normal(before);
+            let v_n = normal.velocity(before);
+            return [normal.n[0], normal.n[1], normal.arm, 0.0, 0.0, 0.0].map(|n| -n / v_n);
+        }
+        if reached.rotation {
+            return [0.0, 0.0, -1.0 / before.vtheta, 0.0, 0.0, 0.0];
+        }
+        if reached.top {
+            let slope = self.system.top(&variables(before)).slope;
+            let climb = slope[0] * before.vx + slope[1] * before.vy + slope[2] * before.vtheta;
+            return slope.map(|slope| -slope / climb);
+        }
+        [0.0; 6]
+    }
+
+    /// R' of an impact, and of the sticking that may follow.
+    fn law(&self, step: &Step) -> [[f64; 6]; 3] {
+        let before = variables(&step.before);
+        let event = &step.event;
+        let mut closed = event.closed.iter();
+        let mut after = match (closed.next(), closed.next()) {
+            (Some(cable), None) if event.still.is_empty() => {
+                impact_alone(&self.system, &before, cable)
+            }
+            _ => impact(&self.system, &before, event.closed, event.still).after,
+        };
+        if !step.taut_after.is_empty() {
+            project_velocity(&self.system, &mut after, step.taut_after);
+        }
+        [after.vx, after.vy, after.vtheta].map(|v| v.slope)
+    }
+}
+
+/// A state as the six variables that derivatives are taken by.
+fn variables(state: &State) -> State<Number> {
+    let mut i = 0;
+    State::from_components(state.components().map(|component| {
+        i += 1;
+        Number::variable(component, i - 1)
+    }))
+}
+
+/// ż.
+fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
+    let [x, y, theta] = acceleration(system, t, state, taut);
+    [state.vx, state.vy, state.vtheta, x, y, theta]
+}
+
+/// A w, where A's upper rows say that positions change by velocities.
+fn change(lower: &[[f64; 6]; 3], w: &[f64; 6]) -> [f64; 6] {
+    let [x, y, theta] = lower.map(|row| dot6(&row, w));
+    [w[3], w[4], w[5], x, y, theta]
+}
+
+pub(crate) fn identity() -> Matrix {
+    let mut matrix = [[0.0; 6]; 6];
+    for (i, row) in matrix.iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    matrix
+}
+
+pub(crate) fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add_scaled(a: &[f64; 6], b: &[f64; 6], scale: f64) -> [f64; 6] {
+    let mut sum = *a;
+    for (sum, b) in sum.iter_mut().zip(b) {
+        *sum += b * scale;
+    }
+    sum
+}
+
+fn split(deviation: &Deviation) -> ([f64; 6], f64) {
+    let [x, y, theta, vx, vy, vtheta, tau] = *deviation;
+    ([x, y, theta, vx, vy, vtheta], tau)
+}
+
+fn join(w: &[f64; 6], tau: f64) -> Deviation {
+    [w[0], w[1], w[2], w[3], w[4], w[5], tau]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Case, Parameters, Value};
+
+    fn case(entries: &[(&str, f64)], settles: bool) -> Case {
+        let numbers = entries
+            .iter()
+            .map(|(key, value)| (*key, Value::Number(*value)));
+        let stop = ("stop_when_settled", Value::Bool(settles));
+        Parameters::from_entries(numbers.chain([stop]))
+            .and_then(Case::new)
+            .expect("a legal case")
+    }
+
+    /// The whole motion over dual numbers, in which no saltation matrix is written down, against this
+    /// file's, at the end of each step; relative to the largest deviation there.
+    fn worst_difference(case: &Case) -> (f64, usize, usize) {
+        let mut simulation = case.simulation();
+        let keys = ["x", "y", "theta", "vx", "vy", "vtheta"];
+        let mut dual = case
+            .simulation_over(|key, number| {
+                let place = keys.iter().position(|k| *k == key);
+                place.map_or(Number::constant(number), |i| Number::variable(number, i))
+            })
+            .expect("a legal start");
+        let tangent = Tangent::new(simulation.system());
+        let start = tangent.of_start(&simulation);
+        let mut columns: Vec<[f64; 6]> = (0..6).map(|j| start.map(|row| row[j])).collect();
+        let (mut worst, mut steps, mut taut) = (0.0_f64, 0, 0);
+        while let (Some(step), Some(over)) = (simulation.step(), dual.step()) {
+            let map = tangent.of_step(&simulation, &step);
+            for column in &mut columns {
+                *column = map.fundamental(column);
+            }
+            let rates = rate(
+                simulation.system(),
+                step.t_end,
+                &step.after,
+                step.taut_after,
+            );
+            let largest = columns
+                .iter()
+                .flatten()
+                .fold(0.0, |m: f64, c| m.max(c.abs()));
+            for (i, w) in over.after.components().iter().enumerate() {
+                for (j, column) in columns.iter().enumerate() {
+                    let there = w.slope[j] - rates[i] * over.t_end.slope[j];
+                    worst = worst.max((there - column[i]).abs() / largest);
+                }
+            }
+            steps += 1;
+            taut += usize::from(!step.taut.is_empty());
+            if largest > 1e10 {
+                break;
+            }
+        }
+        (worst, steps, taut)
+    }
+
+    #[test]
+    fn agrees_with_the_motion_over_dual_numbers() {
+        let cases = [
+            (case(&[], true), 1e-8),
+            (case(&[("a", 0.2), ("b", 0.2), ("e", 0.6)], true), 1e-9),
+            (case(&[("f_o", 0.27), ("t_end", 12.0)], false), 1e-4),
+            (
+                case(&[("f_o", 0.1), ("t_end", 12.0), ("e", 0.5)], false),
+                1e-4,
+            ),
+            // Both cables stick in turn, down to v_n = 1e-12, where n·δP/v_n keeps four digits.
+            (case(&[("b", 0.1), ("e", 0.0), ("t_end", 9.0)], false), 1e-3),
+        ];
+        for (case, allowed) in cases {
+            let (worst, steps, taut) = worst_difference(&case);
+            println!("{steps} steps, {taut} of them taut: {worst:e}");
+            assert!(worst < allowed, "{worst:e}");
+            assert!(steps > 20 && (taut > 0) == (allowed > 1e-8));
+        }
+    }
+}
