@@ -1,8 +1,9 @@
 //! Weak rocking: the example of eq. 6.69.
 
 use super::{example, from_rocking, least_tension, rocks_on, sampled};
-use crate::claims::tools::{Finding, is_clear, judged, range, robust, spearman};
-use crate::claims::{Claim, Verdict};
+use crate::claims::numbers::{range, spearman};
+use crate::claims::runs::CLEAR;
+use crate::claims::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
 use snapload::{CaseError, Impact, Motion, State, System, Trajectory};
 
@@ -34,7 +35,7 @@ struct Above {
 
 impl Weak {
     fn new(study: &Study) -> Result<Self, CaseError> {
-        let runs = example("rocking-example", &study.rocking)?;
+        let runs = example("rocking-example")?;
         let motion = runs
             .iter()
             .map(|run| sampled(run, rocking_start(run)))
@@ -46,7 +47,7 @@ impl Weak {
         let above = |impact: &Impact| {
             let arc = arc_at(system, impact.before.x);
             Above {
-                clear: is_clear(impact),
+                clear: impact.v_n > CLEAR,
                 height: impact.before.y - arc.y,
                 turned: (impact.before.theta - arc.theta).abs(),
             }
@@ -138,29 +139,25 @@ fn newton(
 
 fn of_weak_run(weak: &Weak) -> Vec<Claim> {
     vec![
-        judged(
+        claim(
             "6.5.2.2-05",
             "At f_o = 0.1 both cables stay taut near the bottom.",
             stays(weak),
-            "They do not.",
         ),
-        judged(
+        claim(
             "6.5.2.2-06",
             "Once the body rocks at f_o = 0.1 the force can not pull it off.",
             holds_on(weak),
-            "A tension vanishes.",
         ),
-        judged(
+        claim(
             "6.5.2.2-07",
             "At f_o = 0.1 rocking begins where both gaps are all but zero as the bouncing ends.",
             begins_at_once(weak),
-            "It begins later.",
         ),
-        judged(
+        claim(
             "6.5.2.2-08",
             "While it rocks it is the horizontal force that counts.",
             horizontal(weak),
-            "The vertical one counts, too.",
         ),
     ]
 }
@@ -168,13 +165,13 @@ fn of_weak_run(weak: &Weak) -> Vec<Claim> {
 fn stays(weak: &Weak) -> Finding {
     let low = |motion: &Vec<Motion>| motion.iter().all(|now| now.state.y < 0.05);
     let pairs = weak.runs.iter().zip(&weak.motion);
-    let verdict = robust(pairs.map(|(run, motion)| rocks_on(run) && low(motion)));
+    let verdict = Verdict::robust(pairs.map(|(run, motion)| rocks_on(run) && low(motion)));
     let (y, theta) = (
         weak.largest(|now| now.state.y),
         weak.largest(|now| now.state.theta.abs()),
     );
     let start = weak.runs.first().map_or(f64::NAN, rocking_start);
-    (
+    Finding::new(
         verdict,
         format!("rocks from t = {start:.3} on; y up to {y:.4}, |θ| up to {theta:.2}"),
     )
@@ -189,7 +186,10 @@ fn holds_on(weak: &Weak) -> Finding {
     let least: Vec<f64> = least.collect();
     let smallest = least.first().copied().unwrap_or(f64::NAN);
     let evidence = format!("smallest tension to t = 100: {smallest:.3}");
-    (robust(least.iter().map(|tension| *tension > 0.0)), evidence)
+    Finding::new(
+        Verdict::robust(least.iter().map(|tension| *tension > 0.0)),
+        evidence,
+    )
 }
 
 fn begins_at_once(weak: &Weak) -> Finding {
@@ -203,15 +203,15 @@ fn begins_at_once(weak: &Weak) -> Finding {
     let evidence = format!(
         "the first cable sticks at t = {first:.5}, rocking follows {least:.1e} to {most:.1e} later"
     );
-    (
-        robust(weak.runs.iter().map(|run| wait(run) < 0.01)),
+    Finding::new(
+        Verdict::robust(weak.runs.iter().map(|run| wait(run) < 0.01)),
         evidence,
     )
 }
 
 fn horizontal(weak: &Weak) -> Finding {
     let Some(run) = weak.runs.first() else {
-        return (Verdict::NotReproduced, "no run".to_owned());
+        return Finding::new(Verdict::NotReproduced, "no run");
     };
     let (mut along, mut up) = (0.0, 0.0);
     for now in weak
@@ -227,28 +227,26 @@ fn horizontal(weak: &Weak) -> Finding {
     let ratio = (up / along).sqrt();
     let evidence =
         format!("generalised force of the vertical part over that of the horizontal: {ratio:.3}");
-    (Verdict::of(ratio < 0.2), evidence)
+    Finding::new(Verdict::of(ratio < 0.2), evidence)
 }
 
 fn of_arc(weak: &Weak) -> Vec<Claim> {
     vec![
-        judged(
+        claim(
             "6.5.2.2-09",
             "The turning points of the bouncing lie above the arc of rocking (Fig 6.45).",
             above_arc(weak),
-            "Some lie below.",
         ),
-        judged(
+        claim(
             "6.5.2.2-10",
-            "At those impacts the body is turned away from the rotation at which both cables are taut.",
+            "At those impacts the body is turned away from the rotation at which both cables are \
+             taut.",
             turned_away(weak),
-            "No such relation.",
         ),
-        judged(
+        claim(
             "6.5.2.2-11",
             "The curve of rocking is an arc of a circle.",
             circle(weak),
-            "It is not.",
         ),
     ]
 }
@@ -258,11 +256,12 @@ fn above_arc(weak: &Weak) -> Finding {
     let clear = weak.impacts.iter().filter(|impact| impact.clear);
     let (lowest_clear, _) = range(clear.clone().map(|impact| impact.height));
     let evidence = format!(
-        "{} impacts, the lowest {lowest:.0e} above it; {} clear ones, the lowest {lowest_clear:.0e}",
+        "{} impacts, the lowest {lowest:.0e} above it; {} clear ones, the lowest \
+         {lowest_clear:.0e}",
         weak.impacts.len(),
         clear.count()
     );
-    (Verdict::of(lowest >= -1e-9 && lowest_clear > 0.0), evidence)
+    Finding::new(Verdict::of(lowest >= -1e-9 && lowest_clear > 0.0), evidence)
 }
 
 fn turned_away(weak: &Weak) -> Finding {
@@ -270,7 +269,7 @@ fn turned_away(weak: &Weak) -> Finding {
     let points: Vec<(f64, f64)> = clear.map(|impact| (impact.height, impact.turned)).collect();
     let rho = spearman(&points);
     let evidence = format!("rank correlation of height above the arc and rotation away: {rho:.3}");
-    (
+    Finding::new(
         Verdict::of(rho > 0.5 && points.iter().all(|p| p.0 > 0.0)),
         evidence,
     )
@@ -278,17 +277,18 @@ fn turned_away(weak: &Weak) -> Finding {
 
 fn circle(weak: &Weak) -> Finding {
     let Some(run) = weak.runs.first() else {
-        return (Verdict::NotReproduced, "no run".to_owned());
+        return Finding::new(Verdict::NotReproduced, "no run");
     };
     let widest = weak.largest(|now| now.state.theta.abs());
     let (radius, miss) = fit_circle(run.system(), widest);
     let (_, miss_wide) = fit_circle(run.system(), 1.4);
     let evidence = format!(
-        "over |θ| <= {widest:.2}: radius {radius:.3}, off by {:.2} % of it; over |θ| <= 1.4: {:.1} %",
+        "over |θ| <= {widest:.2}: radius {radius:.3}, off by {:.2} % of it; over |θ| <= 1.4: \
+         {:.1} %",
         100.0 * miss,
         100.0 * miss_wide
     );
-    (Verdict::of(miss < 0.01), evidence)
+    Finding::new(Verdict::of(miss < 0.01), evidence)
 }
 
 /// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius. The
