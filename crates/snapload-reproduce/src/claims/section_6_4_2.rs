@@ -10,7 +10,7 @@ use crate::study::Study;
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
 use snapload::{CaseError, Parameters, Stop, anchor_height, natural_inertia};
-use table::{Column, Entry, SAME, Table, rank, shown};
+use table::{Column, Entry, NEVER, SAME, Table, rank, shown};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
@@ -20,7 +20,7 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     all.push(claim(
         "6.4.2-19",
         "Shapes differ in their critical force as their connection points are at different places.",
-        connection_points()?,
+        connection_points(&table)?,
     ));
     all.extend(curves::claims(study)?);
     Ok(all)
@@ -316,9 +316,11 @@ fn over_cable_length() -> Result<Finding, CaseError> {
     ))
 }
 
-/// The critical forces of a body by its connection points and its moment of inertia.
-fn crossed(r: f64, a: f64) -> Result<[[f64; 2]; 2], CaseError> {
-    let of = |b: f64, inertia: Option<f64>| {
+/// The critical forces by connection points, of the circle and of the square as wide, and by moment of
+/// inertia, of a circle and of a square.
+fn crossed(table: &Table, r: f64, a: f64) -> Result<[[f64; 2]; 2], CaseError> {
+    let own = |b: f64| table.entry(r, [a, b]).map_or(NEVER, Entry::own);
+    let with = |b: f64, inertia: Option<f64>| {
         let case = chapter(Parameters {
             r,
             a,
@@ -326,25 +328,21 @@ fn crossed(r: f64, a: f64) -> Result<[[f64; 2]; 2], CaseError> {
             inertia,
             ..Parameters::STANDARD
         });
-        Ok(rank(
-            first_exceeding(&case, ForceScan::default())?.map(|x| x.0),
-        ))
+        let found = first_exceeding(&case, ForceScan::default())?;
+        Ok(rank(found.map(|x| x.0)))
     };
     let (ring, square) = (natural_inertia(a, 0.0), natural_inertia(a, a));
-    Ok([
-        [of(0.0, ring)?, of(0.0, square)?],
-        [of(a, ring)?, of(a, square)?],
-    ])
+    Ok([[own(0.0), with(0.0, square)?], [with(a, ring)?, own(a)]])
 }
 
-fn connection_points() -> Result<Finding, CaseError> {
+fn connection_points(table: &Table) -> Result<Finding, CaseError> {
     let bodies = [1.5, 2.5]
         .iter()
         .flat_map(|r| [0.1, 0.2, 0.3].map(|a| (*r, a)));
+    let bodies: Vec<(f64, f64)> = bodies.collect();
     let found = bodies
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .map(|(r, a)| crossed(r, a))
+        .par_iter()
+        .map(|(r, a)| crossed(table, *r, *a))
         .collect::<Result<Vec<_>, CaseError>>()?;
     // Of the twelve pairs that differ in one thing only: in which the circle's has the lower force.
     let by_points = |all: &[[f64; 2]; 2]| [0, 1].map(|k| all[0][k] < all[1][k] - SAME);

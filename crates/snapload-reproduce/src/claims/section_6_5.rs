@@ -1,26 +1,23 @@
 //! Section 6.5: the three kinds of motion, and rocking.
 
+mod example;
 mod slides;
 mod weak;
 
-use super::numbers::{range, span};
-use super::runs::{FEW, MANY, ensemble, near, run_all};
+use super::numbers::range;
+use super::runs::{FEW, ensemble, run_all};
 use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
-use snapload::{
-    CaseError, ModeInterval, Motion, Parameters, Playback, State, Stop, Trajectory, named_case,
-    natural_inertia,
-};
-
-/// Times between the samples of a rocking motion.
-const SAMPLE: f64 = 0.02;
+use example::{example, rocks_on};
+use snapload::{CaseError, ModeInterval, Parameters, Playback, State, Trajectory, natural_inertia};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     let sweep = shapes(study)?;
     let mut all = of_kinds(study, &sweep)?;
-    all.extend(of_strong_rocking(study)?);
-    all.extend(weak::claims(study)?);
+    let (strong, weak) = (example("sliding-example")?, example("rocking-example")?);
+    all.extend(example::claims(&strong, &weak));
+    all.extend(weak::claims(&weak));
     all.extend(slides::claims(&sweep));
     all.push(claim(
         "6.5.2.2-12",
@@ -152,11 +149,6 @@ fn slack_is_taut(run: &Trajectory) -> Finding {
     )
 }
 
-/// The tensions of all cables.
-fn tension(run: &Trajectory, now: &Motion) -> impl Iterator<Item = f64> {
-    now.tensions.into_iter().take(run.system().cables.len())
-}
-
 /// How often a run rocks and then slides, and how often it climbs in that slide.
 fn climbs(run: &Trajectory) -> (usize, usize) {
     let mut playback = Playback::new(run);
@@ -222,151 +214,6 @@ fn begins_from_sliding(sweep: &[Trajectory]) -> Finding {
         sweep.len()
     );
     Finding::new(Verdict::of(sliding > 0), evidence)
-}
-
-/// The first interval of rocking and those after it.
-fn from_rocking(run: &Trajectory) -> &[ModeInterval] {
-    let modes = run.modes();
-    let first = modes.iter().position(|mode| kind(mode) == "rocking");
-    first.and_then(|k| modes.get(k..)).unwrap_or_default()
-}
-
-/// Whether a run rocks from its first rocking to the end of its time.
-fn rocks_on(run: &Trajectory) -> bool {
-    from_rocking(run).len() == 1 && run.end().reason == Stop::EndTime
-}
-
-/// The motion from some time on, sampled.
-fn sampled(run: &Trajectory, from: f64) -> Vec<Motion> {
-    let mut playback = Playback::new(run);
-    let steps = ((run.end().t - from) / SAMPLE).max(0.0) as usize;
-    (1..=steps)
-        .map(|k| playback.at(from + SAMPLE * k as f64))
-        .collect()
-}
-
-fn least_tension(run: &Trajectory, motion: &[Motion]) -> f64 {
-    let rocking = motion.iter().filter(|now| now.taut.len() == 2);
-    range(rocking.flat_map(|now| tension(run, now))).0
-}
-
-/// An example and its neighbours.
-fn example(code: &str) -> Result<Vec<Trajectory>, CaseError> {
-    near(&named_case(code)?.parameters, MANY)
-}
-
-fn of_strong_rocking(study: &Study) -> Result<Vec<Claim>, CaseError> {
-    let runs = example("sliding-example")?;
-    Ok(vec![
-        claim(
-            "6.5.2.2-03",
-            "At f_o = 0.27 the rocking soon ends as one cable loses its tension and a second \
-             sliding begins.",
-            short_rocking(&runs),
-        ),
-        claim(
-            "6.5.2.2-04",
-            "That example then comes to rest at the bottom.",
-            rests(&runs),
-        ),
-        claim(
-            "6.5.2.2-14",
-            "In the end rocking stops as the body comes to rest in equilibrium.",
-            dies_out(&study.rocking, &runs),
-        ),
-    ])
-}
-
-fn short_rocking(runs: &[Trajectory]) -> Finding {
-    let slides = |run: &Trajectory| from_rocking(run).iter().any(|mode| kind(mode) == "sliding");
-    let on = runs.iter().filter(|run| rocks_on(run)).count();
-    let start = |run: &Trajectory| {
-        from_rocking(run)
-            .first()
-            .map_or(f64::NAN, |mode| mode.t_start)
-    };
-    let least = runs
-        .iter()
-        .map(|run| least_tension(run, &sampled(run, start(run))));
-    Finding::new(
-        Verdict::robust(runs.iter().map(slides)),
-        format!(
-            "rocks from t = {}, smallest tension {}; unbroken to t = 100 from {on} of {} starts",
-            span(runs.iter().map(start), 3),
-            span(least.clone(), 3),
-            runs.len()
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        on == runs.len(),
-        format!(
-            "Here both cables go on pulling, with {} at the least. How near that comes to 0 \
-             depends on the state in which the rocking begins, so another law for an impact that \
-             meets a taut cable may end it.",
-            span(least, 3)
-        ),
-    )
-}
-
-/// The highest y of the last 20 T.
-fn highest_late(run: &Trajectory) -> f64 {
-    let late = sampled(run, run.end().t - 20.0);
-    range(late.iter().map(|now| now.state.y)).1
-}
-
-fn rests(runs: &[Trajectory]) -> Finding {
-    let heights: Vec<f64> = runs.iter().map(highest_late).collect();
-    let on = runs.iter().all(rocks_on);
-    Finding::new(
-        Verdict::robust(heights.iter().map(|y| *y < 0.05)),
-        format!(
-            "highest y of the last 20 T: {} by start",
-            span(heights.iter().copied(), 3)
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        on,
-        "It rocks on under the force. With both cables taut there are no impacts, and nothing \
-         else in the model takes energy.",
-    )
-}
-
-/// The largest |θ| of 20 T late in a rocking, over that of its first 20 T.
-fn remaining(run: &Trajectory) -> f64 {
-    let Some(start) = from_rocking(run).first().map(|mode| mode.t_start) else {
-        return f64::NAN;
-    };
-    let motion = sampled(run, start);
-    let widest = |from: f64| {
-        let part = motion
-            .iter()
-            .filter(|now| (from..from + 20.0).contains(&now.t));
-        range(part.map(|now| now.state.theta.abs())).1
-    };
-    widest(run.end().t - 20.0) / widest(start)
-}
-
-fn dies_out(weak: &Trajectory, strong: &[Trajectory]) -> Finding {
-    /// What is left of a motion that dies out.
-    const DYING: f64 = 0.1;
-    let strong: Vec<f64> = strong.iter().map(remaining).collect();
-    let all = std::iter::once(remaining(weak)).chain(strong.iter().copied());
-    Finding::new(
-        Verdict::robust(all.map(|left| left < DYING)),
-        format!(
-            "widest rotation of the last 20 T over that of the first: {:.2} at f_o = 0.1, {} at \
-             f_o = 0.27",
-            remaining(weak),
-            span(strong.iter().copied(), 2)
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        true,
-        "Rocking loses no energy in this model, and the force goes on: it does not die out.",
-    )
 }
 
 fn lasting() -> Result<Finding, CaseError> {

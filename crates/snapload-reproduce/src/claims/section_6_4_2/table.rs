@@ -59,6 +59,11 @@ impl<'a> Entry<'a> {
         self.members.iter().map(|found| rank(found.map(|x| x.0)))
     }
 
+    /// f_cr of the case itself.
+    pub(super) fn own(&self) -> f64 {
+        self.critical().next().unwrap_or(NEVER)
+    }
+
     /// Whether the published amplitude exceeds from no start.
     pub(super) fn settles_at_published(&self) -> bool {
         self.at_published.iter().all(|exceeds| !exceeds)
