@@ -3,7 +3,6 @@
 use super::numbers::list;
 use crate::study::{Reading, Study};
 use rayon::prelude::*;
-use snapload::analysis::{ForceScan, Outcome};
 use snapload::{Case, CaseError, Impact, Parameters, Playback, Stop, TABLE_6_1, Trajectory};
 
 /// How far the neighbours of a start are from it.
@@ -136,20 +135,6 @@ impl Tabled {
     }
 }
 
-/// The first force amplitude of a scan that exceeds, with the reason; nothing beyond it is run.
-pub(super) fn first_exceeding(
-    parameters: &Parameters,
-    scan: ForceScan,
-) -> Result<Option<(f64, Stop)>, CaseError> {
-    for f_o in scan.amplitudes() {
-        let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
-        if outcome.exceeds() {
-            return Ok(Some((f_o, outcome.end.reason)));
-        }
-    }
-    Ok(None)
-}
-
 /// Whether a run left the range: rotation limit or upper bound.
 pub(super) fn exceeds(run: &Trajectory) -> bool {
     matches!(run.end().reason, Stop::RotationLimit | Stop::UpperBound)
@@ -241,6 +226,8 @@ pub(super) fn nominal(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::first_exceeding;
+    use snapload::analysis::ForceScan;
 
     #[test]
     fn neighbours_are_near_and_differ() {

@@ -10,7 +10,7 @@ use super::runs::{
     MANY, Tabled, chapter, ending, endings, ensemble, exceeds, near, nominal, of_all, places,
 };
 use super::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::Study;
+use crate::study::{Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::{CriticalForce, ForceScan, Outcome};
 use snapload::{CaseError, Parameters, Playback, State, Stop, Trajectory};
@@ -339,17 +339,12 @@ fn force(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
     ])
 }
 
-/// For each start the first of the amplitudes 0.01, 0.02 … that reaches the rotation limit.
+/// For each start the first of the amplitudes 0.01, 0.02 … that exceeds, if it does so by rotation.
 fn first_rotating(starts: &[Parameters]) -> Result<Vec<Option<f64>>, CaseError> {
     let first = |start: &Parameters| {
-        for f_o in ForceScan::default().amplitudes() {
-            let case = Parameters { f_o, ..*start };
-            let reasons = of_all(&[case], |case| Outcome::of(&case).end.reason)?;
-            if reasons == [Stop::RotationLimit] {
-                return Ok(Some(f_o));
-            }
-        }
-        Ok(None)
+        let found = first_exceeding(start, ForceScan::default())?;
+        let by_rotation = found.filter(|(_, reason)| *reason == Stop::RotationLimit);
+        Ok(by_rotation.map(|(f_o, _)| f_o))
     };
     starts.par_iter().map(first).collect()
 }

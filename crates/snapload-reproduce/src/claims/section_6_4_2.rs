@@ -4,9 +4,9 @@ mod curves;
 mod table;
 
 use super::numbers::{falling, span};
-use super::runs::{FEW, chapter, ensemble, first_exceeding};
+use super::runs::{FEW, chapter, ensemble};
 use super::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::Study;
+use crate::study::{Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
 use snapload::{CaseError, Parameters, Stop, anchor_height, natural_inertia};
@@ -156,11 +156,7 @@ fn growth(table: &Table) -> Finding {
     };
     let computed = columns.first().map(text).unwrap_or_default();
     let published = table.published();
-    let off = |e: &Entry| {
-        e.critical()
-            .next()
-            .map_or(0.0, |f_cr| (f_cr - e.row.published).abs())
-    };
+    let off = |e: &Entry| (e.own() - e.row.published).abs();
     let most = table
         .entries
         .iter()

@@ -7,9 +7,9 @@ mod weak;
 use super::numbers::range;
 use super::runs::{FEW, ensemble, run_all};
 use super::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::Study;
+use crate::study::{CriticalRow, Study};
 use example::{example, rocks_on};
-use snapload::{CaseError, ModeInterval, Parameters, Playback, State, Trajectory, natural_inertia};
+use snapload::{CaseError, ModeInterval, Parameters, Playback, State, Trajectory};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
@@ -43,18 +43,16 @@ fn going_on(f_o: f64) -> Parameters {
 
 /// The shapes of Table 6.2 under 14 amplitudes, until t = 60.
 fn shapes(study: &Study) -> Result<Vec<Trajectory>, CaseError> {
-    let case = |r, [a, b]: [f64; 2], k: u32| Parameters {
-        r,
-        a,
-        b,
-        inertia: natural_inertia(a, b),
-        t_end: 60.0,
-        ..going_on(f64::from(k) / 20.0)
+    let of_shape = |row: &CriticalRow| {
+        let case = row.parameters();
+        (1..=14).map(move |k| Parameters {
+            f_o: f64::from(k) / 20.0,
+            stop_when_settled: false,
+            t_end: 60.0,
+            ..case
+        })
     };
-    let rows = study.critical.iter();
-    let cases: Vec<Parameters> = rows
-        .flat_map(|row| (1..=14).map(move |k| case(row.r, row.size, k)))
-        .collect();
+    let cases: Vec<Parameters> = study.critical.iter().flat_map(of_shape).collect();
     run_all(&cases)
 }
 

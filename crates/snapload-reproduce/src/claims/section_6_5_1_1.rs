@@ -160,8 +160,8 @@ fn motion(left: &[Sliding]) -> Vec<Claim> {
     .because(
         Verdict::NotReproduced,
         holds(with_term) && holds(circles),
-        "6.35 lacks + b cos β. It is right for the circle, which the chapter's examples use; boxes \
-         would slide wrongly by it.",
+        "6.35 lacks + b cos β. It is right for the circle, which the chapter's examples use; \
+         boxes would slide wrongly by it.",
     );
     vec![
         identity(

@@ -9,7 +9,7 @@ use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::{CriticalRow, Study};
 use rayon::prelude::*;
 use snapload::analysis::{ForceScan, Outcome};
-use snapload::{Case, CaseError, Parameters, Stop, natural_inertia};
+use snapload::{Case, CaseError, Parameters, Stop};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
@@ -91,15 +91,8 @@ struct Sweep {
 }
 
 fn sweep_of(row: &CriticalRow) -> Result<Sweep, CaseError> {
-    let [a, b] = row.size;
-    let at = |f_o: f64| Parameters {
-        r: row.r,
-        a,
-        b,
-        inertia: natural_inertia(a, b),
-        f_o,
-        ..Parameters::STANDARD
-    };
+    let case = row.parameters();
+    let at = |f_o: f64| Parameters { f_o, ..case };
     let amplitudes: Vec<f64> = ForceScan::default().amplitudes().collect();
     let found = amplitudes
         .par_iter()
@@ -246,15 +239,10 @@ fn end_if_slid(case: &Case) -> Option<End> {
 
 fn ends(study: &Study) -> Result<Finding, CaseError> {
     let of_shape = |row: &CriticalRow| {
-        let [a, b] = row.size;
-        let r = row.r;
+        let case = row.parameters();
         (1..=18).map(move |k| Parameters {
-            r,
-            a,
-            b,
-            inertia: natural_inertia(a, b),
             f_o: f64::from(k) / 20.0,
-            ..Parameters::STANDARD
+            ..case
         })
     };
     let cases: Vec<Parameters> = study.critical.iter().flat_map(of_shape).collect();

@@ -9,7 +9,7 @@ use crate::claims::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
 use rayon::prelude::*;
 use snapload::analysis::Outcome;
-use snapload::{Case, CaseError, Parameters, State, Stop, Trajectory, natural_inertia};
+use snapload::{Case, CaseError, Parameters, State, Stop, Trajectory};
 
 /// Checks the claims of these sections.
 pub(super) fn claims(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
@@ -121,15 +121,10 @@ fn rotates_easily(study: &Study) -> Result<Finding, CaseError> {
 
 fn parts_pass_first(study: &Study) -> Result<Finding, CaseError> {
     let strong = study.critical.iter().flat_map(|row| {
-        let [a, b] = row.size;
         [0.6, 0.7, 0.8, 0.9].map(|f_o| {
             chapter(Parameters {
-                r: row.r,
-                a,
-                b,
-                inertia: natural_inertia(a, b),
                 f_o,
-                ..Parameters::STANDARD
+                ..row.parameters()
             })
         })
     });

@@ -77,9 +77,7 @@ fn grows(members: &Members) -> Claim {
         .because(
             Verdict::NotReproduced,
             ends,
-            format!(
-                "It holds of the ends of the range, but {back} of the 4 steps go the other way."
-            ),
+            format!("It holds of the ends of the range; steps the other way: {back} of 4."),
         ),
     )
 }
@@ -237,7 +235,7 @@ fn higher_on_one(members: &Members) -> Claim {
         Finding::new(
             Verdict::robust(shares.iter().map(one_sided)),
             format!(
-                "cable 1 is the harder for {} % of the time; in the other figures for {} %",
+                "cable 1 is the harder for {} % of the time by start; in Figs 6.22-6.26 for {} %",
                 span(shares.iter().map(|s| 100.0 * s), 0),
                 nominal(members, 0, |run| 100.0 * share(run))
             ),

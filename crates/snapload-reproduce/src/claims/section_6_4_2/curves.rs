@@ -2,9 +2,9 @@
 
 use super::table::{NEVER, SAME, rank, shown};
 use crate::claims::numbers::{mean, span, spearman};
-use crate::claims::runs::{FEW, chapter, clear, ensemble, first_exceeding, run_all};
+use crate::claims::runs::{FEW, chapter, clear, ensemble, run_all};
 use crate::claims::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::{CriticalCurve, CriticalPoint, Reading, Study};
+use crate::study::{CriticalCurve, CriticalPoint, Reading, Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
 use snapload::{CaseError, Parameters, Trajectory};

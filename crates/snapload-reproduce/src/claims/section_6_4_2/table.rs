@@ -1,9 +1,9 @@
 //! Table 6.2 with the neighbours of each entry.
 
 use crate::claims::numbers::{range, spearman};
-use crate::claims::runs::{chapter, ensemble, first_exceeding, of_all};
+use crate::claims::runs::{chapter, ensemble, of_all};
 use crate::claims::verdict::Verdict;
-use crate::study::{CriticalRow, Study};
+use crate::study::{CriticalRow, Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::{ForceScan, Outcome};
 use snapload::{CaseError, Parameters, Stop, natural_inertia};
@@ -28,14 +28,7 @@ pub(super) struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     fn new(row: &'a CriticalRow) -> Result<Self, CaseError> {
-        let [a, b] = row.size;
-        let parameters = chapter(Parameters {
-            r: row.r,
-            a,
-            b,
-            inertia: natural_inertia(a, b),
-            ..Parameters::STANDARD
-        });
+        let parameters = chapter(row.parameters());
         let all = ensemble(&parameters, NEIGHBOURS);
         let first = row.computed.chapter.first.map(|x| (x.f_o, x.reason));
         let others = all

@@ -2,8 +2,9 @@
 
 use super::{STEADY, Sweeps, below_critical, own, spread};
 use crate::claims::numbers::{range, spearman};
-use crate::claims::runs::{chapter, first_exceeding, run_all};
+use crate::claims::runs::{chapter, run_all};
 use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use crate::study::first_exceeding;
 use snapload::analysis::ForceScan;
 use snapload::{BodyKind, Case, CaseError, Impact, Parameters, Playback, Stop, Trajectory};
 

@@ -113,7 +113,8 @@ fn short_rocking(members: &[Rocking]) -> Finding {
     Finding::new(
         Verdict::robust(members.iter().map(slides)),
         format!(
-            "rocks from t = {}, smallest tension {least}; unbroken to t = 100 from {on} of {} starts",
+            "rocks from t = {}, smallest tension {least}; unbroken to t = 100 from {on} of {} \
+             starts",
             span(members.iter().map(|of| of.start), 3),
             members.len()
         ),
@@ -158,7 +159,8 @@ fn dies_out(weak: &[Rocking], strong: &[Rocking]) -> Finding {
     Finding::new(
         Verdict::robust(all.clone().map(|left| *left < DYING)),
         format!(
-            "widest rotation of the last 20 T over that of the first: {} at f_o = 0.1, {} at f_o = 0.27",
+            "widest rotation of the last 20 T over that of the first: {} at f_o = 0.1, {} at f_o \
+             = 0.27",
             span(weak.iter().copied(), 2),
             span(strong.iter().copied(), 2)
         ),

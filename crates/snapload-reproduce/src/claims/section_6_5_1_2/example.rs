@@ -139,8 +139,8 @@ fn hits(stories: &[Story], members: usize) -> Vec<Claim> {
     .because(
         Verdict::NotReproduced,
         going_on == 0,
-        "The snap of one cable unloads the other here. The chapter's impact knows one cable at a time \
-         and leaves open what a taut one does.",
+        "The snap of one cable unloads the other here. The chapter's impact knows one cable at a \
+         time and leaves open what a taut one does.",
     );
     let hits = Finding::new(
         over(stories, members, |s| !s.hits.is_empty()),
