@@ -70,7 +70,7 @@ fn claims_json(claims: &[Claim]) -> String {
     let rows: Vec<serde_json::Value> = claims
         .iter()
         .map(|claim| {
-            let evidence = [claim.evidence.as_str(), claim.remark].join(" ");
+            let evidence = [claim.evidence.as_str(), claim.remark.as_str()].join(" ");
             serde_json::json!({
                 "id": claim.id,
                 "section": claim.section,

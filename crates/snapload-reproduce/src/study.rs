@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 use snapload::analysis::{CriticalForce, ForceScan, Outcome};
-use snapload::{Case, CaseError, Parameters, TABLE_6_1, Trajectory, named_case, natural_inertia};
+use snapload::{
+    Case, CaseError, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
+};
 
 /// How a run that begins to slide is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -92,6 +94,24 @@ pub struct CriticalRow {
     pub published: f64,
     /// The computed ones, with all amplitudes that exceed.
     pub computed: Both<CriticalForce>,
+}
+
+impl CriticalRow {
+    /// The body with all else as in the standard case.
+    pub fn parameters(&self) -> Parameters {
+        of_shape(self.r, self.size)
+    }
+}
+
+/// The standard case with another body and cables.
+fn of_shape(r: f64, [a, b]: [f64; 2]) -> Parameters {
+    Parameters {
+        r,
+        a,
+        b,
+        inertia: natural_inertia(a, b),
+        ..Parameters::STANDARD
+    }
 }
 
 /// A point of a curve of critical force: the value of the key, and f_cr where there is one.
@@ -230,13 +250,7 @@ fn cases() -> Result<Vec<CaseRuns>, CaseError> {
 fn critical_row(
     &(r, shape, a, b, published): &(f64, &'static str, f64, f64, f64),
 ) -> Result<CriticalRow, CaseError> {
-    let parameters = Parameters {
-        r,
-        a,
-        b,
-        inertia: natural_inertia(a, b),
-        ..Parameters::STANDARD
-    };
+    let parameters = of_shape(r, [a, b]);
     Ok(CriticalRow {
         r,
         shape,
@@ -268,7 +282,8 @@ fn curve(
                     "e" => parameters.e = value,
                     _ => parameters.omega = value,
                 }
-                Ok((value, first_to_exceed(&reading.apply(parameters))?))
+                let first = first_exceeding(&reading.apply(parameters), ForceScan::default())?;
+                Ok((value, first.map(|(f_o, _)| f_o)))
             })
             .collect::<Result<Vec<_>, CaseError>>()
     };
@@ -279,11 +294,15 @@ fn curve(
     })
 }
 
-fn first_to_exceed(parameters: &Parameters) -> Result<Option<f64>, CaseError> {
-    for f_o in ForceScan::default().amplitudes() {
-        let case = Case::new(Parameters { f_o, ..*parameters })?;
-        if Outcome::of(&case).exceeds() {
-            return Ok(Some(f_o));
+/// The first force amplitude of a scan that exceeds, with the reason; nothing beyond it is run.
+pub(crate) fn first_exceeding(
+    parameters: &Parameters,
+    scan: ForceScan,
+) -> Result<Option<(f64, Stop)>, CaseError> {
+    for f_o in scan.amplitudes() {
+        let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
+        if outcome.exceeds() {
+            return Ok(Some((f_o, outcome.end.reason)));
         }
     }
     Ok(None)

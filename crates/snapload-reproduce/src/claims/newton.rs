@@ -1,7 +1,7 @@
 //! A moored body held by its cables, in x, y and θ alone: Newton's second law with multipliers for the
 //! cables' gaps, from their definition. What the chapter derives is measured against it.
 
-use super::Verdict;
+use super::verdict::{Claim, Finding, Verdict, claim};
 use snapload::{Real, anchor_height};
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -327,6 +327,18 @@ pub(super) fn holds(residual: f64) -> bool {
 /// The verdict on such an identity.
 pub(super) fn verdict(residual: f64) -> Verdict {
     Verdict::of(holds(residual))
+}
+
+/// A claim that an equation holds, by the largest residual in so many states.
+pub(super) fn identity(
+    id: &'static str,
+    text: &'static str,
+    residual: f64,
+    states: usize,
+) -> Claim {
+    let evidence = format!("largest residual {} in {states} states", words(residual));
+    let finding = Finding::new(Verdict::of(holds(residual) && states > 0), evidence);
+    claim(id, text, finding)
 }
 
 /// A residual in words: rounding by its decade, anything else as it is.

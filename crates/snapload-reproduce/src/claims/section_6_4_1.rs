@@ -1,16 +1,20 @@
-//! Section 6.4.1: how the motion changes with restitution and with the force. The claims on the shape
-//! and on the frequency have files of their own.
+//! Section 6.4.1: how the motion changes with restitution and with the force. The claims on the region,
+//! on rotations and on the frequency have files of their own.
 
-use super::near::{
-    Near, ending, endings, exceeds, falling, judged, list, mean, nominal, places, range,
+mod region;
+mod rotation;
+mod waves;
+
+use super::numbers::{falling, list, mean, range, span};
+use super::runs::{
+    MANY, Tabled, chapter, ending, endings, ensemble, exceeds, near, nominal, of_all, places,
 };
-use super::{Claim, Verdict, ensemble, robust, section_6_4_1_shape, section_6_4_1_waves};
-use crate::study::{Reading, Study};
+use super::verdict::{Claim, Finding, Verdict, claim};
+use crate::study::{Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::{CriticalForce, ForceScan, Outcome};
-use snapload::{Case, CaseError, Parameters, State, Stop, Trajectory};
+use snapload::{CaseError, Parameters, Playback, State, Stop, Trajectory};
 
-const SECTION: &str = "6.4.1";
 /// e = 1, 0.9, 0.7, 0.5.
 const RESTITUTIONS: [&str; 4] = [
     "1110001000-359",
@@ -28,26 +32,24 @@ const FORCES: [&str; 5] = [
 ];
 
 /// Checks the claims of this section.
-///
-/// # Errors
-/// [`CaseError`] only for a fault of the program.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
-    let near = Near::table(study, 8)?;
-    let mut all = section_6_4_1_shape::claims(study, &near)?;
-    all.extend(restitution(&near)?);
-    all.extend(force(study, &near)?);
-    all.extend(section_6_4_1_waves::claims(&near));
+pub(super) fn claims(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
+    let mut all = region::claims(study, tabled);
+    all.extend(rotation::claims(study, tabled)?);
+    all.extend(restitution(study, tabled)?);
+    all.extend(force(study, tabled)?);
+    all.extend(waves::claims(tabled));
     Ok(all)
 }
 
-fn restitution(near: &Near) -> Result<Vec<Claim>, CaseError> {
-    let members = near.of(&RESTITUTIONS);
+fn restitution(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
+    let members = tabled.of(&RESTITUTIONS);
     let elastic: Vec<&Trajectory> = members.iter().filter_map(|m| m.first().copied()).collect();
     Ok(vec![
         less_active(&members),
         velocities_fall(&members),
         longest(&members),
         chaotic(&elastic),
+        chaos_of_forcing(study, &elastic)?,
         elastic_rotates(&elastic),
         nothing_lost(&elastic),
         lower_loads(&members),
@@ -87,12 +89,10 @@ fn less_active(members: &[Vec<&Trajectory>]) -> Claim {
         let (path, x, rho) = (list(path, 2), list(x, 3), list(rho, 2));
         format!("path {path}; range of x {x}; sum of snap velocities {rho}")
     });
-    judged(
-        ("6.4.1-15", SECTION),
+    claim(
+        "6.4.1-15",
         "Motion is less active as e falls from 1 over 0.9 and 0.7 to 0.5.",
-        robust(measured.iter().map(falls)),
-        evidence,
-        "",
+        Finding::new(Verdict::robust(measured.iter().map(falls)), evidence),
     )
 }
 
@@ -117,15 +117,16 @@ fn velocities_fall(members: &[Vec<&Trajectory>]) -> Claim {
         }
         None => false,
     };
-    judged(
-        ("6.4.1-16", SECTION),
+    claim(
+        "6.4.1-16",
         "Snap velocities fall with time where e < 1, and do not where e = 1.",
-        robust(members.iter().map(holds)),
-        format!(
-            "mean in the second half of the run over that in the first: {}",
-            nominal(members, 3, later_to_earlier)
+        Finding::new(
+            Verdict::robust(members.iter().map(holds)),
+            format!(
+                "mean in the second half of the run over that in the first: {}",
+                nominal(members, 3, later_to_earlier)
+            ),
         ),
-        "",
     )
 }
 
@@ -137,92 +138,135 @@ fn longest(members: &[Vec<&Trajectory>]) -> Claim {
         }
         None => false,
     };
-    judged(
-        ("6.4.1-17", SECTION),
+    claim(
+        "6.4.1-17",
         "The run with e = 1 needs a longer axis of time than the others.",
-        robust(members.iter().map(holds)),
-        format!("runs end at {}", nominal(members, 2, |run| run.end().t)),
-        "",
+        Finding::new(
+            Verdict::robust(members.iter().map(holds)),
+            format!("runs end at {}", nominal(members, 2, |run| run.end().t)),
+        ),
     )
 }
 
-fn apart(a: &State, b: &State) -> f64 {
-    let differences = [
-        a.x - b.x,
-        a.y - b.y,
-        a.theta - b.theta,
-        a.vx - b.vx,
-        a.vy - b.vy,
-        a.vtheta - b.vtheta,
-    ];
-    differences
-        .into_iter()
-        .fold(0.0, |most, d| most.max(d.abs()))
-}
-
-/// The largest difference from the first run at the k-th impact; none once the cables differ.
-fn divergence(runs: &[&Trajectory], k: usize) -> Option<f64> {
-    let (first, others) = runs.split_first()?;
-    let hit = first.impacts().get(k.checked_sub(1)?)?;
-    others.iter().try_fold(0.0_f64, |most, run| {
-        let other = run.impacts().get(k - 1)?;
-        let same = other.cable == hit.cable;
-        same.then(|| most.max(apart(&hit.before, &other.before)))
+/// The largest distance of neighbours from the first run in x, y and θ, early and late in their motion.
+fn apart(runs: &[&Trajectory]) -> [f64; 2] {
+    let (end, _) = range(runs.iter().map(|run| run.end().t));
+    // A period at either end, for the distance swings, too.
+    let late = end - 2.0 * std::f64::consts::PI / Parameters::STANDARD.omega;
+    [0.0, late].map(|from| {
+        let times = (0..=100).map(|k| from + (end - late) * f64::from(k) / 100.0);
+        let paths = runs.iter().map(|run| {
+            let mut playback = Playback::new(run);
+            let at = |t| playback.at(t).state;
+            times.clone().map(at).map(|s| [s.x, s.y, s.theta]).collect()
+        });
+        let paths: Vec<Vec<[f64; 3]>> = paths.collect();
+        let own = paths.first().into_iter().flatten().flatten();
+        let own: Vec<f64> = own.copied().collect();
+        let differences = paths.iter().flat_map(|path| {
+            let values = path.iter().flatten();
+            values
+                .zip(&own)
+                .map(|(p, q)| (p - q).abs())
+                .collect::<Vec<_>>()
+        });
+        range(differences).1
     })
 }
 
+/// By how much neighbours part over a run, and in words.
+fn growth(runs: &[&Trajectory]) -> (f64, String) {
+    let [early, late] = apart(runs);
+    let (end, _) = range(runs.iter().map(|run| run.end().t));
+    let words = format!(
+        "starts 1e-12 apart are up to {early:.0e} apart in the first period and {late:.0e} in the \
+         last, t = {end:.1}"
+    );
+    (late / early, words)
+}
+
+/// A growth of differences that no steady motion has over so short a run.
+const CHAOS: f64 = 1e4;
+
 fn chaotic(elastic: &[&Trajectory]) -> Claim {
-    let at = |k: usize| divergence(elastic, k);
-    let found = (at(1), at(9), at(90));
-    let same_order = (1..=90).all(|k| at(k).is_some());
-    let holds = match found {
-        (Some(first), _, Some(last)) => same_order && last > 1e3 * first,
-        _ => false,
-    };
-    let evidence = match found {
-        (Some(first), Some(early), Some(last)) => format!(
-            "starts 1e-12 apart differ by {first:.0e} at impact 1, {early:.0e} at 9, {last:.0e} at 90: \
-             tenfold every {:.0} impacts",
-            81.0 / (last / early).log10()
-        ),
-        _ => "neighbours struck the cables in another order within 90 impacts".to_owned(),
-    };
-    judged(
-        ("6.4.1-18", SECTION),
+    let (factor, evidence) = growth(elastic);
+    claim(
+        "6.4.1-18",
         "The case with e = 1 is chaotic.",
-        Verdict::of(holds),
-        evidence,
-        "",
+        Finding::new(Verdict::of(factor > CHAOS), evidence),
     )
+}
+
+fn chaos_of_forcing(study: &Study, elastic: &[&Trajectory]) -> Result<Claim, CaseError> {
+    /// Off the middle, where free motion would meet both boundaries at once for ever.
+    const OFF: f64 = 0.02;
+    let case = study.case(RESTITUTIONS[0]);
+    let free = Parameters {
+        f_o: 0.0,
+        x: OFF,
+        t_end: elastic.first().map_or(0.0, |run| run.end().t),
+        ..case.map_or(Parameters::STANDARD, |case| case.parameters)
+    };
+    let runs = near(&chapter(free), MANY)?;
+    let (without, evidence) = growth(&runs.iter().collect::<Vec<_>>());
+    let (with, _) = growth(elastic);
+    let finding = Finding::new(
+        Verdict::of(with > CHAOS && without < CHAOS),
+        format!("without forcing, started at x = {OFF}: {evidence}"),
+    )
+    .because(
+        Verdict::NotReproduced,
+        without >= CHAOS,
+        "A body that bounces between two cables and turns is chaotic without waves, too.",
+    );
+    Ok(claim(
+        "6.4.1-36",
+        "That the case with e = 1 is chaotic is owed to the forcing.",
+        finding,
+    ))
 }
 
 fn elastic_rotates(elastic: &[&Trajectory]) -> Claim {
     let evidence = elastic.first().map_or(String::new(), |run| {
         format!("{} after {} impacts", ending(run), run.impacts().len())
     });
-    judged(
-        ("6.4.1-19", SECTION),
+    claim(
+        "6.4.1-19",
         "With e = 1 the rotation passes its limit and the run stops.",
-        robust(
-            elastic
-                .iter()
-                .map(|run| run.end().reason == Stop::RotationLimit),
+        Finding::new(
+            Verdict::robust(
+                elastic
+                    .iter()
+                    .map(|run| run.end().reason == Stop::RotationLimit),
+            ),
+            evidence,
         ),
-        evidence,
-        "",
     )
 }
 
 fn nothing_lost(elastic: &[&Trajectory]) -> Claim {
-    let lost = |run: &Trajectory| -> f64 { run.impacts().iter().map(|hit| hit.energy_lost).sum() };
-    let small = |run: &&Trajectory| lost(run).abs() < 1e-12 * run.impacts().len() as f64;
-    let (_, most) = range(elastic.iter().map(|run| lost(run).abs()));
-    judged(
-        ("6.4.1-20", SECTION),
+    /// Rounding of one impact's energies.
+    const ROUNDING: f64 = 1e-14;
+    let lost = |run: &Trajectory| {
+        let energy = |state: &State| run.system().energy(state);
+        let of = run
+            .impacts()
+            .iter()
+            .map(|hit| energy(&hit.before) - energy(&hit.after));
+        range(of.map(f64::abs)).1
+    };
+    let most = elastic.iter().map(|run| lost(run));
+    let impacts = elastic.first().map_or(0, |run| run.impacts().len());
+    claim(
+        "6.4.1-20",
         "With e = 1 the impacts lose no energy.",
-        robust(elastic.iter().map(small)),
-        format!("lost in all impacts: {most:.0e}"),
-        "",
+        Finding::new(
+            Verdict::robust(most.clone().map(|lost| lost < ROUNDING)),
+            format!(
+                "most that an impact changes the energy: {:.0e} in {impacts} impacts",
+                range(most).1
+            ),
+        ),
     )
 }
 
@@ -233,16 +277,17 @@ fn lower_loads(members: &[Vec<&Trajectory>]) -> Claim {
         let values: Vec<f64> = runs.iter().map(|run| rho(run)).collect();
         falling(&values)
     };
-    judged(
-        ("6.4.1-21", SECTION),
+    claim(
+        "6.4.1-21",
         "A lower e goes with lower snap loads.",
-        robust(members.iter().map(falls)),
-        format!(
-            "e = 1, 0.9, 0.7, 0.5: largest snap velocity {}; largest impulse {}",
-            nominal(members, 3, rho),
-            nominal(members, 3, impulse)
+        Finding::new(
+            Verdict::robust(members.iter().map(falls)),
+            format!(
+                "e = 1, 0.9, 0.7, 0.5: largest snap velocity {}; largest impulse {}",
+                nominal(members, 3, rho),
+                nominal(members, 3, impulse)
+            ),
         ),
-        "",
     )
 }
 
@@ -256,97 +301,85 @@ fn settles_sooner(members: &[Vec<&Trajectory>]) -> Result<Claim, CaseError> {
         times.len() == 3 && falling(&times)
     };
     // From 0.95 down to 0.5.
-    let fine: Vec<(Stop, f64)> = (0..10)
-        .into_par_iter()
-        .map(|k| {
-            let e = f64::from(95 - 5 * k) / 100.0;
-            let case = Parameters {
-                e,
-                ..Parameters::STANDARD
-            };
-            let end = Outcome::of(&Case::new(Reading::Chapter.apply(case))?).end;
-            Ok((end.reason, end.t))
-        })
-        .collect::<Result<_, CaseError>>()?;
-    let settled = fine.iter().filter(|(reason, _)| *reason == Stop::Settled);
-    let fine: Vec<f64> = settled.map(|(_, t)| *t).collect();
+    let with = |k: u8| Parameters {
+        e: f64::from(95 - 5 * k) / 100.0,
+        ..Parameters::STANDARD
+    };
+    let cases: Vec<Parameters> = (0..10).map(|k| chapter(with(k))).collect();
+    let fine = of_all(&cases, |case| Outcome::of(&case).end)?;
+    let settled = fine.iter().filter(|end| end.reason == Stop::Settled);
+    let fine: Vec<f64> = settled.map(|end| end.t).collect();
     let back = fine.windows(2).filter(|pair| !falling(pair)).count();
+    let own = members.first().map(times).unwrap_or_default();
     let evidence = format!(
-        "settles at {} with e = 0.9, 0.7, 0.5; in steps of 0.05 from 0.95 {} settle, at {} ({back} steps \
-         the other way)",
-        members
-            .first()
-            .map_or(String::new(), |runs| list(&times(runs), 3)),
+        "settles at {} with e = 0.9, 0.7, 0.5; in steps of 0.05 from 0.95 {} settle, at {} \
+         ({back} steps the other way)",
+        list(&own, 3),
         fine.len(),
         list(&fine, 2)
     );
-    Ok(judged(
-        ("6.4.1-22", SECTION),
+    Ok(claim(
+        "6.4.1-22",
         "The lower e, the sooner the body settles.",
-        robust(members.iter().map(holds)),
-        evidence,
-        "",
+        Finding::new(Verdict::robust(members.iter().map(holds)), evidence),
     ))
 }
 
-fn force(study: &Study, near: &Near) -> Result<Vec<Claim>, CaseError> {
-    let members = near.of(&FORCES);
-    let first_critical = critical_forces(8)?;
+fn force(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
+    let members = tabled.of(&FORCES);
+    let first = first_rotating(&ensemble(&chapter(Parameters::STANDARD), MANY))?;
     let row = study
         .critical
         .iter()
         .find(|row| row.r == 1.5 && row.size == [0.1, 0.0]);
     Ok(vec![
         tenths(&members),
-        hundredths(&first_critical),
-        settles_above_critical(
-            &members,
-            &first_critical,
-            row.map(|row| &row.computed.chapter),
-        ),
+        hundredths(&first),
+        settles_above_critical(&members, &first, row.map(|row| &row.computed.chapter)),
     ])
 }
 
-/// The critical force of the standard case and of its neighbours.
-fn critical_forces(neighbours: usize) -> Result<Vec<Option<f64>>, CaseError> {
-    ensemble(&Reading::Chapter.apply(Parameters::STANDARD), neighbours)
-        .into_par_iter()
-        .map(|member| {
-            for f_o in ForceScan::default().amplitudes() {
-                if Outcome::of(&Case::new(Parameters { f_o, ..member })?).exceeds() {
-                    return Ok(Some(f_o));
-                }
-            }
-            Ok(None)
-        })
-        .collect()
+/// For each start the first of the amplitudes 0.01, 0.02 … that exceeds, if it does so by rotation.
+fn first_rotating(starts: &[Parameters]) -> Result<Vec<Option<f64>>, CaseError> {
+    let first = |start: &Parameters| {
+        let found = first_exceeding(start, ForceScan::default())?;
+        let by_rotation = found.filter(|(_, reason)| *reason == Stop::RotationLimit);
+        Ok(by_rotation.map(|(f_o, _)| f_o))
+    };
+    starts.par_iter().map(first).collect()
 }
 
 fn tenths(members: &[Vec<&Trajectory>]) -> Claim {
     let only_last = |runs: &Vec<&Trajectory>| match runs.split_last() {
-        Some((last, others)) => exceeds(last) && !others.iter().any(|run| exceeds(run)),
+        Some((last, others)) => {
+            last.end().reason == Stop::RotationLimit && !others.iter().any(|run| exceeds(run))
+        }
         None => false,
     };
-    judged(
-        ("6.4.1-23", SECTION),
+    claim(
+        "6.4.1-23",
         "In steps of 0.1 the force first brings about the rotation limit at 0.5.",
-        robust(members.iter().map(only_last)),
-        endings(members),
-        "",
+        Finding::new(
+            Verdict::robust(members.iter().map(only_last)),
+            format!("f_o = 0.1 to 0.5: {}", endings(members)),
+        ),
     )
 }
 
-fn hundredths(critical: &[Option<f64>]) -> Claim {
-    let (low, high) = range(critical.iter().flatten().copied());
-    judged(
-        ("6.4.1-24", SECTION),
+fn hundredths(first: &[Option<f64>]) -> Claim {
+    let found = first.iter().flatten();
+    claim(
+        "6.4.1-24",
         "In steps of 0.01 it does so first at 0.31.",
-        robust(critical.iter().map(|f_o| *f_o == Some(0.31))),
-        format!(
-            "first at {low:.2} to {high:.2} in {} members",
-            critical.len()
+        Finding::new(
+            Verdict::robust(first.iter().map(|f_o| *f_o == Some(0.31))),
+            format!(
+                "first at {} in {} of {} starts",
+                span(found.clone().copied(), 2),
+                found.count(),
+                first.len()
+            ),
         ),
-        "",
     )
 }
 
@@ -364,21 +397,19 @@ fn settles_above_critical(
         .iter()
         .zip(critical)
         .map(|(runs, first)| settles(runs) && below(first));
-    let at: Vec<f64> = members
-        .iter()
-        .filter_map(|runs| Some(runs.get(3)?.end().t))
-        .collect();
-    let (low, high) = range(at);
+    let at = members.iter().filter_map(|runs| Some(runs.get(3)?.end().t));
     let exceeding = scan.map_or(&[][..], |scan| &scan.exceeding).iter().take(4);
     let exceeding: Vec<String> = exceeding.map(|[a, b]| format!("{a:.2}-{b:.2}")).collect();
-    judged(
-        ("6.4.1-25", SECTION),
+    claim(
+        "6.4.1-25",
         "All forces of the series below 0.5 settle, even 0.4, which is above the critical one.",
-        robust(holds),
-        format!(
-            "0.4 ends at t = {low:.2} to {high:.2}; forces that exceed: {} …",
-            exceeding.join(", ")
+        Finding::new(
+            Verdict::robust(holds),
+            format!(
+                "0.4 ends at t = {}; forces that exceed: {} …",
+                span(at, 2),
+                exceeding.join(", ")
+            ),
         ),
-        "",
     )
 }

@@ -1,29 +1,22 @@
 //! Section 6.4.3: the norms over the force amplitude, and the comparison with the point mass.
 
+mod heights;
 mod point_mass;
 mod swings;
 
-use super::tools::{
-    Finding, ensemble, judged, mean_and_deviation, range, robust, run_all, spearman,
-};
-use super::{Claim, Verdict};
-use crate::study::{Reading, Study};
-use rayon::prelude::*;
-use snapload::{Case, CaseError, Norms, Parameters, Stop, Trajectory};
-
-/// Neighbours of every run.
-const NEIGHBOURS: usize = 8;
-/// A swing that is large \[rad\].
-const LARGE: f64 = 0.5;
+use super::numbers::{falling, list, mean, mean_and_deviation, range, span};
+use super::runs::{LARGE_SWING, MANY, chapter, ensemble, near, of_all, swings, table_codes};
+use super::verdict::{Claim, Finding, Verdict, claim};
+use crate::study::Study;
+use snapload::{CaseError, Norms, Parameters, Stop, Trajectory};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     let sweeps = Sweeps::new(study)?;
-    let mut all = of_extremes(&sweeps);
+    let mut all = heights::claims(&sweeps);
     all.extend(of_norms(study, &sweeps)?);
     all.extend(swings::claims(&sweeps));
-    all.extend(point_mass::claims(study)?);
-    all.sort_by_key(|claim| claim.id);
+    all.extend(point_mass::claims(&sweeps)?);
     Ok(all)
 }
 
@@ -41,20 +34,13 @@ struct Run {
 
 impl Run {
     fn new(f_o: f64, run: &Trajectory) -> Self {
-        let turns: Vec<f64> = run
-            .impacts()
-            .iter()
-            .filter(|i| i.before.vtheta * i.after.vtheta < 0.0 || i.before.vtheta == 0.0)
-            .map(|i| i.before.theta)
-            .collect();
-        let pairs = turns.iter().zip(turns.iter().skip(1));
         Self {
             f_o,
             norms: *run.norms(),
             reason: run.end().reason,
             t: run.end().t,
             strongest: strongest(run),
-            swings: pairs.map(|(a, b)| (b - a).abs()).collect(),
+            swings: swings(run),
         }
     }
 
@@ -63,7 +49,10 @@ impl Run {
     }
 
     fn large_swings(&self) -> impl Iterator<Item = f64> {
-        self.swings.iter().copied().filter(|swing| *swing > LARGE)
+        self.swings
+            .iter()
+            .copied()
+            .filter(|swing| *swing > LARGE_SWING)
     }
 }
 
@@ -89,11 +78,11 @@ impl Sweeps {
             let forces: Vec<f64> = norms
                 .flat_map(|norms| norms.points.chapter.iter().map(|p| p.0))
                 .collect();
-            let case = Reading::Chapter.apply(Parameters {
+            let case = chapter(Parameters {
                 r,
                 ..Parameters::STANDARD
             });
-            ensemble(&case, NEIGHBOURS)
+            ensemble(&case, MANY)
                 .iter()
                 .map(|member| sweep(member, &forces))
                 .collect()
@@ -104,38 +93,32 @@ impl Sweeps {
         })
     }
 
-    fn both(&self) -> [&[Sweep]; 2] {
-        [&self.short, &self.long]
-    }
-
     /// A statement of the runs at either length, from all starts.
     fn judge(&self, holds: impl Fn(&[Run]) -> bool) -> Verdict {
-        robust(
-            self.short
-                .iter()
-                .chain(&self.long)
-                .map(|sweep| holds(sweep)),
-        )
+        Verdict::robust(self.short.iter().chain(&self.long).map(|s| holds(s)))
     }
 
     /// A figure of the case itself at either length.
     fn show(&self, text: impl Fn(&[Run]) -> String) -> String {
-        let one = |sweeps: &[Sweep]| sweeps.first().map(|sweep| text(sweep)).unwrap_or_default();
-        let [short, long] = self.both().map(one);
+        let [short, long] = [&self.short, &self.long].map(|members| text(own(members)));
         format!("r = 1.5: {short}; r = 2.5: {long}")
     }
 }
 
 fn sweep(case: &Parameters, forces: &[f64]) -> Result<Sweep, CaseError> {
-    forces
-        .par_iter()
-        .map(|f_o| {
-            Ok(Run::new(
-                *f_o,
-                &Case::new(Parameters { f_o: *f_o, ..*case })?.run(),
-            ))
-        })
-        .collect()
+    let cases: Vec<Parameters> = forces
+        .iter()
+        .map(|f_o| Parameters { f_o: *f_o, ..*case })
+        .collect();
+    of_all(&cases, |case| case.run()).map(|runs| {
+        let pairs = forces.iter().zip(&runs);
+        pairs.map(|(f_o, run)| Run::new(*f_o, run)).collect()
+    })
+}
+
+/// The case itself.
+fn own(members: &[Sweep]) -> &[Run] {
+    members.first().map_or(&[], Vec::as_slice)
 }
 
 /// All but the last, which exceeds.
@@ -148,6 +131,9 @@ fn over_force(sweep: &[Run], figure: impl Fn(&Run) -> f64) -> Vec<(f64, f64)> {
     sweep.iter().map(|run| (run.f_o, figure(run))).collect()
 }
 
+/// ρ2 and ρ3.
+const SUMS: [fn(&Run) -> f64; 2] = [|run| run.norms.rho2, |run| run.norms.rho3];
+
 /// Mean and deviation of a figure at the lower and at the higher amplitudes below f_cr.
 fn halves(sweep: &[Run], figure: impl Fn(&Run) -> f64) -> [(f64, f64); 2] {
     let values: Vec<f64> = below_critical(sweep).iter().map(figure).collect();
@@ -159,193 +145,135 @@ fn share(sweep: &[Run], holds: impl Fn(&Run) -> bool) -> f64 {
     sweep.iter().filter(|run| holds(run)).count() as f64 / sweep.len().max(1) as f64
 }
 
-fn of_extremes(sweeps: &Sweeps) -> Vec<Claim> {
-    vec![
-        judged(
-            "6.4.3-01",
-            "The largest rotation grows with f_o to π/2, which it reaches at the critical force \
-             (Figs 6.31, 6.35).",
-            rotation(sweeps),
-            "No such growth.",
-        ),
-        judged(
-            "6.4.3-02",
-            "Under a weak force the body never rises above its start at y = 0.1 (Figs 6.32, 6.36).",
-            low_heights(sweeps),
-            "It rises higher.",
-        ),
-        judged(
-            "6.4.3-03",
-            "Under a stronger force it may rise above its start, for r = 1.5.",
-            height(&sweeps.short, |rises| rises > 0),
-            "It does not, below the critical force.",
-        ),
-        judged(
-            "6.4.3-04",
-            "For r = 2.5 it stays below its start up to the critical force.",
-            height(&sweeps.long, |rises| rises == 0),
-            "It rises higher.",
-        ),
-    ]
-}
-
-fn rotation(sweeps: &Sweeps) -> Finding {
-    let at_limit = |run: &Run| run.norms.theta_max > std::f64::consts::FRAC_PI_2 - 1e-9;
-    let correlation = |sweep: &[Run]| spearman(&over_force(sweep, |run| run.norms.theta_max));
-    let verdict = sweeps.judge(|sweep| {
-        correlation(sweep) >= 0.9
-            && sweep.last().is_some_and(at_limit)
-            && !below_critical(sweep).iter().any(at_limit)
-    });
-    let text = |sweep: &[Run]| {
-        let (_, before) = range(below_critical(sweep).iter().map(|run| run.norms.theta_max));
-        let f_cr = sweep.last().map_or(0.0, |run| run.f_o);
-        let rho = correlation(sweep);
-        format!("rank correlation {rho:.2}, largest below f_cr = {f_cr:.2} is {before:.3}")
-    };
-    (verdict, sweeps.show(text))
-}
-
-/// Whether the body rises above its start.
-fn rises(run: &Run) -> bool {
-    run.norms.y_max > 0.1 + 1e-9
-}
-
-fn low_heights(sweeps: &Sweeps) -> Finding {
-    let verdict = sweeps.judge(|sweep| sweep.iter().all(|run| run.f_o > 0.055 || !rises(run)));
-    let text = |sweep: &[Run]| {
-        let last = sweep.iter().take_while(|run| !rises(run)).last();
-        format!("up to f_o = {:.2}", last.map_or(0.0, |run| run.f_o))
-    };
-    (verdict, sweeps.show(text))
-}
-
-fn height(members: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
-    let count = |sweep: &Sweep| {
-        below_critical(sweep)
-            .iter()
-            .filter(|run| rises(run))
-            .count()
-    };
-    let verdict = robust(members.iter().map(|sweep| holds(count(sweep))));
-    let own = members.first().map(Vec::as_slice).unwrap_or_default();
-    let (_, highest) = range(below_critical(own).iter().map(|run| run.norms.y_max));
-    let rising = own.iter().filter(|run| rises(run)).map(|run| run.f_o);
-    let (first, _) = range(rising);
-    let evidence = if first.is_finite() {
-        format!("highest y below f_cr {highest:.3}, above the start from f_o = {first:.2} on")
-    } else {
-        format!("highest y below f_cr {highest:.3}")
-    };
-    (verdict, evidence)
-}
-
 fn of_norms(study: &Study, sweeps: &Sweeps) -> Result<Vec<Claim>, CaseError> {
     Ok(vec![
-        judged(
+        claim(
             "6.4.3-05",
             "ρ1 hardly changes as f_o grows (Figs 6.33, 6.37).",
             steady_largest(sweeps),
-            "It changes more.",
         ),
-        judged(
+        claim(
             "6.4.3-07",
             "The largest snap is about the first impact (Figs 6.22-6.26).",
             first_is_largest(study, sweeps)?,
-            "It is later in too many runs.",
         ),
-        judged(
+        claim(
             "6.4.3-10",
-            "For r = 1.5, ρ2 and ρ3 are constant under weak forces, lower and erratic under strong \
-             ones.",
+            "For r = 1.5, ρ2 and ρ3 are constant under weak forces, lower and erratic under \
+             strong ones.",
             erratic(sweeps),
-            "No such difference.",
         ),
-        judged(
+        claim(
             "6.4.3-13",
             "For r = 2.5, ρ2 and ρ3 fall, rise and fall again as f_o grows.",
             fall_rise_fall(sweeps),
-            "Not in this order.",
         ),
-        judged(
+        claim(
+            "6.4.3-19",
+            "The norms do not grow steadily with the force.",
+            not_steady(sweeps),
+        ),
+        claim(
+            "6.4.3-20",
+            "For r = 2.5 the energy is dissipated best at an amplitude in between.",
+            optimum(sweeps),
+        ),
+        claim(
             "6.4.3-15",
             "ρ2 equals ρ3 as most runs are over by t = 10.",
             over_by_ten(study, sweeps),
-            "Too many go on.",
         ),
-        judged(
+        claim(
             "6.4.3-16",
             "The plots of ρ2 and ρ3 look alike.",
             alike(sweeps),
-            "They differ.",
         ),
-        judged(
+        claim(
             "6.4.3-18",
             "Wave energy is dissipated within a short time, t ≤ 10.",
             soon_settled(sweeps),
-            "Too many runs go on.",
         ),
     ])
 }
 
+/// Range over mean of ρ1 that one calls constant.
+const STEADY: f64 = 0.1;
+
+/// Range over mean.
+fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (low, high) = range(values.clone());
+    (high - low) / mean(values)
+}
+
 fn steady_largest(sweeps: &Sweeps) -> Finding {
-    let spread = |sweep: &[Run]| {
-        let values: Vec<f64> = sweep.iter().map(|run| run.norms.rho1).collect();
-        let (low, high) = range(values.iter().copied());
-        (high - low) / mean_and_deviation(&values).0
-    };
+    let spread = |sweep: &[Run]| spread(sweep.iter().map(|run| run.norms.rho1));
     let text = |sweep: &[Run]| format!("ρ1 varies by {:.1} %", 100.0 * spread(sweep));
-    (sweeps.judge(|sweep| spread(sweep) < 0.1), sweeps.show(text))
+    Finding::new(
+        sweeps.judge(|sweep| spread(sweep) < STEADY),
+        sweeps.show(text),
+    )
 }
 
 fn first_is_largest(study: &Study, sweeps: &Sweeps) -> Result<Finding, CaseError> {
-    let codes = ["355", "3575", "359", "3515", "3520"];
+    /// Figs 6.22-6.26.
+    const FIGURES: [&str; 5] = ["355", "3575", "359", "3515", "3520"];
     let mut figures: Vec<Vec<usize>> = Vec::new();
-    for code in codes {
-        let Some(case) = study.case(&format!("1910001000-{code}")) else {
-            return Ok((Verdict::NotReproduced, format!("no case {code}")));
-        };
-        let members = ensemble(&Reading::Chapter.apply(case.parameters), NEIGHBOURS);
-        figures.push(run_all(&members)?.iter().map(strongest).collect());
+    for code in FIGURES {
+        if let Some(case) = study.case(&format!("1910001000-{code}")) {
+            let runs = near(&chapter(case.parameters), MANY)?;
+            figures.push(runs.iter().map(strongest).collect());
+        }
     }
+    // About the first: among the first three.
     let early = |k: &usize| *k <= 3;
-    let holds = |(member, sweep): (usize, &Sweep)| {
-        let own = figures.iter().filter_map(|figure| figure.get(member));
-        let drawn = own.filter(|k| early(k)).count();
-        share(sweep, |run| early(&run.strongest)) >= 0.8 && drawn >= 4
-    };
-    let verdict = robust(sweeps.short.iter().enumerate().map(holds));
-    let drawn: Vec<String> = figures
+    let of_figures = figures
+        .iter()
+        .map(|figure| Verdict::robust(figure.iter().map(early)));
+    let drawn = of_figures.filter(|v| *v == Verdict::Reproduced).count();
+    let shares = sweeps
+        .short
+        .iter()
+        .map(|sweep| share(sweep, |run| early(&run.strongest)));
+    // Usually: in four of five.
+    let holds = |share: f64| share >= 0.8 && drawn >= 4;
+    let strongest: Vec<String> = figures
         .iter()
         .flat_map(|f| f.first())
         .map(usize::to_string)
         .collect();
-    let own = sweeps.short.first().map(Vec::as_slice).unwrap_or_default();
-    let part = 100.0 * share(own, |run| early(&run.strongest));
-    let seconds = 100.0 * share(own, |run| run.strongest == 2);
-    let drawn = drawn.join(", ");
+    let seconds = 100.0 * share(own(&sweeps.short), |run| run.strongest == 2);
     let evidence = format!(
-        "the largest is impact number {drawn} in the figures; among the first three in {part:.0} % of \
-         the runs over f_o, the second in {seconds:.0} %"
+        "the largest is impact number {} in the figures; among the first three in {} % of the \
+         runs over f_o, the second in {seconds:.0} %",
+        strongest.join(", "),
+        span(shares.clone().map(|share| 100.0 * share), 0)
     );
-    Ok((verdict, evidence))
+    Ok(Finding::new(Verdict::robust(shares.map(holds)), evidence))
 }
 
 fn erratic(sweeps: &Sweeps) -> Finding {
-    let figures: [fn(&Run) -> f64; 2] = [|run| run.norms.rho2, |run| run.norms.rho3];
+    /// A deviation that one calls constant, in parts of the mean.
+    const CONSTANT: f64 = 0.05;
     let holds = |sweep: &Sweep| {
-        figures.iter().all(|figure| {
+        SUMS.iter().all(|figure| {
             let [low, high] = halves(sweep, figure);
-            high.1 >= 2.0 * low.1 && high.0 < low.0
+            low.1 < CONSTANT * low.0 && high.1 >= 2.0 * low.1 && high.0 < low.0
         })
     };
-    let own = sweeps.short.first().map(Vec::as_slice).unwrap_or_default();
-    let [low, high] = halves(own, |run| run.norms.rho3);
-    let evidence = format!(
-        "ρ3 {:.2} ± {:.2}, then {:.2} ± {:.2}",
-        low.0, low.1, high.0, high.1
-    );
-    (robust(sweeps.short.iter().map(holds)), evidence)
+    let words = SUMS.map(|figure| {
+        let [low, high] = halves(own(&sweeps.short), figure);
+        format!(
+            "{:.2} ± {:.2}, then {:.2} ± {:.2}",
+            low.0, low.1, high.0, high.1
+        )
+    });
+    Finding::new(
+        Verdict::robust(sweeps.short.iter().map(holds)),
+        format!(
+            "lower and upper half of the amplitudes: ρ2 {}; ρ3 {}",
+            words[0], words[1]
+        ),
+    )
 }
 
 /// The place of the best value by some order among `from..to`.
@@ -355,51 +283,96 @@ fn place(values: &[f64], from: usize, to: usize, sign: f64) -> Option<usize> {
         .map(|(k, _)| k)
 }
 
-fn fall_rise_fall(sweeps: &Sweeps) -> Finding {
-    let rho3 = |sweep: &[Run]| -> Vec<f64> { sweep.iter().map(|run| run.norms.rho3).collect() };
-    let holds = |sweep: &Sweep| {
-        let rho = rho3(sweep);
-        let last = rho.len().saturating_sub(1);
-        let check = || {
-            let i = place(&rho, 1, last, -1.0)?;
-            let j = place(&rho, i + 1, last, 1.0)?;
-            let (low, high) = (*rho.get(i)?, *rho.get(j)?);
-            let (_, start) = range(rho.iter().take(2).copied());
-            Some(start > 1.05 * low && high > 1.05 * low && *rho.last()? < 0.95 * high)
-        };
-        check().unwrap_or(false)
+/// Whether values fall, rise and fall again, by a twentieth each time.
+fn falls_rises_falls(values: &[f64]) -> bool {
+    let last = values.len().saturating_sub(1);
+    let check = || {
+        let i = place(values, 1, last, -1.0)?;
+        let j = place(values, i + 1, last, 1.0)?;
+        let (low, high) = (*values.get(i)?, *values.get(j)?);
+        let (_, start) = range(values.iter().take(2).copied());
+        Some(start > 1.05 * low && high > 1.05 * low && *values.last()? < 0.95 * high)
     };
-    (
-        robust(sweeps.long.iter().map(holds)),
-        listed(&sweeps.long, |run| run.norms.rho3, 2),
+    check().unwrap_or(false)
+}
+
+fn fall_rise_fall(sweeps: &Sweeps) -> Finding {
+    let of =
+        |sweep: &Sweep, figure: fn(&Run) -> f64| -> Vec<f64> { sweep.iter().map(figure).collect() };
+    let holds = |sweep: &Sweep| {
+        SUMS.iter()
+            .all(|figure| falls_rises_falls(&of(sweep, *figure)))
+    };
+    Finding::new(
+        Verdict::robust(sweeps.long.iter().map(holds)),
+        format!("ρ3 {}", listed(&sweeps.long, |run| run.norms.rho3, 2)),
+    )
+}
+
+fn not_steady(sweeps: &Sweeps) -> Finding {
+    let back = |sweep: &[Run]| {
+        SUMS.map(|figure| {
+            let values: Vec<f64> = sweep.iter().map(figure).collect();
+            values.windows(2).filter(|pair| falling(pair)).count()
+        })
+    };
+    let text = |sweep: &[Run]| {
+        let [rho2, rho3] = back(sweep);
+        let steps = sweep.len().saturating_sub(1);
+        format!("ρ2 falls in {rho2} and ρ3 in {rho3} of {steps} steps of f_o")
+    };
+    Finding::new(
+        sweeps.judge(|sweep| back(sweep).iter().all(|count| *count > 0)),
+        sweeps.show(text),
+    )
+}
+
+fn optimum(sweeps: &Sweeps) -> Finding {
+    // Where the snaps take the least to bring the body to rest, among the runs that settle.
+    let best = |sweep: &Sweep| {
+        let settled = sweep.iter().filter(|run| run.reason == Stop::Settled);
+        let settled: Vec<(f64, f64)> = settled.map(|run| (run.f_o, run.norms.rho3)).collect();
+        let values: Vec<f64> = settled.iter().map(|p| p.1).collect();
+        let k = place(&values, 0, values.len(), -1.0)?;
+        let inside = k > 0 && k + 1 < values.len();
+        settled.get(k).map(|p| (p.0, p.1, inside))
+    };
+    let found: Vec<Option<(f64, f64, bool)>> = sweeps.long.iter().map(best).collect();
+    let places = || found.iter().flatten().map(|best| best.0);
+    let (low, high) = range(places());
+    let same = high - low < 0.015;
+    let inside = |best: &Option<(f64, f64, bool)>| same && best.is_some_and(|best| best.2);
+    let least = found.iter().flatten().map(|best| best.1);
+    Finding::new(
+        Verdict::robust(found.iter().map(inside)),
+        format!(
+            "r = 2.5: least ρ3 of a run that settles {} at f_o = {}",
+            span(least, 2),
+            span(places(), 2)
+        ),
     )
 }
 
 /// The values of a figure over f_o, from the case itself.
 fn listed(members: &[Sweep], figure: impl Fn(&Run) -> f64, digits: usize) -> String {
-    let own = members.first().map(Vec::as_slice).unwrap_or_default();
-    let texts: Vec<String> = own
-        .iter()
-        .map(|run| format!("{:.digits$}", figure(run)))
-        .collect();
-    texts.join(" ")
+    let values: Vec<f64> = own(members).iter().map(figure).collect();
+    list(&values, digits)
 }
 
 fn over_by_ten(study: &Study, sweeps: &Sweeps) -> Finding {
     let over = |run: &Run| run.t <= 10.0 && run.norms.rho2 == run.norms.rho3;
     let verdict = sweeps.judge(|sweep| share(sweep, over) > 0.8);
-    let tabled = || {
-        study
-            .cases
-            .iter()
-            .filter(|c| snapload::TABLE_6_1.iter().any(|(_, code)| *code == c.code))
-    };
-    let soon = tabled().filter(|c| c.runs.chapter.end().t <= 10.0).count();
+    let codes = table_codes();
+    let tabled = codes.iter().filter_map(|code| study.case(code));
+    let soon = tabled.filter(|c| c.runs.chapter.end().t <= 10.0).count();
     let text = |sweep: &[Run]| format!("{:.0} %", 100.0 * share(sweep, over));
-    let (shares, all) = (sweeps.show(text), tabled().count());
-    (
+    Finding::new(
         verdict,
-        format!("{shares} of the runs over f_o; of the cases of Table 6.1 {soon} of {all}"),
+        format!(
+            "{} of the runs over f_o; of the cases of Table 6.1 {soon} of {}",
+            sweeps.show(text),
+            codes.len()
+        ),
     )
 }
 
@@ -410,7 +383,7 @@ fn alike(sweeps: &Sweeps) -> Finding {
         format!("they differ by {:.1} % at most", 100.0 * most)
     };
     let verdict = sweeps.judge(|sweep| share(sweep, |run| differ(run) < 0.05) >= 0.8);
-    (verdict, sweeps.show(text))
+    Finding::new(verdict, sweeps.show(text))
 }
 
 fn soon_settled(sweeps: &Sweeps) -> Finding {
@@ -424,5 +397,5 @@ fn soon_settled(sweeps: &Sweeps) -> Finding {
             below.len()
         )
     };
-    (verdict, format!("settled by t = 10, {}", sweeps.show(text)))
+    Finding::new(verdict, format!("settled by t = 10, {}", sweeps.show(text)))
 }

@@ -1,15 +1,17 @@
 //! 6.5.1.1: the equations of sliding, against Newton's law with a multiplier.
 
+mod states;
+
+use super::engine::tension_residual;
 use super::equations::*;
-use super::newton::{Jet, Moment, Mooring, Numbers, Side, holds, largest, verdict, words};
-use super::sliding::{BODIES, SEED, Sliding, random_states};
-use super::tools::claim;
-use super::{Claim, Verdict};
+use super::newton::{Jet, Mooring, Side, holds, identity, largest, verdict, words};
+use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
-use snapload::{CaseError, Motion, Parameters, Playback, Real, Trajectory};
+use snapload::{Parameters, Real, Trajectory};
+use states::{Sliding, pointing_to_the_centre, random_states};
 
 /// Checks the claims of the section.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
+pub(super) fn claims(study: &Study) -> Vec<Claim> {
     let (left, right): (Vec<Sliding>, Vec<Sliding>) = random_states()
         .into_iter()
         .partition(|state| state.side == Side::Left);
@@ -22,13 +24,7 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     all.push(validity(&left, &right));
     all.push(origin(study));
     all.push(double_pendulum(&left));
-    Ok(all)
-}
-
-/// A claim that an equation holds in all states.
-fn identity(id: &'static str, text: &'static str, residual: f64, states: usize) -> Claim {
-    let evidence = format!("largest residual {} in {states} states", words(residual));
-    claim(id, text, verdict(residual), evidence, "")
+    all
 }
 
 /// The largest of what a residual comes to over states.
@@ -107,13 +103,19 @@ fn energies(left: &[Sliding]) -> Vec<Claim> {
         claim(
             "6.5.1.1-05",
             "The potential energy in α and β, 6.20, is the height y.",
-            verdict(potential),
-            format!(
-                "off by up to {}; with b added {}",
-                words(potential),
-                words(with_b)
+            Finding::new(
+                verdict(potential),
+                format!(
+                    "off by up to {}; with b added {}",
+                    words(potential),
+                    words(with_b)
+                ),
+            )
+            .because(
+                Verdict::NotReproduced,
+                holds(with_b),
+                "The constant b is left out, which no equation of motion notices.",
             ),
-            "The constant b is left out, which no equation of motion notices.",
         ),
     ]
 }
@@ -146,6 +148,21 @@ fn motion(left: &[Sliding]) -> Vec<Claim> {
             .map(|state| state.motion_residuals()[1]),
     );
     let with_term = over(left, |state| [mended(state)]);
+    let of_beta = Finding::new(
+        verdict(printed),
+        format!(
+            "as printed off by up to {}; with + b cos β {}; circles (b = 0) {}",
+            words(printed),
+            words(with_term),
+            words(circles)
+        ),
+    )
+    .because(
+        Verdict::NotReproduced,
+        holds(with_term) && holds(circles),
+        "6.35 lacks + b cos β. It is right for the circle, which the chapter's examples use; \
+         boxes would slide wrongly by it.",
+    );
     vec![
         identity(
             "6.5.1.1-06",
@@ -162,15 +179,7 @@ fn motion(left: &[Sliding]) -> Vec<Claim> {
         claim(
             "6.5.1.1-08",
             "The equation of β (6.29 with 6.33 and 6.35) follows.",
-            verdict(printed),
-            format!(
-                "as printed off by up to {}; with + b cos β {}; circles (b = 0) {}",
-                words(printed),
-                words(with_term),
-                words(circles)
-            ),
-            "6.35 lacks + b cos β. It is right for the circle, which the chapter's runs use; boxes would \
-             slide wrongly by it.",
+            of_beta,
         ),
     ]
 }
@@ -195,7 +204,7 @@ fn multiplier(study: &Study, left: &[Sliding]) -> Vec<Claim> {
         let [fx, fy, _] = terms(state);
         (fx * gx + fy * gy > 0.0) == (state.lambda() > 0.0)
     });
-    let (tension, moments) = tension_residual(&study.sliding);
+    let (tension, moments) = tension_residual(&study.sliding, 1);
     let in_angles = over(left, |state| {
         let m = &state.moment.mooring;
         let bracket = eq_6_43_bracket(m, &state.angles);
@@ -211,13 +220,15 @@ fn multiplier(study: &Study, left: &[Sliding]) -> Vec<Claim> {
         claim(
             "6.5.1.1-10",
             "The taut cable bears a compression of 2 λ r.",
-            Verdict::of(holds(compression) && pushes && moments > 0 && holds(tension)),
-            format!(
-                "residual {}; tension of the sliding example against -2 λ r at {moments} times {}",
-                words(compression),
-                words(tension)
+            Finding::new(
+                Verdict::of(holds(compression) && pushes && moments > 0 && holds(tension)),
+                format!(
+                    "residual {}; tension of the sliding example against -2 λ r at {moments} \
+                     times {}",
+                    words(compression),
+                    words(tension)
+                ),
             ),
-            "",
         ),
         identity(
             "6.5.1.1-11",
@@ -228,85 +239,9 @@ fn multiplier(study: &Study, left: &[Sliding]) -> Vec<Claim> {
     ]
 }
 
-/// How many intervals of a run are looked at, and at how many times each.
-const INTERVALS: usize = 40;
-const TIMES: usize = 8;
-
-/// The tension that a run has while one cable is taut, against −2 λ r at the same states; and at how
-/// many times that was looked at.
-fn tension_residual(run: &Trajectory) -> (f64, usize) {
-    let mut playback = Playback::new(run);
-    let mut residuals = Vec::new();
-    let intervals = run.modes().iter().filter(|mode| mode.taut.len() == 1);
-    for mode in intervals.take(INTERVALS) {
-        for k in 0..TIMES {
-            let part = (k as f64 + 0.5) / TIMES as f64;
-            let motion = playback.at(mode.t_start + part * (mode.t_end - mode.t_start));
-            let moment = moment_of(run, &motion);
-            for cable in motion.taut.iter().take(1) {
-                let [lambda] = moment.held(Side::of(cable)).lambda;
-                let tension = motion.tensions.get(cable).copied();
-                residuals.push(tension.unwrap_or(f64::NAN) + 2.0 * lambda * moment.mooring.r);
-            }
-        }
-    }
-    let count = residuals.len();
-    (largest(residuals), count)
-}
-
-/// A run's moment in the terms of Newton's law.
-pub(super) fn moment_of(run: &Trajectory, motion: &Motion) -> Moment {
-    let system = run.system();
-    let [a, b, r] = system.cables.first().map_or([0.0; 3], |cable| {
-        let [a, b] = cable.fairlead();
-        [a, b, cable.length()]
-    });
-    let [fx, fy] = system.forcing.at(motion.t);
-    let state = &motion.state;
-    Moment {
-        mooring: Mooring {
-            a,
-            b,
-            r,
-            inertia: system.body.inertia(),
-        },
-        place: [state.x, state.y, state.theta],
-        velocity: [state.vx, state.vy, state.vtheta],
-        force: [fx, fy + 1.0], // the weight is told apart
-    }
-}
-
 /// Whether 6.44 says that tension is lost.
 fn said_lost(state: &Sliding) -> bool {
     eq_6_44_lost(&state.moment.mooring, &state.angles, state.second[1])
-}
-
-/// Circles whose cable points to their centre, β = α, which 6.44 can not judge: how many, how many of
-/// them in compression, and how many of which 6.44 says so.
-fn degenerate() -> [usize; 3] {
-    let mut numbers = Numbers::new(SEED + 1);
-    let states: Vec<Sliding> = (0..BODIES)
-        .map(|_| {
-            let mooring = Mooring {
-                a: numbers.between(0.05, 0.4),
-                b: 0.0,
-                r: numbers.between(1.2, 3.0),
-                inertia: numbers.between(0.005, 0.2),
-            };
-            let alpha = numbers.between(0.2, 1.2);
-            let angles = Angles {
-                alpha,
-                beta: alpha,
-                alpha_rate: numbers.normal(0.2),
-                beta_rate: numbers.normal(0.2),
-            };
-            let force = [numbers.normal(0.6), numbers.normal(0.6)];
-            Sliding::new(mooring, Side::Left, angles, force)
-        })
-        .collect();
-    let compressed = states.iter().filter(|s| s.lambda() > 0.0).count();
-    let seen = states.iter().filter(|s| said_lost(s)).count();
-    [states.len(), compressed, seen]
 }
 
 fn loss(left: &[Sliding], right: &[Sliding]) -> Claim {
@@ -314,19 +249,26 @@ fn loss(left: &[Sliding], right: &[Sliding]) -> Claim {
         let same = |state: &&Sliding| said_lost(state) == (state.lambda() > 0.0);
         states.iter().filter(same).count()
     };
+    let compressed = |states: &[Sliding]| states.iter().filter(|s| s.lambda() > 0.0).count();
     let (of_left, of_right) = (agree(left), agree(right));
-    let [all, compressed, seen] = degenerate();
+    let blind = pointing_to_the_centre();
+    let evidence = format!(
+        "{of_left} of {} states agree for the left cable ({} have lost it), {of_right} of {} for \
+         the right ({}); where the cable points to the centre 6.44 reads 0 > 0: {} of {} have \
+         lost it, {} are seen",
+        left.len(),
+        compressed(left),
+        right.len(),
+        compressed(right),
+        compressed(&blind),
+        blind.len(),
+        blind.iter().filter(|state| said_lost(state)).count()
+    );
+    let all = of_left == left.len() && of_right == right.len();
     claim(
         "6.5.1.1-12",
-        "Tension is lost exactly where 6.44 holds.",
-        Verdict::of(of_left == left.len() && of_right == right.len()),
-        format!(
-            "{of_left} of {} states agree for the left cable, {of_right} of {} for the right; where the \
-             cable points to the centre 6.44 is blind: {compressed} of {all} compressed, {seen} seen",
-            left.len(),
-            right.len()
-        ),
-        "",
+        "Tension is lost where 6.44 holds and nowhere else (save where both its sides are 0).",
+        Finding::new(Verdict::of(all && compressed(left) > 0), evidence),
     )
 }
 
@@ -354,8 +296,8 @@ fn right_cable(right: &[Sliding]) -> Vec<Claim> {
         ),
         identity(
             "6.5.1.1-16",
-            "For the right cable only the sign of f_x changes: the equations of motion stay (6.35 with the \
-             term that it lacks).",
+            "For the right cable only the sign of f_x changes: the equations of motion stay (6.35 \
+             with the term that it lacks).",
             motion,
             n,
         ),
@@ -366,12 +308,16 @@ fn validity(left: &[Sliding], right: &[Sliding]) -> Claim {
     let lost = || left.iter().chain(right).filter(|state| said_lost(state));
     let pulling = lost().filter(|state| state.lambda() < 0.0).count();
     let all = lost().count();
+    let evidence = format!("the cable pulls in {pulling} of the {all} states in which 6.44 holds");
     claim(
         "6.5.1.1-17",
         "The sliding solution is valid while 6.44 is satisfied.",
-        Verdict::of(all > 0 && pulling == all),
-        format!("the cable pulls in {pulling} of the {all} states in which 6.44 holds"),
-        "A slip: it should say not satisfied, as the chapter itself has it where it introduces 6.44.",
+        Finding::new(Verdict::of(all > 0 && pulling == all), evidence).because(
+            Verdict::NotReproduced,
+            all > 0 && pulling == 0,
+            "A slip: it should say not satisfied, as the chapter itself has it where it \
+             introduces 6.44.",
+        ),
     )
 }
 
@@ -408,13 +354,14 @@ fn origin(study: &Study) -> Claim {
     claim(
         "6.5.1.1-18",
         "At the origin both cables are taut.",
-        Verdict::of(!study.critical.is_empty() && largest_gap < CLOSED),
-        format!(
-            "gaps {} for {} shapes{elsewhere}",
-            words(largest_gap),
-            study.critical.len()
+        Finding::new(
+            Verdict::of(!study.critical.is_empty() && largest_gap < CLOSED),
+            format!(
+                "gaps {} for {} shapes{elsewhere}",
+                words(largest_gap),
+                study.critical.len()
+            ),
         ),
-        "",
     )
 }
 
@@ -447,4 +394,33 @@ fn double_pendulum(left: &[Sliding]) -> Claim {
         residual,
         left.len(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_equation_with_another_sign_or_size_is_not_reproduced() {
+        let states = random_states();
+        let left: Vec<Sliding> = states
+            .into_iter()
+            .filter(|s| s.side == Side::Left)
+            .collect();
+        assert_eq!(verdict(over(&left, rates)), Verdict::Reproduced);
+        assert_eq!(verdict(over(&left, virtual_work)), Verdict::Reproduced);
+        // 6.6 by the signs of 6.46, and forces a little too large.
+        let other = |state: &Sliding| {
+            let printed = eq_6_6_rates(&state.moment.mooring, Side::Right, &state.angles);
+            differences(printed, state.moment.velocity)
+        };
+        assert_eq!(verdict(over(&left, other)), Verdict::NotReproduced);
+        let larger = |state: &Sliding| {
+            let forces = state.forces();
+            virtual_work(state).chain(forces.map(|force| 1e-6 * force))
+        };
+        assert_eq!(verdict(over(&left, larger)), Verdict::NotReproduced);
+        let nothing = identity("6.5.1.1-01", "of no state", over(&[], rates), 0);
+        assert_eq!(nothing.verdict, Verdict::NotReproduced);
+    }
 }

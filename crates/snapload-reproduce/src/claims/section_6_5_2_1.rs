@@ -1,13 +1,12 @@
 //! 6.5.2.1: the equations of rocking, against Newton's law with two multipliers.
 
+use super::engine::tension_residual;
 use super::equations::*;
-use super::newton::{Jet, Moment, Mooring, Numbers, Side, holds, largest, verdict, words};
-use super::section_6_5_1_1::moment_of;
-use super::{Claim, Verdict};
+use super::newton::{Jet, Moment, Mooring, Numbers, Side, holds, identity, largest, words};
+
+use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
 use snapload::{Case, CaseError, Parameters, Playback, TautSet, Trajectory};
-
-const SECTION: &str = "6.5.2.1";
 
 /// So many random states.
 const STATES: usize = 600;
@@ -52,22 +51,6 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
     all.extend(motion(study, &rocking));
     all.push(loss(&rocking)?);
     Ok(all)
-}
-
-fn claim(id: &'static str, claim: &'static str, verdict: Verdict, evidence: String) -> Claim {
-    Claim {
-        id,
-        section: SECTION,
-        claim,
-        verdict,
-        evidence,
-        remark: "",
-    }
-}
-
-fn identity(id: &'static str, text: &'static str, residual: f64, states: usize) -> Claim {
-    let evidence = format!("largest residual {} in {states} states", words(residual));
-    claim(id, text, verdict(residual), evidence)
 }
 
 fn over<I: IntoIterator<Item = f64>>(states: &[Moment], residual: impl Fn(&Moment) -> I) -> f64 {
@@ -123,10 +106,13 @@ fn one_degree(rocking: &[Moment]) -> Claim {
     claim(
         "6.5.2.1-03",
         "With both cables taut one degree of freedom is left.",
-        Verdict::of(least > DEPENDENT),
-        format!(
-            "the gradients of the gaps are independent in {} states (sine of their angle above {least:.2})",
-            rocking.len()
+        Finding::new(
+            Verdict::of(least > DEPENDENT),
+            format!(
+                "the gradients of the gaps are independent in {} states (sine of their angle \
+                 above {least:.2})",
+                rocking.len()
+            ),
         ),
     )
 }
@@ -160,7 +146,7 @@ fn motion(study: &Study, rocking: &[Moment]) -> Vec<Claim> {
                 length([x * lambda, y * lambda, 0.0]) / (2.0 * lambda.abs() * r) - 1.0
             })
     });
-    let (tension, times) = tension_residual(&study.rocking);
+    let (tension, times) = tension_residual(&study.rocking, 2);
     vec![
         identity(
             "6.5.2.1-04",
@@ -177,39 +163,17 @@ fn motion(study: &Study, rocking: &[Moment]) -> Vec<Claim> {
         claim(
             "6.5.2.1-06",
             "The compressions are 2 λ1 r in the right cable and 2 λ2 r in the left one.",
-            Verdict::of(holds(compression) && times > 0 && holds(tension)),
-            format!(
-                "residual {}; tensions of the rocking example against -2 λ r at {times} times {}",
-                words(compression),
-                words(tension)
+            Finding::new(
+                Verdict::of(holds(compression) && times > 0 && holds(tension)),
+                format!(
+                    "residual {}; tensions of the rocking example against -2 λ r at {times} times \
+                     {}",
+                    words(compression),
+                    words(tension)
+                ),
             ),
         ),
     ]
-}
-
-/// How many intervals of a run are looked at, and at how many times each.
-const INTERVALS: usize = 20;
-const TIMES: usize = 20;
-
-/// The tensions that a run has while both cables are taut, against −2 λ r at the same states; and at
-/// how many times that was looked at.
-fn tension_residual(run: &Trajectory) -> (f64, usize) {
-    let mut playback = Playback::new(run);
-    let mut residuals = Vec::new();
-    let intervals = run.modes().iter().filter(|mode| mode.taut.len() == 2);
-    for mode in intervals.take(INTERVALS) {
-        for k in 0..TIMES {
-            let part = (k as f64 + 0.5) / TIMES as f64;
-            let motion = playback.at(mode.t_start + part * (mode.t_end - mode.t_start));
-            let moment = moment_of(run, &motion);
-            let pulls = moment.held_by_both().lambda;
-            for (tension, lambda) in motion.tensions.iter().zip(pulls) {
-                residuals.push(tension + 2.0 * lambda * moment.mooring.r);
-            }
-        }
-    }
-    let times = residuals.len() / 2;
-    (largest(residuals), times)
 }
 
 /// The cables that the signs of λ1 and λ2 leave taut.
@@ -305,14 +269,16 @@ fn loss(rocking: &[Moment]) -> Result<Claim, CaseError> {
     let (at_loss, anywhere) = (same(&lost), same(rocking));
     Ok(claim(
         "6.5.2.1-07",
-        "The signs of λ1 and λ2 tell the next mode: both positive slack, one positive sliding on the other \
-         cable.",
-        Verdict::of(!lost.is_empty() && at_loss == lost.len() && slid == seen),
-        format!(
-            "true at {at_loss} of {} moments of loss, in {slid} of {seen} losses of a run at f_o = 0.4 and \
-             in {anywhere} of {} random states",
-            lost.len(),
-            rocking.len()
+        "The signs of λ1 and λ2 tell the next mode: both positive slack, one positive sliding on \
+         the other cable.",
+        Finding::new(
+            Verdict::of(!lost.is_empty() && at_loss == lost.len() && slid == seen),
+            format!(
+                "true at {at_loss} of {} moments of loss, in {slid} of {seen} losses of a run at \
+                 f_o = 0.4 and in {anywhere} of {} random states",
+                lost.len(),
+                rocking.len()
+            ),
         ),
     ))
 }

@@ -1,10 +1,12 @@
 //! The comparison with the point mass.
 
-use crate::claims::tools::{Finding, first_exceeding, judged, range, run_all, spearman};
-use crate::claims::{Claim, Verdict};
-use crate::study::{Reading, Study};
+use super::{STEADY, Sweeps, below_critical, own, spread};
+use crate::claims::numbers::{range, spearman};
+use crate::claims::runs::{chapter, run_all};
+use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use crate::study::first_exceeding;
 use snapload::analysis::ForceScan;
-use snapload::{BodyKind, Case, CaseError, Parameters, Playback, Trajectory};
+use snapload::{BodyKind, Case, CaseError, Impact, Parameters, Playback, Stop, Trajectory};
 
 /// The point mass in the place of the body.
 fn point(parameters: Parameters) -> Parameters {
@@ -13,127 +15,192 @@ fn point(parameters: Parameters) -> Parameters {
         a: 0.0,
         b: 0.0,
         inertia: None,
-        ..Reading::Chapter.apply(parameters)
+        ..chapter(parameters)
     }
 }
 
 /// Checks the claims on the point mass.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
+pub(super) fn claims(sweeps: &Sweeps) -> Result<Vec<Claim>, CaseError> {
     Ok(vec![
-        judged(
+        claim(
             "6.4.3-06",
             "For the point mass ρ1 grows with f_o.",
-            point_mass_norm()?,
-            "No such growth.",
+            point_mass_norm(sweeps)?,
         ),
-        judged(
+        claim(
             "6.4.3-08",
             "From the same start the rigid body is nearer to the boundaries than the point mass.",
             slack_at_start()?,
-            "h follows from r and a such that the lowest place is the origin for both: a larger body \
-             is not nearer.",
         ),
-        judged(
+        claim(
             "6.4.3-09",
-            "The stronger the force, the farther the point mass gets before its first impact, compared \
-             with the rigid body.",
+            "The stronger the force, the farther the point mass gets before its first impact, \
+             compared with the rigid body.",
             way_to_first_impact()?,
-            "The point mass hits earlier. ρ1 of the rigid body is flat since its largest snap is the \
-             second.",
         ),
-        judged(
+        claim(
             "6.4.3-17",
             "The rigid body's critical force is lower than the point mass's.",
-            point_mass_critical(study)?,
-            "It is not lower.",
+            point_mass_critical(sweeps)?,
+        ),
+        claim(
+            "6.4.3-21",
+            "ρ1 of the rigid body is constant as the body rotates.",
+            rotation_held(sweeps)?,
         ),
     ])
 }
 
-fn point_mass_norm() -> Result<Finding, CaseError> {
-    let case = |k: u32| {
-        let f_o = f64::from(k) / 20.0;
-        point(Parameters {
-            f_o,
-            ..Parameters::STANDARD
-        })
+/// ρ1 over the amplitudes of a body.
+fn largest_snaps(
+    forces: impl Iterator<Item = f64>,
+    body: impl Fn(Parameters) -> Parameters,
+) -> Result<Vec<(f64, f64)>, CaseError> {
+    let with = |f_o| Parameters {
+        f_o,
+        ..Parameters::STANDARD
     };
-    let cases: Vec<Parameters> = (0..=19).map(case).collect();
+    let cases: Vec<Parameters> = forces.map(|f_o| body(with(f_o))).collect();
     let runs = run_all(&cases)?;
-    let points = cases
-        .iter()
-        .zip(&runs)
-        .map(|(case, run)| (case.f_o, run.norms().rho1));
-    let points: Vec<(f64, f64)> = points.collect();
+    let pairs = cases.iter().zip(&runs);
+    Ok(pairs
+        .map(|(case, run)| (case.f_o, run.norms().rho1))
+        .collect())
+}
+
+/// The amplitudes over which ρ1 of the rigid body was looked at.
+fn same_forces(sweeps: &Sweeps) -> impl Iterator<Item = f64> {
+    own(&sweeps.short).iter().map(|run| run.f_o)
+}
+
+fn point_mass_norm(sweeps: &Sweeps) -> Result<Finding, CaseError> {
+    let points = largest_snaps((0..=19).map(|k| f64::from(k) / 20.0), point)?;
     let at = |k: usize| points.get(k).map_or(0.0, |p| p.1);
     let (rho, growth) = (spearman(&points), at(10) / at(0) - 1.0);
+    let same = largest_snaps(same_forces(sweeps), point)?;
+    let same = 100.0 * spread(same.iter().map(|p| p.1));
+    Ok(Finding::new(
+        Verdict::of(rho > 1.0 - 1e-9 && growth > STEADY),
+        format!(
+            "ρ1 {:.3}, {:.3}, {:.3} at f_o = 0, 0.5, 0.9; rank correlation {rho:.2}; over the \
+             amplitudes up to the rigid body's critical one it varies by {same:.1} %",
+            at(0),
+            at(10),
+            at(18)
+        ),
+    ))
+}
+
+fn rotation_held(sweeps: &Sweeps) -> Result<Finding, CaseError> {
+    /// A moment of inertia that no impact turns.
+    const HELD: f64 = 1e6;
+    let held = |case: Parameters| {
+        chapter(Parameters {
+            inertia: Some(HELD),
+            ..case
+        })
+    };
+    let held = largest_snaps(same_forces(sweeps), held)?;
+    let held = spread(held.iter().map(|p| p.1));
+    let turning = spread(own(&sweeps.short).iter().map(|run| run.norms.rho1));
     let evidence = format!(
-        "ρ1 {:.3}, {:.3}, {:.3} at f_o = 0, 0.5, 0.9; rank correlation {rho:.2}",
-        at(0),
-        at(10),
-        at(18)
+        "over the same amplitudes ρ1 varies by {:.1} % if the body can not turn, by {:.1} % if it \
+         can",
+        100.0 * held,
+        100.0 * turning
     );
-    Ok((Verdict::of(rho > 1.0 - 1e-9 && growth > 0.1), evidence))
+    Ok(
+        Finding::new(Verdict::of(held >= STEADY && turning < STEADY), evidence).because(
+            Verdict::NotReproduced,
+            held < STEADY && turning < STEADY,
+            "Held from turning the body has a constant ρ1, too, by the same measure: amplitudes \
+             so small change it little for any body.",
+        ),
+    )
 }
 
 /// The rigid body and the point mass of one case.
 fn pair(parameters: Parameters) -> Result<[Case; 2], CaseError> {
     Ok([
-        Case::new(Reading::Chapter.apply(parameters))?,
+        Case::new(chapter(parameters))?,
         Case::new(point(parameters))?,
     ])
 }
 
 fn slack_at_start() -> Result<Finding, CaseError> {
-    let mut less = true;
+    let slack = |case: &Case| {
+        let simulation = case.simulation();
+        let spans = simulation.system().cables.iter().map(|cable| {
+            let [x, y] = cable.span(simulation.state());
+            cable.length() - x.hypot(y)
+        });
+        range(spans).0
+    };
+    let drop = |case: &Case| {
+        let run = case.run();
+        let start = case.simulation().state().y;
+        run.impacts()
+            .first()
+            .map_or(f64::NAN, |hit| start - hit.before.y)
+    };
+    let mut found = Vec::new();
     let mut texts = Vec::new();
     for r in [1.5, 2.5] {
-        let f_o = 0.0;
-        let slack = |case: &Case| {
-            let simulation = case.simulation();
-            let spans = simulation.system().cables.iter().map(|cable| {
-                let [x, y] = cable.span(simulation.state());
-                cable.length() - x.hypot(y)
-            });
-            range(spans).0
-        };
         let cases = pair(Parameters {
             r,
-            f_o,
+            f_o: 0.0,
             ..Parameters::STANDARD
         })?;
         let [rigid, point] = cases.each_ref().map(slack);
-        let drop = |case: &Case| {
-            case.run()
-                .impacts()
-                .first()
-                .map_or(0.0, |i| 0.1 - i.before.y)
-        };
         let drops = cases.each_ref().map(drop);
-        less &= rigid < point;
         texts.push(format!(
-            "r = {r}: slack {rigid:.4} (rigid), {point:.4} (point), drop without force {:.4}, {:.4}",
+            "r = {r}: slack {rigid:.4} (rigid), {point:.4} (point), drop without force {:.4}, \
+             {:.4}",
             drops[0], drops[1]
         ));
+        found.push((rigid < point, (drops[0] - drops[1]).abs() < 1e-9));
     }
-    Ok((Verdict::of(less), texts.join("; ")))
+    Ok(
+        Finding::new(Verdict::of(found.iter().all(|f| f.0)), texts.join("; ")).because(
+            Verdict::NotReproduced,
+            found.iter().all(|f| f.1),
+            "h follows from r and a such that both fall equally far: a body with a width is \
+             moored the higher for it.",
+        ),
+    )
 }
 
 fn way_to_first_impact() -> Result<Finding, CaseError> {
-    let mut farther = true;
+    let mut found = Vec::new();
     let mut texts = Vec::new();
     for f_o in [0.1, 0.3, 0.5, 1.0] {
-        let [rigid, point] = pair(Parameters {
+        let runs = pair(Parameters {
             f_o,
             ..Parameters::STANDARD
         })?
-        .map(|c| way(&c.run()));
-        farther &= point > rigid;
-        texts.push(format!("{rigid:.4}/{point:.4} at {f_o}"));
+        .map(|case| case.run());
+        let [rigid, point] = runs.each_ref().map(way);
+        let first = |run: &Trajectory| run.impacts().first().copied();
+        let [first, second] = runs.each_ref().map(first);
+        let earlier = matches!((first, second), (Some(p), Some(q)) if q.t < p.t);
+        let v_n = |hit: Option<Impact>| hit.map_or(f64::NAN, |hit| hit.v_n);
+        texts.push(format!(
+            "{rigid:.4}/{point:.4} and v_n {:.3}/{:.3} at {f_o}",
+            v_n(first),
+            v_n(second)
+        ));
+        found.push((point - rigid, earlier));
     }
-    Ok((
-        Verdict::of(farther),
+    // Farther, and the more so the stronger the force.
+    let more = found.windows(2).all(|pair| pair[1].0 > pair[0].0);
+    Ok(Finding::new(
+        Verdict::of(more && found.iter().all(|f| f.0 > 0.0)),
         format!("way, rigid/point: {}", texts.join(", ")),
+    )
+    .because(
+        Verdict::NotReproduced,
+        found.iter().all(|f| f.0 < 0.0 && f.1),
+        "The point mass meets its boundary earlier, not later, under each of these forces.",
     ))
 }
 
@@ -152,23 +219,22 @@ fn way(run: &Trajectory) -> f64 {
     (0..steps).map(speed).sum::<f64>() * until / f64::from(steps)
 }
 
-fn point_mass_critical(study: &Study) -> Result<Finding, CaseError> {
+fn point_mass_critical(sweeps: &Sweeps) -> Result<Finding, CaseError> {
     let scan = ForceScan::new(0.01, 3.0)?;
     let mut lower = true;
     let mut texts = Vec::new();
-    for r in [1.5, 2.5] {
+    for (r, members) in [(1.5, &sweeps.short), (2.5, &sweeps.long)] {
         let case = point(Parameters {
             r,
             ..Parameters::STANDARD
         });
         let found = first_exceeding(&case, scan)?.map_or(f64::INFINITY, |x| x.0);
-        let curve = study.norms.iter().find(|norms| norms.r == r);
-        let last = curve.and_then(|norms| norms.points.chapter.last());
-        let rigid = last
-            .filter(|p| p.1.exceeds())
-            .map_or(f64::INFINITY, |p| p.0);
+        let sweep = own(members);
+        let last = sweep.get(below_critical(sweep).len());
+        let last = last.filter(|run| matches!(run.reason, Stop::RotationLimit | Stop::UpperBound));
+        let rigid = last.map_or(f64::INFINITY, |run| run.f_o);
         lower &= rigid < found;
         texts.push(format!("r = {r}: {rigid:.2} (rigid), {found:.2} (point)"));
     }
-    Ok((Verdict::of(lower), texts.join("; ")))
+    Ok(Finding::new(Verdict::of(lower), texts.join("; ")))
 }

@@ -1,24 +1,26 @@
 //! Weak rocking: the example of eq. 6.69.
 
-use super::{example, from_rocking, least_tension, rocks_on, sampled};
-use crate::claims::tools::{Finding, is_clear, judged, range, robust, spearman};
-use crate::claims::{Claim, Verdict};
-use crate::study::Study;
-use snapload::{CaseError, Impact, Motion, State, System, Trajectory};
+use super::example::Rocking;
+use crate::claims::numbers::{range, span, spearman};
+use crate::claims::runs::CLEAR;
+use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use snapload::{Impact, Motion, State, System};
 
 /// Checks the claims on it.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
-    let weak = Weak::new(study)?;
+pub(super) fn claims(members: &[Rocking]) -> Vec<Claim> {
+    let Some(own) = members.first() else {
+        return Vec::new();
+    };
+    let weak = Weak::new(members, own);
     let mut all = of_weak_run(&weak);
     all.extend(of_arc(&weak));
-    Ok(all)
+    all
 }
 
 /// The example f_o = 0.1, its neighbours, and what happens in it.
-struct Weak {
-    runs: Vec<Trajectory>,
-    /// The motion of each from the start of rocking.
-    motion: Vec<Vec<Motion>>,
+struct Weak<'a> {
+    members: &'a [Rocking],
+    own: &'a Rocking,
     /// The impacts of the example before rocking, by place above the arc.
     impacts: Vec<Above>,
 }
@@ -32,47 +34,29 @@ struct Above {
     turned: f64,
 }
 
-impl Weak {
-    fn new(study: &Study) -> Result<Self, CaseError> {
-        let runs = example("rocking-example", &study.rocking)?;
-        let motion = runs
-            .iter()
-            .map(|run| sampled(run, rocking_start(run)))
-            .collect();
-        let own = &study.rocking;
-        let system = own.system();
-        let start = rocking_start(own);
-        let before = own.impacts().iter().filter(|impact| impact.t < start);
+impl<'a> Weak<'a> {
+    fn new(members: &'a [Rocking], own: &'a Rocking) -> Self {
+        let system = own.run.system();
+        let before = own.run.impacts().iter().filter(|hit| hit.t < own.start);
         let above = |impact: &Impact| {
             let arc = arc_at(system, impact.before.x);
             Above {
-                clear: is_clear(impact),
+                clear: impact.v_n > CLEAR,
                 height: impact.before.y - arc.y,
                 turned: (impact.before.theta - arc.theta).abs(),
             }
         };
-        let impacts = before.map(above).collect();
-        Ok(Self {
-            runs,
-            motion,
-            impacts,
-        })
-    }
-
-    fn own(&self) -> &[Motion] {
-        self.motion.first().map(Vec::as_slice).unwrap_or_default()
+        Self {
+            members,
+            own,
+            impacts: before.map(above).collect(),
+        }
     }
 
     /// The largest of a figure while rocking.
     fn largest(&self, figure: impl Fn(&Motion) -> f64) -> f64 {
-        range(self.own().iter().map(figure)).1
+        range(self.own.motion.iter().map(figure)).1
     }
-}
-
-fn rocking_start(run: &Trajectory) -> f64 {
-    from_rocking(run)
-        .first()
-        .map_or(run.end().t, |mode| mode.t_start)
 }
 
 /// The place at which both cables are straight, for a given x: Newton's iteration in y and θ, followed
@@ -138,84 +122,78 @@ fn newton(
 
 fn of_weak_run(weak: &Weak) -> Vec<Claim> {
     vec![
-        judged(
+        claim(
             "6.5.2.2-05",
             "At f_o = 0.1 both cables stay taut near the bottom.",
             stays(weak),
-            "They do not.",
         ),
-        judged(
+        claim(
             "6.5.2.2-06",
             "Once the body rocks at f_o = 0.1 the force can not pull it off.",
             holds_on(weak),
-            "A tension vanishes.",
         ),
-        judged(
+        claim(
             "6.5.2.2-07",
             "At f_o = 0.1 rocking begins where both gaps are all but zero as the bouncing ends.",
             begins_at_once(weak),
-            "It begins later.",
         ),
-        judged(
+        claim(
             "6.5.2.2-08",
             "While it rocks it is the horizontal force that counts.",
             horizontal(weak),
-            "The vertical one counts, too.",
         ),
     ]
 }
 
 fn stays(weak: &Weak) -> Finding {
-    let low = |motion: &Vec<Motion>| motion.iter().all(|now| now.state.y < 0.05);
-    let pairs = weak.runs.iter().zip(&weak.motion);
-    let verdict = robust(pairs.map(|(run, motion)| rocks_on(run) && low(motion)));
-    let (y, theta) = (
-        weak.largest(|now| now.state.y),
-        weak.largest(|now| now.state.theta.abs()),
-    );
-    let start = weak.runs.first().map_or(f64::NAN, rocking_start);
-    (
-        verdict,
-        format!("rocks from t = {start:.3} on; y up to {y:.4}, |θ| up to {theta:.2}"),
+    let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < 0.05);
+    Finding::new(
+        Verdict::robust(weak.members.iter().map(|of| of.goes_on() && low(of))),
+        format!(
+            "rocks from t = {} on; y up to {:.4}, |θ| up to {:.2}",
+            span(weak.members.iter().map(|of| of.start), 3),
+            weak.largest(|now| now.state.y),
+            weak.largest(|now| now.state.theta.abs())
+        ),
     )
 }
 
 fn holds_on(weak: &Weak) -> Finding {
-    let least = weak
-        .runs
-        .iter()
-        .zip(&weak.motion)
-        .map(|(run, motion)| least_tension(run, motion));
-    let least: Vec<f64> = least.collect();
-    let smallest = least.first().copied().unwrap_or(f64::NAN);
-    let evidence = format!("smallest tension to t = 100: {smallest:.3}");
-    (robust(least.iter().map(|tension| *tension > 0.0)), evidence)
+    let on = weak.members.iter().filter(|of| of.goes_on()).count();
+    let least = || weak.members.iter().map(Rocking::least_tension);
+    let held = |of: &Rocking| of.goes_on() && of.least_tension() > 0.0;
+    Finding::new(
+        Verdict::robust(weak.members.iter().map(held)),
+        format!(
+            "rocks unbroken to t = 100 from {on} of {} starts, smallest tension {}",
+            weak.members.len(),
+            span(least(), 3)
+        ),
+    )
 }
 
 fn begins_at_once(weak: &Weak) -> Finding {
-    let sticks = |run: &Trajectory| {
-        let first = run.modes().iter().find(|mode| !mode.taut.is_empty());
+    let sticks = |of: &Rocking| {
+        let first = of.run.modes().iter().find(|mode| !mode.taut.is_empty());
         first.map_or(f64::NAN, |mode| mode.t_start)
     };
-    let wait = |run: &Trajectory| rocking_start(run) - sticks(run);
-    let (least, most) = range(weak.runs.iter().map(wait));
-    let first = weak.runs.first().map_or(f64::NAN, sticks);
-    let evidence = format!(
-        "the first cable sticks at t = {first:.5}, rocking follows {least:.1e} to {most:.1e} later"
-    );
-    (
-        robust(weak.runs.iter().map(|run| wait(run) < 0.01)),
-        evidence,
+    let wait = |of: &Rocking| of.start - sticks(of);
+    let (least, most) = range(weak.members.iter().map(wait));
+    Finding::new(
+        Verdict::robust(weak.members.iter().map(|of| wait(of) < 0.01)),
+        format!(
+            "the first cable sticks at t = {}, rocking follows {least:.1e} to {most:.1e} later",
+            span(weak.members.iter().map(sticks), 5)
+        ),
     )
 }
 
 fn horizontal(weak: &Weak) -> Finding {
-    let Some(run) = weak.runs.first() else {
-        return (Verdict::NotReproduced, "no run".to_owned());
-    };
+    let run = &weak.own.run;
     let (mut along, mut up) = (0.0, 0.0);
     for now in weak
-        .own()
+        .own
+        .motion
         .iter()
         .filter(|now| now.state.vtheta.abs() > 1e-3)
     {
@@ -227,28 +205,26 @@ fn horizontal(weak: &Weak) -> Finding {
     let ratio = (up / along).sqrt();
     let evidence =
         format!("generalised force of the vertical part over that of the horizontal: {ratio:.3}");
-    (Verdict::of(ratio < 0.2), evidence)
+    Finding::new(Verdict::of(ratio < 0.2), evidence)
 }
 
 fn of_arc(weak: &Weak) -> Vec<Claim> {
     vec![
-        judged(
+        claim(
             "6.5.2.2-09",
             "The turning points of the bouncing lie above the arc of rocking (Fig 6.45).",
             above_arc(weak),
-            "Some lie below.",
         ),
-        judged(
+        claim(
             "6.5.2.2-10",
-            "At those impacts the body is turned away from the rotation at which both cables are taut.",
+            "At those impacts the body is turned away from the rotation at which both cables are \
+             taut.",
             turned_away(weak),
-            "No such relation.",
         ),
-        judged(
+        claim(
             "6.5.2.2-11",
             "The curve of rocking is an arc of a circle.",
             circle(weak),
-            "It is not.",
         ),
     ]
 }
@@ -258,11 +234,12 @@ fn above_arc(weak: &Weak) -> Finding {
     let clear = weak.impacts.iter().filter(|impact| impact.clear);
     let (lowest_clear, _) = range(clear.clone().map(|impact| impact.height));
     let evidence = format!(
-        "{} impacts, the lowest {lowest:.0e} above it; {} clear ones, the lowest {lowest_clear:.0e}",
+        "{} impacts, the lowest {lowest:.0e} above it; {} clear ones, the lowest \
+         {lowest_clear:.0e}",
         weak.impacts.len(),
         clear.count()
     );
-    (Verdict::of(lowest >= -1e-9 && lowest_clear > 0.0), evidence)
+    Finding::new(Verdict::of(lowest >= -1e-9 && lowest_clear > 0.0), evidence)
 }
 
 fn turned_away(weak: &Weak) -> Finding {
@@ -270,25 +247,24 @@ fn turned_away(weak: &Weak) -> Finding {
     let points: Vec<(f64, f64)> = clear.map(|impact| (impact.height, impact.turned)).collect();
     let rho = spearman(&points);
     let evidence = format!("rank correlation of height above the arc and rotation away: {rho:.3}");
-    (
+    Finding::new(
         Verdict::of(rho > 0.5 && points.iter().all(|p| p.0 > 0.0)),
         evidence,
     )
 }
 
 fn circle(weak: &Weak) -> Finding {
-    let Some(run) = weak.runs.first() else {
-        return (Verdict::NotReproduced, "no run".to_owned());
-    };
+    let run = &weak.own.run;
     let widest = weak.largest(|now| now.state.theta.abs());
     let (radius, miss) = fit_circle(run.system(), widest);
     let (_, miss_wide) = fit_circle(run.system(), 1.4);
     let evidence = format!(
-        "over |θ| <= {widest:.2}: radius {radius:.3}, off by {:.2} % of it; over |θ| <= 1.4: {:.1} %",
+        "over |θ| <= {widest:.2}: radius {radius:.3}, off by {:.2} % of it; over |θ| <= 1.4: \
+         {:.1} %",
         100.0 * miss,
         100.0 * miss_wide
     );
-    (Verdict::of(miss < 0.01), evidence)
+    Finding::new(Verdict::of(miss < 0.01), evidence)
 }
 
 /// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius. The

@@ -1,7 +1,7 @@
 //! What happens in a run of the sliding example (eq. 6.57).
 
-use super::newton::Side;
-use super::section_6_5_1_1::moment_of;
+use crate::claims::engine::moment_of;
+use crate::claims::newton::Side;
 use snapload::{Impact, ModeInterval, Motion, Playback, TautSet, Trajectory};
 
 /// Cable 2, the left one, of g2.

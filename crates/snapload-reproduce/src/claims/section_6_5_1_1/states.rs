@@ -1,12 +1,14 @@
 //! A body that slides on one taut cable: at random, in the terms of the chapter and of Newton's law.
 
-use super::equations::*;
-use super::newton::{Held, Jet, Moment, Mooring, Numbers, Side};
+use crate::claims::equations::*;
+use crate::claims::newton::{Held, Jet, Moment, Mooring, Numbers, Side};
 
 /// So many random bodies; each hangs on its left cable and on its right one.
-pub(super) const BODIES: usize = 300;
+const BODIES: usize = 300;
+/// Deviation of the forces: as large as the weight, so that cables lose their tension, too.
+const FORCE: f64 = 1.0;
 /// The seed of the random states.
-pub(super) const SEED: u64 = 6_511;
+const SEED: u64 = 6_511;
 
 /// A body on one taut cable.
 pub(super) struct Sliding {
@@ -90,8 +92,31 @@ pub(super) fn random_states() -> Vec<Sliding> {
             alpha_rate: numbers.normal(1.0),
             beta_rate: numbers.normal(1.0),
         };
-        let force = [numbers.normal(0.4), numbers.normal(0.4)];
+        let force = [numbers.normal(FORCE), numbers.normal(FORCE)];
         all.extend(Side::BOTH.map(|side| Sliding::new(mooring, side, angles, force)));
     }
     all
+}
+
+/// Circles whose cable points to their centre, β = α, which 6.44 can not judge.
+pub(super) fn pointing_to_the_centre() -> Vec<Sliding> {
+    let mut numbers = Numbers::new(SEED + 1);
+    let mut state = || {
+        let mooring = Mooring {
+            a: numbers.between(0.05, 0.4),
+            b: 0.0,
+            r: numbers.between(1.2, 3.0),
+            inertia: numbers.between(0.005, 0.2),
+        };
+        let alpha = numbers.between(0.2, 1.2);
+        let angles = Angles {
+            alpha,
+            beta: alpha,
+            alpha_rate: numbers.normal(0.2),
+            beta_rate: numbers.normal(0.2),
+        };
+        let force = [numbers.normal(FORCE), numbers.normal(FORCE)];
+        Sliding::new(mooring, Side::Left, angles, force)
+    };
+    (0..BODIES).map(|_| state()).collect()
 }
