@@ -72,7 +72,7 @@ fn line(claim: &Claim, commands: &mut Commands) -> Markup {
             td { span class={ "verdict " (verdict) } { (claim.verdict.words()) } }
             td class="long" {
                 (commands.link(&claim.evidence, REPORT, &key)) " " (commands.cite(REPORT))
-                @if !claim.remark.is_empty() { br; i { (symbols(claim.remark)) } }
+                @if !claim.remark.is_empty() { br; i { (symbols(&claim.remark)) } }
             }
         }
     }
