@@ -1,5 +1,6 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
+use crate::bounce::{Moment, Mooring, UNMOVED};
 use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Jets, Reached, first_crossing};
 use crate::extremes::{Extremes, peak};
@@ -11,10 +12,10 @@ use crate::start::{self, StartError};
 use crate::taut::{normal_acceleration, project_position, project_velocity, taut_next};
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
+use std::borrow::Cow;
 
-/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
-/// an impulse neither loads nor unloads.
-const UNMOVED: f64 = 64.0;
+#[path = "simulate_bounce.rs"]
+mod by_bounces;
 
 /// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
 const LOOKS: usize = 64;
@@ -37,6 +38,10 @@ pub struct Simulation<T: Real = f64> {
     before: State<T>,
     taut: TautSet,
     contacts: Contacts<T>,
+    /// The system as [`bounce`] takes it; none where it has not two cables and one harmonic.
+    mooring: Option<Mooring<T>>,
+    /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
+    departure: Option<Moment<T>>,
     flight: Flight<T>,
     series: Series<T>,
     jets: Jets<T>,
@@ -51,10 +56,17 @@ pub struct Simulation<T: Real = f64> {
 
 /// The latest instants of impact, as far as the limit of a converging series asks.
 #[derive(Clone, Copy, Debug)]
-struct LastImpacts<T> {
-    cables: TautSet,
-    v_n: T,
-    repeats: u32,
+pub(crate) struct LastImpacts<T> {
+    pub(crate) cables: TautSet,
+    pub(crate) v_n: T,
+    pub(crate) repeats: u32,
+}
+
+/// The impacts so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Progress<T> {
+    pub(crate) impacts: u64,
+    pub(crate) last: LastImpacts<T>,
 }
 
 /// What one step did: a stretch of motion with one taut set, and the event at its end.
@@ -131,6 +143,8 @@ impl<T: Real> Simulation<T> {
             series: Series::new(&system, rules.rotation_limit),
             jets: Jets::new(),
             extremes: Extremes::at(&start.state),
+            mooring: Mooring::of(&system, &rules, v_stick),
+            departure: None,
             system,
             rules,
             v_stick,
@@ -203,11 +217,16 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let (t_start, start, taut) = (self.t, self.state, self.taut);
-        let crossing = self.next_crossing();
-        self.advance(&crossing);
-        self.before = self.state;
-        let event = self.event(crossing.reached);
-        let shock = self.apply_law(&event);
+        let (event, shock) = match self.next_bounce() {
+            Some(bounce) => self.take(&bounce),
+            None => {
+                let crossing = self.next_crossing();
+                self.advance(&crossing);
+                self.before = self.state;
+                let event = self.event(crossing.reached);
+                (event, self.apply_law(&event))
+            }
+        };
         self.check_progress(t_start);
         Some(Step {
             t_start,
@@ -226,10 +245,35 @@ impl<T: Real> Simulation<T> {
     /// The state a time `s` into the stretch that the latest step made.
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
         if step.taut.is_empty() {
-            self.flight.state(s)
+            self.flown().state(s)
         } else {
             self.series.state(s)
         }
+    }
+
+    /// The flight of the latest step.
+    fn flown(&self) -> Cow<'_, Flight<T>> {
+        let Some(from) = &self.departure else {
+            return Cow::Borrowed(&self.flight);
+        };
+        let mut flight = self.flight.clone();
+        let [vx, vy, vtheta] = from.before;
+        let before = State {
+            vx,
+            vy,
+            vtheta,
+            ..from.state
+        };
+        let mut contacts = self.contacts;
+        for (contact, [gap, error]) in contacts.iter_mut().zip(from.gaps) {
+            *contact = Contact {
+                gap,
+                error,
+                resting: false,
+            };
+        }
+        flight.begin(&self.system, from.t, &from.state, &before, &contacts);
+        Cow::Owned(flight)
     }
 
     /// The gap of a cable at the time reached.
@@ -242,12 +286,13 @@ impl<T: Real> Simulation<T> {
     pub(crate) fn closest_approach(&self, step: &Step<T>, cable: usize, floor: T) -> Option<T> {
         let s = step.t_end - step.t_start;
         if step.taut.is_empty() {
-            let bend = self.flight.gap_bend(cable, s);
-            let ends = self.flight.gap_at_start(cable).max(self.gap(cable));
+            let flight = self.flown();
+            let bend = flight.gap_bend(cable, s);
+            let ends = flight.gap_at_start(cable).max(self.gap(cable));
             if ends + bend * s * s * 0.125 < floor {
                 return None;
             }
-            peak(&|s| self.flight.gap_and_rate(cable, s), s, bend, floor)
+            peak(&|s| flight.gap_and_rate(cable, s), s, bend, floor)
         } else {
             let bend = self.series.gap_bend(cable);
             peak(&|s| self.series.gap_and_rate(cable, s), s, bend, floor)
@@ -258,7 +303,7 @@ impl<T: Real> Simulation<T> {
     pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
         let s = step.t_end - step.t_start;
         let [y_bend, theta_bend] = if step.taut.is_empty() {
-            [self.flight.steepest(), T::ZERO]
+            [self.system.forcing.steepest(), T::ZERO]
         } else {
             self.series.steepest()
         };
@@ -270,8 +315,16 @@ impl<T: Real> Simulation<T> {
         let width = s / LOOKS as f64;
         let spin = step.start.vtheta.abs() + theta_bend * s;
         let bend = y_bend + (spin * spin + theta_bend) * reach;
+        let flight = self.flown();
+        let state = |s: T| {
+            if step.taut.is_empty() {
+                flight.state(s)
+            } else {
+                self.series.state(s)
+            }
+        };
         (0..=LOOKS)
-            .map(|k| self.system.top(&self.within(step, width * k as f64)))
+            .map(|k| self.system.top(&state(width * k as f64)))
             .fold(step.start.y, T::max)
             + bend * width * width * 0.125
     }
@@ -326,7 +379,8 @@ impl<T: Real> Simulation<T> {
         let free = self.taut.is_empty();
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
         if free {
-            let bends = [self.flight.most_upward(), self.flight.steepest(), T::ZERO];
+            let forcing = &self.system.forcing;
+            let bends = [forcing.most_upward(), forcing.steepest(), T::ZERO];
             self.extremes.cover(|s| self.flight.state(s), s, bends);
         } else {
             let [y, theta] = self.series.steepest();
