@@ -5,8 +5,9 @@
 //! freely again; a run that has stopped gives its lane to the next. A lane has the bits of the same run by
 //! itself, because both make the same operations: here only the bounces of several runs are made at once.
 
-use crate::bounce::{MOMENT, MOORING, Moment, Mooring, bounce};
+use crate::bounce::bounce;
 use crate::lane::Lane;
+use crate::mooring::{MOMENT, MOORING, Moment, Mooring};
 use crate::simulate::{LastImpacts, Progress};
 use crate::trajectory::RHO2_UNTIL;
 use crate::vector::{Bits, Portable, Vector};

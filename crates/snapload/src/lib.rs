@@ -39,6 +39,7 @@ mod forcing;
 mod impact;
 mod lane;
 mod lanes;
+mod mooring;
 mod named;
 mod parameters;
 mod playback;

@@ -1,12 +1,13 @@
 //! The steps of a motion that are bounces, made here or in a lane.
 
 use super::{Event, Progress, Simulation};
-use crate::bounce::{Bounce, Moment, Mooring, bounce, highest_point};
+use crate::bounce::{Bounce, bounce, highest_point};
 use crate::contact::Contact;
 use crate::event::Reached;
 use crate::extremes::Extremes;
 use crate::impact::Shock;
 use crate::lane::Turn;
+use crate::mooring::{Moment, Mooring};
 use crate::real::Real;
 use crate::{State, TautSet};
 
