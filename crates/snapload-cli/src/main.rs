@@ -3,6 +3,8 @@ mod case_input;
 mod cases;
 mod completions;
 mod critical;
+mod doubt;
+mod exceedance;
 mod failure;
 mod interrupt;
 mod json;
@@ -15,6 +17,7 @@ mod run;
 mod stage;
 mod summary;
 mod tables;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -33,6 +36,7 @@ Examples:
   snapload run --set f_o=0.5                   the same with a stronger force
   snapload run --case 2910001000-359           a built-in case (list: snapload cases)
   snapload run mooring.toml --out results      a case of your own, with tables and pictures
+  snapload verify                              the same run with 76 digits beside it
   snapload critical --over e=0.5:1:11          critical force against restitution
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
@@ -43,6 +47,8 @@ enum Verb {
     Run(run::Args),
     /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
     Critical(critical::Args),
+    /// Run one case again with many digits, and say where the ordinary run goes wrong
+    Verify(verify::Args),
     /// Reproduce the chapter's tables, figures and claims as one report
     Reproduce(reproduce::Args),
     /// List the built-in cases
@@ -58,6 +64,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().verb {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
+        Verb::Verify(args) => verify::run(&args),
         Verb::Reproduce(args) => reproduce::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),

@@ -1,6 +1,6 @@
 //! What a run comes to, without keeping the run.
 
-use crate::{Case, End, Norms, Simulation, Stop};
+use crate::{Case, End, Norms, Simulation};
 
 /// The end and the norms of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,9 +38,8 @@ impl Outcome {
         }
     }
 
-    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
-    /// rotation limit or the upper bound (chapter 6.4.2).
+    /// Whether it stopped at the rotation limit or the upper bound.
     pub fn exceeds(&self) -> bool {
-        matches!(self.end.reason, Stop::RotationLimit | Stop::UpperBound)
+        self.end.reason.exceeds()
     }
 }

@@ -3,7 +3,7 @@
 use super::Loss;
 use super::spread::Spread;
 use crate::taut::normal_acceleration;
-use crate::{Normal, Simulation, Step, StepMap};
+use crate::{Normal, START_TOLERANCE, Simulation, Step, StepMap};
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
@@ -34,6 +34,19 @@ pub(super) fn loss(
     };
     let stop = || may_stop(simulation, step, spread).then_some(Loss::StopRule);
     graze.or_else(near).or_else(stop)
+}
+
+/// A cable that is closed at the start of a run, and might be slack within what is in doubt.
+pub(super) fn loss_at_start(simulation: &Simulation, spread: &Spread) -> Option<Loss> {
+    let system = simulation.system();
+    let open = |cable: &usize| {
+        let Normal { n, arm } = system.cables[*cable].normal(simulation.state());
+        let gap =
+            2.0 * system.cables[*cable].length() * spread.along(&[n[0], n[1], arm, 0.0, 0.0, 0.0]);
+        REACH * gap > START_TOLERANCE
+    };
+    let cable = simulation.closed().iter().find(open)?;
+    Some(Loss::Start { cable })
 }
 
 /// How a gap closes, just before the one impact of a step.

@@ -97,6 +97,11 @@ pub enum Loss {
     },
     /// Several cables snap at one instant: which is first decides what follows.
     Simultaneous,
+    /// The start is at the end of a cable, and a neighbour may begin slack.
+    Start {
+        /// The cable.
+        cable: usize,
+    },
     /// A stop rule that a neighbour may meet where the run does not, or the other way round.
     StopRule,
 }

@@ -1,6 +1,6 @@
 //! Follows a run and keeps account of what is known of it.
 
-use super::losses::{Closing, loss};
+use super::losses::{Closing, loss, loss_at_start};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
@@ -57,6 +57,11 @@ impl Witness {
         for (i, size) in start.iter().enumerate() {
             spread.covariance[i][i] = uniform(*size).powi(2);
         }
+        let horizon = loss_at_start(simulation, &spread).map(|loss| Horizon {
+            t: simulation.time(),
+            impact: 1,
+            loss,
+        });
         spread.map_covariance(|w| {
             let mut projected = *w;
             for (component, row) in projected.iter_mut().zip(&projection) {
@@ -73,7 +78,7 @@ impl Witness {
             frame: Frame::new(),
             errors: Vec::new(),
             grazes: Vec::new(),
-            horizon: None,
+            horizon,
             end_error: 0.0,
             end: simulation.time(),
         }
