@@ -156,7 +156,7 @@ fn tally(ensemble: &Ensemble) -> Result<Tally, Failure> {
         .map_err(|error| Failure::BadInput(format!("--uncertainty: {error}")))
 }
 
-/// `rotation limit: certain`, or `rotation limit: 63 % of 1,000 neighbours (95 %: 60-66 %); settled: 37 % (...)`.
+/// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95 %: 60-66 %)`.
 pub(crate) fn outcome_in_words(trusted: &Trusted) -> String {
     let end = in_words(trusted.run.end().reason);
     let Some(tally) = &trusted.tally else {
@@ -182,10 +182,10 @@ pub(crate) fn outcome_in_words(trusted: &Trusted) -> String {
             percent(high, f64::ceil),
         ));
     }
-    parts.join("; ")
+    parts.join("\n")
 }
 
-/// Where trust ends, and why.
+/// Where trust ends, and on a second line why.
 pub(crate) fn trust_in_words(trusted: &Trusted) -> String {
     let known = format!("known to {:e}", trusted.doubt.tolerance);
     let impacts = trusted.run.impacts().len();
@@ -215,7 +215,7 @@ pub(crate) fn trust_in_words(trusted: &Trusted) -> String {
         }
         Loss::StopRule => "there a stop rule may or may not be met".to_owned(),
     };
-    format!("{known} up to impact {impact} of {impacts}, t = {t:.4}: {what}")
+    format!("{known} up to impact {impact} of {impacts}, t = {t:.4}\n{what}")
 }
 
 fn in_words(stop: Stop) -> String {

@@ -44,12 +44,18 @@ pub(crate) fn of(input: &Input, trusted: &Trusted, written: &[PathBuf]) -> Strin
     lines.0
 }
 
+/// A text of several lines, of which the later ones stand below the first.
+pub(crate) fn indented(text: &str) -> String {
+    text.replace('\n', "\n          ")
+}
+
 /// Lines with a label in front.
 struct Lines(String);
 
 impl Lines {
+    /// A text of several lines stands below itself.
     fn add(&mut self, label: &str, text: &str) {
-        let _ = writeln!(self.0, "{label:<9} {text}");
+        let _ = writeln!(self.0, "{label:<9} {}", indented(text));
     }
 }
 

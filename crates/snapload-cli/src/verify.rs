@@ -182,7 +182,11 @@ impl Answer {
                 found.differences.len()
             ),
         };
-        let _ = writeln!(text, "Predicted {}", trust_in_words(&self.trusted));
+        let _ = writeln!(
+            text,
+            "Predicted {}",
+            summary::indented(&trust_in_words(&self.trusted))
+        );
         let left = found.digits_left;
         let _ = if left >= 1.0 {
             writeln!(

@@ -2,7 +2,7 @@
 
 use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Jets, Reached, first_crossing};
-use crate::extremes::{Extremes, peak};
+use crate::extremes::{Extremes, rises_above_zero};
 use crate::flight::Flight;
 use crate::impact::{Shock, impact};
 use crate::real::{Real, length};
@@ -237,21 +237,42 @@ impl<T: Real> Simulation<T> {
         self.contacts[cable].gap
     }
 
-    /// The closest that a slack cable came to being taut within the latest step without reaching it: the
-    /// largest gap there, if it is above `floor` < 0.
-    pub(crate) fn closest_approach(&self, step: &Step<T>, cable: usize, floor: T) -> Option<T> {
+    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
+    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
+    /// grows from nothing.
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
-        if step.taut.is_empty() {
-            let bend = self.flight.gap_bend(cable, s);
-            let ends = self.flight.gap_at_start(cable).max(self.gap(cable));
-            if ends + bend * s * s * 0.125 < floor {
-                return None;
-            }
-            peak(&|s| self.flight.gap_and_rate(cable, s), s, bend, floor)
-        } else {
-            let bend = self.series.gap_bend(cable);
-            peak(&|s| self.series.gap_and_rate(cable, s), s, bend, floor)
+        if s <= T::ZERO {
+            return false;
         }
+        let (bend, first) = if step.taut.is_empty() {
+            (
+                self.flight.gap_bend(cable, s),
+                self.flight.gap_at_start(cable),
+            )
+        } else {
+            (
+                self.series.gap_bend(cable),
+                self.series.gap_and_rate(cable, T::ZERO).0,
+            )
+        };
+        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
+            return false;
+        }
+        let (offset, slope) = if first < T::ZERO {
+            (margin, T::ZERO)
+        } else {
+            (T::ZERO, margin / s)
+        };
+        let nearness = |s: T| {
+            let (gap, rate) = if step.taut.is_empty() {
+                self.flight.gap_and_rate(cable, s)
+            } else {
+                self.series.gap_and_rate(cable, s)
+            };
+            (gap + offset + slope * s, rate + slope)
+        };
+        rises_above_zero(&nearness, s, bend)
     }
 
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.

@@ -58,25 +58,23 @@ pub struct StepMap {
     rate_after: [f64; 6],
 }
 
+/// Φ along a stretch.
 #[derive(Clone, Copy, Debug)]
-enum Flow {
-    /// Slack: positions drift with the velocities for a time s.
-    Free(f64),
-    Taut(Matrix),
+struct Flow {
+    /// How long it is.
+    s: f64,
+    /// Φ where cables are taut; where none is, positions drift with the velocities.
+    taut: Option<Matrix>,
 }
 
 impl Flow {
     fn of(&self, w: &[f64; 6]) -> [f64; 6] {
-        match self {
-            Flow::Free(s) => [
-                w[0] + s * w[3],
-                w[1] + s * w[4],
-                w[2] + s * w[5],
-                w[3],
-                w[4],
-                w[5],
-            ],
-            Flow::Taut(phi) => phi.map(|row| dot6(&row, w)),
+        match &self.taut {
+            None => {
+                let drift = |i: usize| w[i] + self.s * w[i + 3];
+                [drift(0), drift(1), drift(2), w[3], w[4], w[5]]
+            }
+            Some(phi) => phi.map(|row| dot6(&row, w)),
         }
     }
 }
@@ -168,11 +166,9 @@ impl Tangent {
     /// Of the step that `simulation` has just made.
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
-        let s = step.t_end - step.t_start;
-        let flow = if step.taut.is_empty() {
-            Flow::Free(s)
-        } else {
-            Flow::Taut(self.taut_flow(simulation, step))
+        let flow = Flow {
+            s: step.t_end - step.t_start,
+            taut: (!step.taut.is_empty()).then(|| self.taut_flow(simulation, step)),
         };
         let first = rate(system, step.t_start, &step.start, step.taut);
         let last = rate(system, step.t_end, &step.before, step.taut);

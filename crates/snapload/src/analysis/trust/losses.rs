@@ -93,7 +93,7 @@ fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize)
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n[0], n[1], arm, 0.0, 0.0, 0.0];
     let margin = 2.0 * tether.length() * REACH * spread.along(&direction);
-    simulation.gap(cable) > -margin || simulation.closest_approach(step, cable, -margin).is_some()
+    simulation.gap(cable) > -margin || simulation.comes_near(step, cable, margin)
 }
 
 /// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.

@@ -9,8 +9,11 @@ use crate::{Case, CaseError, Deviation, Dual, Simulation, State, Step, StepMap, 
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;
 
-/// What rounding adds in one step to a component of size 1, as standard deviation.
-const ROUNDING: f64 = f64::EPSILON;
+/// What rounding adds in one step to a component of size 1, as standard deviation: a few operations, each
+/// off by up to ε/2, most of them on increments smaller than what they are added to.
+const ROUNDING: f64 = 0.25 * f64::EPSILON;
+/// A component is taken to be no smaller than this: it is computed from others that are not.
+const LEAST: f64 = 0.25;
 
 /// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
 const LOST: f64 = 1e30;
@@ -259,5 +262,5 @@ fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
 fn rounding(state: &State) -> [f64; 6] {
     state
         .components()
-        .map(|component| ROUNDING * component.abs().max(1.0))
+        .map(|component| ROUNDING * component.abs().max(LEAST))
 }
