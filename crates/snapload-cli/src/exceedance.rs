@@ -98,7 +98,8 @@ struct Passes<'a>(&'a ExceedanceCurve);
 
 impl Serialize for Passes<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let levels = LEVELS.map(|level| (level.to_string(), self.0.passes(level)));
+        let name = |level: f64| format!("p{:02.0}", 100.0 * level);
+        let levels = LEVELS.map(|level| (name(level), self.0.passes(level)));
         serializer.collect_map(levels)
     }
 }

@@ -139,7 +139,7 @@ fn the_probability_of_exceeding_has_a_band() {
     let found = json(&["critical", "--ensemble", "20", "--max", "0.33"]);
     let points = found["probability"].as_array().unwrap();
     assert_eq!(points.len(), 33);
-    assert_eq!(found["passes"]["0.5"], 0.31);
+    assert_eq!(found["passes"]["p50"], 0.31);
     assert_eq!(points[30]["certain"], true);
     assert_eq!(
         (&points[29]["part"], &points[30]["part"]),
