@@ -7,7 +7,7 @@ use crate::schema::SETTLING_HEIGHT;
 use crate::start::StartError;
 use crate::value::Value;
 use crate::{
-    Body, Harmonic, Shape, Simulation, State, StopRules, System, Trajectory, anchor_height,
+    Body, Dual, Harmonic, Shape, Simulation, State, StopRules, System, Trajectory, anchor_height,
 };
 
 /// A case that was checked and can be run.
@@ -64,6 +64,22 @@ impl Case {
             numbers.inertia = natural_inertia(numbers.a, numbers.b);
         }
         begin(&numbers)
+    }
+
+    /// The same motion with derivatives by one key. Where that is the inertia, it varies by itself.
+    pub(crate) fn simulation_by(&self, name: &str) -> Result<Simulation<Dual<f64, 1>>, StartError> {
+        let lift = |key: &str, number| {
+            if key == name {
+                Dual::variable(number, 0)
+            } else {
+                Dual::constant(number)
+            }
+        };
+        if name == "inertia" {
+            begin(&self.parameters.map(lift))
+        } else {
+            self.simulation_over(lift)
+        }
     }
 
     /// Runs it to its end and keeps all of it.

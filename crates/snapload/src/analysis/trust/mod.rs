@@ -178,3 +178,32 @@ pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), Ca
     });
     Ok((run, witness.verdict()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Parameters;
+
+    /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt does what it does to
+    /// a case whose inertia is another.
+    #[test]
+    fn an_inertia_can_be_in_doubt() {
+        let mut doubt = Doubt::default();
+        doubt.set("inertia", 1e-6).expect("a key that moves");
+        let error = |inertia: f64| {
+            let parameters = Parameters {
+                theta: 0.1,
+                inertia: Some(inertia),
+                ..Parameters::STANDARD
+            };
+            let case = Case::new(parameters).expect("legal");
+            trusted_run(&case, &doubt).expect("legal").1.errors[1]
+        };
+        let natural = Parameters::STANDARD.inertia.expect("rigid");
+        let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));
+        assert!(
+            (natural / other - 1.0).abs() < 1e-3,
+            "{natural:e} {other:e}"
+        );
+    }
+}

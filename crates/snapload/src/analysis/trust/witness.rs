@@ -203,14 +203,7 @@ impl KeyDoubt {
             let allowed = "no uncertainty, as this case has no such quantity";
             return Err(CaseError::value(name, Value::Number(size), allowed));
         }
-        let lift = |key, number| {
-            if key == name {
-                Dual::variable(number, 0)
-            } else {
-                Dual::constant(number)
-            }
-        };
-        let simulation = case.simulation_over(lift).map_err(|_| {
+        let simulation = case.simulation_by(name).map_err(|_| {
             let allowed = "an uncertainty about a start that is not on the very edge";
             CaseError::value(name, Value::Number(size), allowed)
         })?;
