@@ -182,7 +182,32 @@ pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), Ca
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Parameters;
+    use crate::{Parameters, Simulation};
+
+    /// Without forcing nothing depends on when a motion begins, its exponents neither.
+    #[test]
+    fn exponents_are_over_the_time_that_the_run_takes() {
+        let case = Case::new(Parameters {
+            f_o: 0.0,
+            theta: 0.1,
+            ..Parameters::STANDARD
+        });
+        let usual = case.expect("legal").simulation();
+        let exponents = |t: f64| {
+            let mut rules = *usual.rules();
+            rules.t_end = t + 1.0;
+            let (system, start) = (usual.system().clone(), *usual.state());
+            let mut simulation = Simulation::new(system, rules, 1e-6, t, start).expect("legal");
+            let mut witness = Witness::new(&simulation, &[0.0; 6], 1e-3);
+            while let Some(step) = simulation.step() {
+                witness.follow(&simulation, &step);
+            }
+            witness.verdict().exponents
+        };
+        for (at_once, later) in exponents(0.0).into_iter().zip(exponents(8.0)) {
+            assert!((at_once - later).abs() < 1e-9, "{at_once} {later}");
+        }
+    }
 
     /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt does what it does to
     /// a case whose inertia is another.

@@ -27,6 +27,7 @@ pub struct Witness {
     grazes: Vec<Graze>,
     horizon: Option<Horizon>,
     end_error: f64,
+    begin: f64,
     end: f64,
 }
 
@@ -75,6 +76,7 @@ impl Witness {
             grazes: Vec::new(),
             horizon: None,
             end_error: 0.0,
+            begin: simulation.time(),
             end: simulation.time(),
         }
     }
@@ -192,7 +194,7 @@ impl Witness {
             horizon: self.horizon,
             end_error,
             grazes: self.grazes,
-            exponents: self.frame.exponents(self.end),
+            exponents: self.frame.exponents(self.end - self.begin),
         }
     }
 }
