@@ -183,3 +183,57 @@ pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), Ca
     });
     Ok((run, witness.verdict()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Parameters, Simulation};
+
+    /// Without forcing nothing depends on when a motion begins, its exponents neither.
+    #[test]
+    fn exponents_are_over_the_time_that_the_run_takes() {
+        let case = Case::new(Parameters {
+            f_o: 0.0,
+            theta: 0.1,
+            ..Parameters::STANDARD
+        });
+        let usual = case.expect("legal").simulation();
+        let exponents = |t: f64| {
+            let mut rules = *usual.rules();
+            rules.t_end = t + 1.0;
+            let (system, start) = (usual.system().clone(), *usual.state());
+            let mut simulation = Simulation::new(system, rules, 1e-6, t, start).expect("legal");
+            let mut witness = Witness::new(&simulation, &[0.0; 6], 1e-3);
+            while let Some(step) = simulation.step() {
+                witness.follow(&simulation, &step);
+            }
+            witness.verdict().exponents
+        };
+        for (at_once, later) in exponents(0.0).into_iter().zip(exponents(8.0)) {
+            assert!((at_once - later).abs() < 1e-9, "{at_once} {later}");
+        }
+    }
+
+    /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt does what it does to
+    /// a case whose inertia is another.
+    #[test]
+    fn an_inertia_can_be_in_doubt() {
+        let mut doubt = Doubt::default();
+        doubt.set("inertia", 1e-6).expect("a key that moves");
+        let error = |inertia: f64| {
+            let parameters = Parameters {
+                theta: 0.1,
+                inertia: Some(inertia),
+                ..Parameters::STANDARD
+            };
+            let case = Case::new(parameters).expect("legal");
+            trusted_run(&case, &doubt).expect("legal").1.errors[1]
+        };
+        let natural = Parameters::STANDARD.inertia.expect("rigid");
+        let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));
+        assert!(
+            (natural / other - 1.0).abs() < 1e-3,
+            "{natural:e} {other:e}"
+        );
+    }
+}

@@ -30,6 +30,7 @@ pub struct Witness {
     grazes: Vec<Graze>,
     horizon: Option<Horizon>,
     end_error: f64,
+    begin: f64,
     end: f64,
 }
 
@@ -83,6 +84,7 @@ impl Witness {
             grazes: Vec::new(),
             horizon,
             end_error: 0.0,
+            begin: simulation.time(),
             end: simulation.time(),
         }
     }
@@ -200,7 +202,7 @@ impl Witness {
             horizon: self.horizon,
             end_error,
             grazes: self.grazes,
-            exponents: self.frame.exponents(self.end),
+            exponents: self.frame.exponents(self.end - self.begin),
         }
     }
 }
