@@ -90,6 +90,12 @@ fn may_miss(map: &StepMap, spread: &Spread, closing: &Closing) -> bool {
 /// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its end.
 fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize) -> bool {
     let tether = &simulation.system().cables[cable];
+    // A bound first: |n| = 1, and the arm is no longer than the lever.
+    let [a, b] = tether.fairlead();
+    let most = 2.0 * tether.length() * REACH * spread.at_most([1.0, 1.0, a.abs() + b.abs()]);
+    if simulation.gap(cable) <= -most && !simulation.comes_near(step, cable, most) {
+        return false;
+    }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n[0], n[1], arm, 0.0, 0.0, 0.0];
     let margin = 2.0 * tether.length() * REACH * spread.along(&direction);

@@ -55,7 +55,7 @@ impl Witness {
         let tangent = Tangent::new(simulation.system());
         let projection = tangent.of_start(simulation);
         let mut spread = Spread {
-            covariance: [[0.0; 7]; 7],
+            covariance: [[0.0; 8]; 7],
             columns: Vec::new(),
         };
         for (i, size) in start.iter().enumerate() {
@@ -66,12 +66,16 @@ impl Witness {
             impact: 1,
             loss,
         });
-        spread.map_covariance(|w| {
-            let mut projected = *w;
-            for (component, row) in projected.iter_mut().zip(&projection) {
-                *component = row.iter().zip(w).map(|(p, w)| p * w).sum();
+        spread.map_covariance(|block| {
+            let given = *block;
+            for (row, factors) in block.iter_mut().zip(&projection) {
+                *row = [0.0; 8];
+                for (factor, from) in factors.iter().zip(&given) {
+                    for (sum, entry) in row.iter_mut().zip(from) {
+                        *sum += factor * entry;
+                    }
+                }
             }
-            projected
         });
         spread.add_noise(&rounding(simulation.state()));
         Self {
@@ -128,13 +132,8 @@ impl Witness {
     /// Past an event that neighbours may not share, or with no digit left, nothing is known.
     fn is_lost(&self) -> bool {
         let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
-        other_events
-            || !self
-                .spread
-                .covariance
-                .iter()
-                .flatten()
-                .all(|c| c.abs() < LOST)
+        let covariance = &self.spread.covariance;
+        other_events || (0..7).any(|i| !(covariance[i][i] < LOST))
     }
 
     /// Carries the spread through the step; returns the error at its event.
@@ -146,20 +145,19 @@ impl Witness {
         closing: Option<Closing>,
     ) -> f64 {
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
-        let stage = |spread: &Spread, i: usize, f: &dyn Fn(&Deviation) -> Deviation| Spread {
-            columns: columns.iter().map(|column| column[i]).collect(),
-            ..spread.mapped(f)
-        };
-        let along = stage(&self.spread, 0, &|w| map.along(w));
-        if let Some(loss) = loss(simulation, step, map, &along, closing) {
+        let stage = |i: usize| columns.iter().map(|column| column[i]).collect();
+        self.spread.map_covariance(|block| map.carry_along(block));
+        self.spread.columns = stage(0);
+        if let Some(loss) = loss(simulation, step, map, &self.spread, closing) {
             self.lose(step, loss);
         }
-        let met = stage(&along, 1, &|w| map.meet(w));
-        let mut after = stage(&met, 2, &|w| map.through(w));
-        let error =
-            relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
-        after.add_noise(&rounding(&step.after));
-        self.spread = after;
+        self.spread.map_covariance(|block| map.carry_to_meet(block));
+        self.spread.columns = stage(1);
+        let met = relative(&self.spread, &step.before, step.t_end);
+        self.spread.map_covariance(|block| map.carry_through(block));
+        self.spread.columns = stage(2);
+        let error = met.max(relative(&self.spread, &step.after, step.t_end));
+        self.spread.add_noise(&rounding(&step.after));
         self.end_error = self.spread.of_component(6);
         if error > self.tolerance {
             self.lose(step, Loss::Tolerance);
@@ -256,8 +254,9 @@ fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
     let values = state.components().into_iter().chain([t]);
     values
         .enumerate()
-        .map(|(i, value)| spread.of_component(i) / value.abs().max(1.0))
+        .map(|(i, value)| spread.variance(i) / (value * value).max(1.0))
         .fold(0.0, f64::max)
+        .sqrt()
 }
 
 /// What rounding adds to a state in one step.
