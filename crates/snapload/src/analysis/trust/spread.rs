@@ -59,9 +59,10 @@ impl Spread {
 }
 
 fn transpose(p: &mut Covariance) {
-    for i in 0..7 {
-        for j in 0..i {
-            (p[i][j], p[j][i]) = (p[j][i], p[i][j]);
+    let given = *p;
+    for (i, row) in p.iter_mut().enumerate() {
+        for (entry, from) in row.iter_mut().zip(&given) {
+            *entry = from[i];
         }
     }
 }
