@@ -133,7 +133,7 @@ impl Witness {
     fn is_lost(&self) -> bool {
         let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
         let covariance = &self.spread.covariance;
-        other_events || (0..7).any(|i| !(covariance[i][i] < LOST))
+        other_events || (0..7).any(|i| covariance[i][i].is_nan() || covariance[i][i] >= LOST)
     }
 
     /// Carries the spread through the step; returns the error at its event.
