@@ -1,11 +1,13 @@
 //! Questions asked of many runs: one file a question, public items of the library only.
 
+mod account;
 mod critical;
 mod lyapunov;
 mod outcome;
 mod trust;
 mod verify;
 
+pub use account::{Account, Certainty, FirstImpact};
 pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use lyapunov::Frame;
 pub use outcome::Outcome;
