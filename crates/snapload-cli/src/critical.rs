@@ -5,12 +5,12 @@ use crate::exceedance::Probability;
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
-use crate::report::reason;
 use crate::stage::Stage;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::analysis::{CriticalForce, ForceScan};
 use snapload::{Value, key_named};
+use snapload_study::{Grid, reason};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -95,7 +95,7 @@ struct Over {
 }
 
 /// The most values of another key.
-const MOST_VALUES: usize = 100_000;
+const MOST_VALUES: u64 = 100_000;
 
 impl Over {
     fn parse(text: &str) -> Result<Self, Failure> {
@@ -114,17 +114,17 @@ impl Over {
         let [from, to, count] = parts[..] else {
             return Err(wrong("three numbers are needed, first:last:how many"));
         };
-        let number = |text: &str| -> Result<f64, Failure> {
-            let parsed = text.parse().ok().filter(|n: &f64| n.is_finite());
-            parsed.ok_or_else(|| wrong(&format!("{text:?} is not a number")))
-        };
-        let (from, to) = (number(from)?, number(to)?);
         let count = count.parse().ok().filter(|n| (1..=MOST_VALUES).contains(n));
         let count = count.ok_or_else(|| wrong("n must be a whole number from 1 to 100000"))?;
-        let last = (count - 1).max(1) as f64;
-        let values = (0..count)
-            .map(|k| (from * (last - k as f64) + to * k as f64) / last)
-            .collect();
+        let grid = Grid::new(from, to, count).ok_or_else(|| {
+            let text = if Grid::new(from, from, 1).is_some() {
+                to
+            } else {
+                from
+            };
+            wrong(&format!("{text:?} is not a number"))
+        })?;
+        let values = (0..count).map(|k| grid.value(k)).collect();
         Ok(Self { key, values })
     }
 }

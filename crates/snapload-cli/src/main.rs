@@ -9,13 +9,17 @@ mod failure;
 mod interrupt;
 mod json;
 mod keys;
+mod merge;
 mod pictures;
 mod progress;
 mod report;
 mod reproduce;
 mod run;
 mod stage;
+mod study_input;
+mod study_picture;
 mod summary;
+mod sweep;
 mod tables;
 mod verify;
 
@@ -38,6 +42,8 @@ Examples:
   snapload run mooring.toml --out results      a case of your own, with tables and pictures
   snapload verify                              the same run with 76 digits beside it
   snapload critical --over e=0.5:1:11          critical force against restitution
+  snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
+                                               a map of 3060 cases
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -49,6 +55,10 @@ enum Verb {
     Critical(critical::Args),
     /// Run one case again with many digits, and say where the ordinary run goes wrong
     Verify(verify::Args),
+    /// Run a study: every case of a grid, of random points or of a list, a row each
+    Sweep(sweep::Args),
+    /// Join the parts of a study that was swept on several machines
+    Merge(merge::Args),
     /// Reproduce the chapter's tables, figures and claims as one report
     Reproduce(reproduce::Args),
     /// List the built-in cases
@@ -65,6 +75,8 @@ fn main() -> ExitCode {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
         Verb::Verify(args) => verify::run(&args),
+        Verb::Sweep(args) => sweep::run(&args),
+        Verb::Merge(args) => merge::run(&args),
         Verb::Reproduce(args) => reproduce::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),

@@ -4,8 +4,9 @@ use crate::progress::Progress;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use snapload::{
-    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Stop, Trajectory, Value,
+    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
 };
+use snapload_study::reason;
 
 /// Everything there is to say about a run.
 #[derive(Serialize)]
@@ -47,18 +48,6 @@ impl<'a> Report<'a> {
                 sampling,
             }),
         }
-    }
-}
-
-/// The name of a reason to stop.
-pub(crate) fn reason(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Settled => "settled",
-        Stop::RotationLimit => "rotation_limit",
-        Stop::UpperBound => "upper_bound",
-        Stop::SlidingStart => "sliding_start",
-        Stop::EndTime => "end_time",
-        Stop::ImpactLimit => "impact_limit",
     }
 }
 

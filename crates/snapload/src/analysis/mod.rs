@@ -1,5 +1,6 @@
 //! Questions asked of many runs: one file a question, public items of the library only.
 
+mod account;
 mod critical;
 mod ensemble;
 mod exceedance;
@@ -9,6 +10,7 @@ mod sensitivity;
 mod trust;
 mod verify;
 
+pub use account::{Account, Certainty, FirstImpact};
 pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, Share, Tally};
 pub use exceedance::{ExceedanceCurve, Exceeding};
