@@ -3,7 +3,7 @@
 use super::Loss;
 use super::spread::Spread;
 use crate::taut::normal_acceleration;
-use crate::{Normal, START_TOLERANCE, Simulation, Step, StepMap};
+use crate::{Normal, START_TOLERANCE, Simulation, Step, StepMap, Stop};
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
@@ -36,17 +36,32 @@ pub(super) fn loss(
     graze.or_else(near).or_else(stop)
 }
 
-/// A cable that is closed at the start of a run, and might be slack within what is in doubt.
+/// A cable that is closed at the start of a run, and might be slack within what is in doubt, or leave or snap where
+/// it rests.
 pub(super) fn loss_at_start(simulation: &Simulation, spread: &Spread) -> Option<Loss> {
     let system = simulation.system();
+    let resting = simulation.resting();
     let open = |cable: &usize| {
-        let Normal { n, arm } = system.cables[*cable].normal(simulation.state());
-        let gap =
-            2.0 * system.cables[*cable].length() * spread.along(&[n[0], n[1], arm, 0.0, 0.0, 0.0]);
-        REACH * gap > START_TOLERANCE
+        let tether = &system.cables[*cable];
+        let normal = tether.normal(simulation.state());
+        let Normal { n, arm } = normal;
+        let gap = 2.0 * tether.length() * spread.along(&[n[0], n[1], arm, 0.0, 0.0, 0.0]);
+        let speed = REACH * spread.along(&[0.0, 0.0, 0.0, n[0], n[1], arm]);
+        let turns = if resting.contains(*cable) {
+            speed > START_TOLERANCE
+        } else {
+            speed >= normal.velocity(simulation.state()).abs()
+        };
+        REACH * gap > START_TOLERANCE || turns
     };
     let cable = simulation.closed().iter().find(open)?;
     Some(Loss::Start { cable })
+}
+
+/// Whether the run stops so late that a neighbour, `met` just before the same event, may run out of time first.
+pub(super) fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &Spread) -> bool {
+    let left = simulation.rules().t_end - step.t_end;
+    step.stop.is_some_and(|stop| stop != Stop::EndTime) && REACH * met.of_component(6) >= left
 }
 
 /// How a gap closes, just before the one impact of a step.

@@ -63,7 +63,11 @@ impl Spread {
             }
             mirror[0] -= 1.0;
             for j in i..7 {
-                let along: f64 = mirror.iter().zip(turned.iter()).map(|(m, p)| m * p[j]).sum();
+                let along: f64 = mirror
+                    .iter()
+                    .zip(turned.iter())
+                    .map(|(m, p)| m * p[j])
+                    .sum();
                 for (part, m) in turned.iter_mut().zip(mirror) {
                     part[j] += m * along / mirror[0];
                 }

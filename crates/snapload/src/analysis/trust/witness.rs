@@ -1,6 +1,6 @@
 //! Follows a run and keeps account of what is known of it.
 
-use super::losses::{Closing, loss, loss_at_start};
+use super::losses::{Closing, loss, loss_at_start, may_run_out_of_time};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
@@ -142,6 +142,9 @@ impl Witness {
             self.lose(step, loss);
         }
         let met = stage(&along, 1, &|w| map.meet(w));
+        if may_run_out_of_time(simulation, step, &met) {
+            self.lose(step, Loss::StopRule);
+        }
         let mut after = stage(&met, 2, &|w| map.through(w));
         let error =
             relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
