@@ -9,7 +9,7 @@ use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
 use serde_json::Value as Json;
 use snapload::analysis::{Doubt, Ensemble, Loss, Verification, trusted_run, verify};
-use snapload::{Case, Impact, Parameters, Value, named_cases};
+use snapload::{Case, Impact, Parameters, Value, anchor_height, named_cases};
 
 /// The tolerance of the oracle's horizons.
 const TOLERANCE: f64 = 1e-6;
@@ -301,6 +301,15 @@ fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let resting = case([number("y", 0.0), number("t_end", 0.01)]);
     let (loss, ends) = in_doubt(&resting, "vy", 1e-2);
     assert_eq!((loss, ends), (Some(Loss::Start { cable: 0 }), 2));
+
+    // Thrown up so that its highest point passes the bound by 1e-6.
+    let rise = anchor_height(1.5, 0.1) - 0.1 - 0.3 + 1e-6;
+    let speed = (2.0 * rise).sqrt();
+    let thrown = [("f_o", 0.0), ("y", 0.3), ("vy", speed), ("t_end", 2.0)];
+    let thrown = case(thrown.map(|(key, value)| number(key, value)));
+    let (loss, ends) = in_doubt(&thrown, "vy", 1e-5);
+    assert_eq!((loss, ends), (Some(Loss::StopRule), 2));
+    assert_eq!(in_doubt(&thrown, "vy", 1e-8), (None, 1));
 
     let turns = |t_end| case([number("f_o", 0.31), number("t_end", t_end)]);
     let t = turns(100.0).run().end().t;

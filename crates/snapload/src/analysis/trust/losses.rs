@@ -32,7 +32,11 @@ pub(super) fn loss(
             .find(|&cable| may_snap(simulation, step, spread, cable))
             .map(|cable| Loss::NearMiss { cable })
     };
-    let stop = || may_stop(simulation, step, spread).then_some(Loss::StopRule);
+    let stop = || {
+        let may =
+            may_stop(simulation, step, spread) || may_fall_short(simulation, step, map, spread);
+        may.then_some(Loss::StopRule)
+    };
     graze.or_else(near).or_else(stop)
 }
 
@@ -120,7 +124,7 @@ fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
         .rotation_limit
         .is_some_and(|limit| !reached.rotation && before.theta.abs() + reach(2) >= limit);
     let rises = rules.upper_bound.is_some_and(|level| {
-        let margin = reach(1) + reach(2);
+        let margin = reach(1) + reach(2) * simulation.system().body.reach();
         !reached.top && simulation.highest_within(step, level - margin) + margin >= level
     });
     let sticks = step.taut_after.len() > step.taut.len();
@@ -129,4 +133,21 @@ fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
         .flatten()
         .any(|height| sticks && (before.y - height).abs() <= reach(1));
     turns || rises || settles
+}
+
+/// Whether neighbours may turn round just before a limit that the run still reaches: as for a graze, where
+/// they lag by more than the rate over twice the slowing-down.
+fn may_fall_short(simulation: &Simulation, step: &Step, map: &StepMap, spread: &Spread) -> bool {
+    let (before, reached) = (&step.before, step.event.reached);
+    if !(reached.rotation || reached.top) {
+        return false;
+    }
+    let delay = map.delay();
+    let [.., x, y, theta] = *map.rate();
+    let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
+    if !reached.rotation {
+        let height = simulation.system().top(before) - before.y;
+        slowing -= delay[1] * height * before.vtheta * before.vtheta;
+    }
+    REACH * spread.along(delay) * 2.0 * slowing >= 1.0
 }
