@@ -62,6 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     let input = args.case.read()?;
+    let doubt = args.doubt.read(&input.case)?;
     let scan = ForceScan::new(args.step, args.max)
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
     let mut stage = Stage::default();
@@ -70,7 +71,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         None => {
             let parameters = input.case.parameters();
             let row = Row(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
-            let doubt = args.doubt.read()?;
             let curve = args.ensemble.map(|members| {
                 Probability::compute(parameters, scan, &doubt, members, args.doubt.seed())
             });

@@ -34,8 +34,8 @@ pub(crate) struct DoubtArgs {
 }
 
 impl DoubtArgs {
-    /// Reads and checks them.
-    pub(crate) fn read(&self) -> Result<Doubt, Failure> {
+    /// Reads them and checks them against a case.
+    pub(crate) fn read(&self, case: &Case) -> Result<Doubt, Failure> {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             return Err(Failure::BadInput(format!(
                 "--tolerance {}: allowed is a number above 0, such as 1e-3",
@@ -47,7 +47,7 @@ impl DoubtArgs {
             ..Doubt::default()
         };
         for text in &self.uncertainty {
-            set(&mut doubt, text)?;
+            set(&mut doubt, text, case)?;
         }
         Ok(doubt)
     }
@@ -62,18 +62,24 @@ impl DoubtArgs {
     }
 }
 
-fn set(doubt: &mut Doubt, text: &str) -> Result<(), Failure> {
+fn set(doubt: &mut Doubt, text: &str, case: &Case) -> Result<(), Failure> {
     let wrong = |what: &str| {
         Failure::BadInput(format!(
             "--uncertainty {text:?}: {what}; write a number such as 1e-3 for all start values, or \
              KEY=NUMBER such as f_o=0.01"
         ))
     };
+    let parse = |size: &str| size.trim().parse::<f64>().map_err(|_| wrong("no number"));
     let (keys, size) = match text.split_once('=') {
-        Some((key, size)) => (vec![key.trim()], size),
-        None => (START_KEYS.to_vec(), text),
+        Some((key, size)) => {
+            let (key, size) = (key.trim(), parse(size)?);
+            if START_KEYS.contains(&key) && !case.parameters().moves_by(key) {
+                return Err(wrong("this case has no such quantity"));
+            }
+            (vec![key], size)
+        }
+        None => (START_KEYS.to_vec(), parse(text)?),
     };
-    let size: f64 = size.trim().parse().map_err(|_| wrong("no number"))?;
     for key in keys {
         doubt
             .set(key, size)
@@ -109,7 +115,7 @@ impl Trusted {
         ensemble: &EnsembleArgs,
     ) -> Result<Self, Failure> {
         let seed = doubt.seed();
-        let doubt = doubt.read()?;
+        let doubt = doubt.read(case)?;
         let mut witness = Witness::of_case(case, &doubt)
             .map_err(|error| Failure::BadInput(format!("--uncertainty: {error}")))?;
         let mut progress = Progress::new("running", case.parameters().t_end);
@@ -169,7 +175,7 @@ pub(crate) fn outcome_in_words(trusted: &Trusted) -> String {
     let mut parts = Vec::new();
     for (i, (reason, share)) in tally.shares().into_iter().enumerate() {
         let of = if i == 0 {
-            format!(" of {} neighbours", thousands(share.of))
+            format!(" of {}", neighbours(share.of))
         } else {
             String::new()
         };
@@ -215,7 +221,22 @@ pub(crate) fn trust_in_words(trusted: &Trusted) -> String {
         }
         Loss::StopRule => "there a stop rule may or may not be met".to_owned(),
     };
-    format!("{known} up to impact {impact} of {impacts}, t = {t:.4}\n{what}")
+    let place = if impact <= impacts {
+        format!("before impact {impact} of {impacts}")
+    } else {
+        format!("for all {impacts} impacts")
+    };
+    format!("{known} {place}, up to t = {t:.4}\n{what}")
+}
+
+/// How many of them, in words.
+pub(crate) fn neighbours(count: usize) -> String {
+    let noun = if count == 1 {
+        "neighbour"
+    } else {
+        "neighbours"
+    };
+    format!("{} {noun}", thousands(count))
 }
 
 fn in_words(stop: Stop) -> String {
@@ -232,7 +253,7 @@ pub(crate) fn percent(part: f64, round: impl Fn(f64) -> f64) -> String {
     }
 }
 
-pub(crate) fn thousands(number: usize) -> String {
+fn thousands(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

@@ -1,5 +1,5 @@
 //! `snapload critical --ensemble`: the probability of exceeding the limits against the force amplitude.
-use crate::doubt::{percent, thousands};
+use crate::doubt::{neighbours, percent};
 use crate::failure::Failure;
 use crate::progress::Progress;
 use serde::Serialize;
@@ -59,10 +59,10 @@ impl Probability {
                 }
             })
             .collect();
-        let members = thousands(self.members as usize);
+        let members = neighbours(self.members as usize);
         let _ = writeln!(
             text,
-            "Ensemble  {members} neighbours at each f_o exceed: {}",
+            "Ensemble  of {members} at each f_o exceed: {}",
             passes.join(", ")
         );
         let points = &self.curve.points;

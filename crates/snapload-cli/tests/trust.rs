@@ -163,6 +163,8 @@ fn what_can_not_be_in_doubt_is_refused_in_words() {
     );
     refused(&["run", "--uncertainty", "weight=1"], "weight");
     refused(&["run", "--uncertainty", "b=0.1"], "no such quantity");
+    let point = ["run", "--set", "body=point", "--uncertainty"];
+    refused(&[&point[..], &["theta=1e-3"]].concat(), "no such quantity");
     refused(&["run", "--tolerance", "0"], "above 0");
     refused(&["critical", "--uncertainty", "1e-3"], "add --ensemble");
     refused(&["verify", "--digits", "400"], "307");
@@ -189,4 +191,43 @@ fn the_table_of_impacts_has_their_digits() {
         .parse()
         .unwrap();
     assert!((15.0..16.0).contains(&digits));
+}
+
+#[test]
+fn what_is_said_of_few_neighbours_and_few_impacts_is_grammar() {
+    let text = told(&[
+        "run",
+        "--uncertainty",
+        "f_o=0.01",
+        "--ensemble",
+        "1",
+        "--set",
+        "t_end=1",
+    ]);
+    assert!(text.contains(" % of 1 neighbour (95 %"), "{text}");
+    let unsure = ["run", "--set", "t_end=0.3", "--uncertainty", "0.1"];
+    let text = told(&[&unsure[..], &["--ensemble", "2"]].concat());
+    assert!(
+        text.contains("known to 1e-3 for all 0 impacts, up to t = 0.3000"),
+        "{text}"
+    );
+}
+
+#[test]
+fn no_uncertainty_is_the_same_as_none_given() {
+    let of = |more: &[&str]| {
+        let args = ["run", "--ensemble", "20"];
+        json(&[&args[..], more].concat())["outcome"].to_string()
+    };
+    assert_eq!(of(&["--uncertainty", "f_o=0"]), of(&[]));
+    assert_eq!(of(&["--uncertainty", "0"]), of(&[]));
+}
+
+#[test]
+fn an_uncertainty_beyond_all_bounds_is_not_certain() {
+    refused(&["run", "--uncertainty", "1e200"], "is not allowed");
+    let run = json(&["run", "--uncertainty", "1e200", "--ensemble", "0"]);
+    assert_eq!(run["outcome"]["certain"], false);
+    assert_eq!(run["trust"]["because"], "tolerance");
+    assert_eq!(run["impacts"][0]["digits"], 0.0);
 }

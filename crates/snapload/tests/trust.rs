@@ -9,7 +9,7 @@ use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
 use serde_json::Value as Json;
 use snapload::analysis::{Doubt, Ensemble, Loss, Verification, trusted_run, verify};
-use snapload::{Case, Impact, Parameters, Value, named_cases};
+use snapload::{Case, Impact, Parameters, Value, anchor_height, named_cases};
 
 /// The tolerance of the oracle's horizons.
 const TOLERANCE: f64 = 1e-6;
@@ -247,6 +247,76 @@ fn cables_that_snap_at_one_instant_end_trust() {
     assert_eq!(run.impacts()[0].t, run.impacts()[1].t);
     let horizon = trust.horizon.expect("a horizon");
     assert_eq!((horizon.impact, horizon.loss), (1, Loss::Simultaneous));
+}
+
+/// Without restitution the cables stick in turn, ever faster, until both are taut: normal velocities fall to
+/// 1e-14, and a neighbour's impacts are still told with an error of the size that they have.
+#[test]
+fn an_error_is_never_nothing() {
+    let numbers = [
+        ("e", 0.0),
+        ("a", 0.1596),
+        ("f_o", 0.6546),
+        ("omega", 2.4761),
+        ("nu", 0.1561),
+        ("y", 0.5368),
+        ("vx", 0.0586),
+        ("vy", -0.29),
+        ("t_end", 2.65),
+    ];
+    let numbers = numbers
+        .into_iter()
+        .map(|(key, value)| (key, Value::Number(value)));
+    let case = case(numbers.chain([("stop_when_settled", Value::Bool(false))]));
+    let doubt = Doubt::of_start(1e-13);
+    let (run, trust) = trusted_run(&case, &doubt).expect("legal");
+    assert_eq!(trust.errors.len(), 8);
+    for index in 0..20 {
+        let other = Ensemble::about(&case, &doubt, 20, 5).member(index);
+        let other = other.expect("legal").run();
+        let pairs = run.impacts().iter().zip(other.impacts());
+        for (k, (ours, theirs)) in pairs.enumerate() {
+            let (ours, theirs) = (quantities(ours), quantities(theirs));
+            let apart = ours.iter().zip(&theirs);
+            let apart = apart.map(|(a, b)| (a - b).abs() / a.abs().max(1.0));
+            let apart = apart.fold(0.0, f64::max);
+            assert!(apart < 5.0 * trust.errors[k], "impact {}: {apart:e}", k + 1);
+        }
+    }
+}
+
+/// A run that rests on its cables at the start, or that stops just before its time is over, is not certain where
+/// neighbours leave the cables, or run out of time.
+#[test]
+fn neighbours_that_end_otherwise_leave_nothing_certain() {
+    let number = |key, value| (key, Value::Number(value));
+    let in_doubt = |case: &Case, key: &str, size: f64| {
+        let mut doubt = Doubt::default();
+        doubt.set(key, size).expect("a key in doubt");
+        let (_, trust) = trusted_run(case, &doubt).expect("legal");
+        let ensemble = Ensemble::about(case, &doubt, 50, 1);
+        let tally = ensemble.tally(|| {}).expect("legal");
+        (trust.horizon.map(|h| h.loss), tally.shares().len())
+    };
+    let resting = case([number("y", 0.0), number("t_end", 0.01)]);
+    let (loss, ends) = in_doubt(&resting, "vy", 1e-2);
+    assert_eq!((loss, ends), (Some(Loss::Start { cable: 0 }), 2));
+
+    // Thrown up so that its highest point passes the bound by 1e-6.
+    let rise = anchor_height(1.5, 0.1) - 0.1 - 0.3 + 1e-6;
+    let speed = (2.0 * rise).sqrt();
+    let thrown = [("f_o", 0.0), ("y", 0.3), ("vy", speed), ("t_end", 2.0)];
+    let thrown = case(thrown.map(|(key, value)| number(key, value)));
+    let (loss, ends) = in_doubt(&thrown, "vy", 1e-5);
+    assert_eq!((loss, ends), (Some(Loss::StopRule), 2));
+    assert_eq!(in_doubt(&thrown, "vy", 1e-8), (None, 1));
+
+    let turns = |t_end| case([number("f_o", 0.31), number("t_end", t_end)]);
+    let t = turns(100.0).run().end().t;
+    let (loss, ends) = in_doubt(&turns(t + 1e-9), "y", 1e-8);
+    assert_eq!((loss, ends), (Some(Loss::StopRule), 2));
+    let (loss, ends) = in_doubt(&turns(t + 1e-3), "y", 1e-8);
+    assert_eq!((loss, ends), (None, 1));
 }
 
 proptest! {

@@ -35,6 +35,11 @@ impl Ensemble {
     /// About a case, within what is in doubt of it; where nothing is, within [`DEFAULT_CLOUD`].
     pub fn about(case: &Case, doubt: &Doubt, count: u32, seed: u64) -> Self {
         let mut doubt = doubt.clone();
+        for (size, key) in doubt.start.iter_mut().zip(START_KEYS) {
+            if !case.parameters().moves_by(key) {
+                *size = 0.0;
+            }
+        }
         if doubt.start == [0.0; 6] && doubt.keys.is_empty() {
             doubt.start = [DEFAULT_CLOUD; 6];
         }

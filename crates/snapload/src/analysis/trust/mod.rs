@@ -49,7 +49,7 @@ impl Doubt {
         }
     }
 
-    /// Adds the uncertainty of one key.
+    /// Sets the uncertainty of one key; 0 takes it back.
     ///
     /// # Errors
     /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is negative or
@@ -64,7 +64,9 @@ impl Doubt {
             self.start[component] = size;
         } else if UNCERTAIN_KEYS.contains(&key.name) {
             self.keys.retain(|(name, _)| *name != key.name);
-            self.keys.push((key.name, size));
+            if size > 0.0 {
+                self.keys.push((key.name, size));
+            }
         } else {
             let allowed = format!("no uncertainty: it is no quantity of the motion; {} are", {
                 let mut all = START_KEYS.to_vec();

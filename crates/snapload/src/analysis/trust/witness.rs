@@ -1,6 +1,6 @@
 //! Follows a run and keeps account of what is known of it.
 
-use super::losses::{Closing, loss, loss_at_start};
+use super::losses::{Closing, loss, loss_at_start, may_run_out_of_time};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
@@ -14,9 +14,6 @@ const MAGNIFIES: f64 = 100.0;
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 /// A component is taken to be no smaller than this: it is computed from others that are not.
 const LEAST: f64 = 0.25;
-
-/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
-const LOST: f64 = 1e30;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -54,30 +51,21 @@ impl Witness {
     pub fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
         let tangent = Tangent::new(simulation.system());
         let projection = tangent.of_start(simulation);
-        let mut spread = Spread {
-            covariance: [[0.0; 8]; 7],
-            columns: Vec::new(),
-        };
-        for (i, size) in start.iter().enumerate() {
-            spread.covariance[i][i] = uniform(*size).powi(2);
-        }
+        let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
+        let spread = Spread::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
         let horizon = loss_at_start(simulation, &spread).map(|loss| Horizon {
             t: simulation.time(),
             impact: 1,
             loss,
         });
-        spread.map_covariance(|block| {
-            let given = *block;
-            for (row, factors) in block.iter_mut().zip(&projection) {
-                *row = [0.0; 8];
-                for (factor, from) in factors.iter().zip(&given) {
-                    for (sum, entry) in row.iter_mut().zip(from) {
-                        *sum += factor * entry;
-                    }
-                }
+        let mut spread = spread.mapped(|w| {
+            let mut projected = *w;
+            for (component, row) in projected.iter_mut().zip(&projection) {
+                *component = row.iter().zip(w).map(|(p, w)| p * w).sum();
             }
+            projected
         });
-        spread.add_noise(&rounding(simulation.state()));
+        spread.add_noise(&rounding(simulation.state(), simulation.time()));
         Self {
             tolerance,
             tangent,
@@ -122,6 +110,7 @@ impl Witness {
         let closing = Closing::of(simulation, step, &map);
         self.note_graze(closing, &map);
         let error = if self.is_lost() {
+            self.lose(step, Loss::Tolerance);
             f64::INFINITY
         } else {
             self.carry(simulation, step, &map, closing)
@@ -132,8 +121,7 @@ impl Witness {
     /// Past an event that neighbours may not share, or with no digit left, nothing is known.
     fn is_lost(&self) -> bool {
         let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
-        let covariance = &self.spread.covariance;
-        other_events || (0..7).any(|i| covariance[i][i].is_nan() || covariance[i][i] >= LOST)
+        other_events || self.spread.is_lost()
     }
 
     /// Carries the spread through the step; returns the error at its event.
@@ -145,21 +133,25 @@ impl Witness {
         closing: Option<Closing>,
     ) -> f64 {
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
-        let stage = |i: usize| columns.iter().map(|column| column[i]).collect();
-        self.spread.map_covariance(|block| map.carry_along(block));
-        self.spread.columns = stage(0);
-        if let Some(loss) = loss(simulation, step, map, &self.spread, closing) {
+        let stage = |spread: &Spread, i: usize, f: &dyn Fn(&Deviation) -> Deviation| Spread {
+            columns: columns.iter().map(|column| column[i]).collect(),
+            ..spread.mapped(f)
+        };
+        let along = stage(&self.spread, 0, &|w| map.along(w));
+        if let Some(loss) = loss(simulation, step, map, &along, closing) {
             self.lose(step, loss);
         }
-        self.spread.map_covariance(|block| map.carry_to_meet(block));
-        self.spread.columns = stage(1);
-        let met = relative(&self.spread, &step.before, step.t_end);
-        self.spread.map_covariance(|block| map.carry_through(block));
-        self.spread.columns = stage(2);
-        let error = met.max(relative(&self.spread, &step.after, step.t_end));
-        self.spread.add_noise(&rounding(&step.after));
+        let met = stage(&along, 1, &|w| map.meet(w));
+        if may_run_out_of_time(simulation, step, &met) {
+            self.lose(step, Loss::StopRule);
+        }
+        let mut after = stage(&met, 2, &|w| map.through(w));
+        let error =
+            relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
+        after.add_noise(&rounding(&step.after, step.t_end));
+        self.spread = after;
         self.end_error = self.spread.of_component(6);
-        if error > self.tolerance {
+        if error > self.tolerance || self.spread.is_lost() {
             self.lose(step, Loss::Tolerance);
         }
         if self.is_lost() { f64::INFINITY } else { error }
@@ -254,14 +246,14 @@ fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
     let values = state.components().into_iter().chain([t]);
     values
         .enumerate()
-        .map(|(i, value)| spread.variance(i) / (value * value).max(1.0))
+        .map(|(i, value)| spread.of_component(i) / value.abs().max(1.0))
         .fold(0.0, f64::max)
-        .sqrt()
 }
 
-/// What rounding adds to a state in one step.
-fn rounding(state: &State) -> [f64; 6] {
-    state
+/// What rounding adds to a state and its time in one step.
+fn rounding(state: &State, t: f64) -> Deviation {
+    let [x, y, theta, vx, vy, vtheta] = state
         .components()
-        .map(|component| ROUNDING * component.abs().max(LEAST))
+        .map(|component| ROUNDING * component.abs().max(LEAST));
+    [x, y, theta, vx, vy, vtheta, ROUNDING * t]
 }
