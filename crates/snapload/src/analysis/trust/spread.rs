@@ -42,6 +42,9 @@ impl Spread {
 
     /// Adds independent noise to the components.
     pub(super) fn add_noise(&mut self, noise: &Deviation) {
+        if self.is_lost() {
+            return;
+        }
         // Fourteen parts, made seven again by turning them into each other (Householder's reflections), which
         // leaves the covariance as it is: component by component, all but one are rid of it. Noise of a later
         // component can not have it.
@@ -137,6 +140,11 @@ mod tests {
         }
         spread.add_noise(&[0.0; 7]);
         assert!(!spread.is_lost());
+        for size in [1e31, 1e200, f64::INFINITY, f64::NAN] {
+            let mut lost = Spread::along_components(&[size; 7]);
+            lost.add_noise(&noise);
+            assert!(lost.is_lost());
+        }
     }
 
     /// A direction that is known 1e12 times better than the others stays so, where a covariance has no digit left of it.
