@@ -43,26 +43,66 @@ impl Input {
 }
 
 /// A key and its value, with the place it came from for the error messages.
-struct Entry {
-    key: String,
-    value: Value,
+pub(crate) struct Entry {
+    pub(crate) key: String,
+    pub(crate) value: Value,
     origin: String,
 }
 
+/// What a command line gives before it is put together: keys of a case, each of them legal, and beside them
+/// what a file says that is no key of a case.
+pub(crate) struct Given {
+    /// Code or file name.
+    name: String,
+    /// The keys, of the built-in case first, then of the file, then of `--set`.
+    pub(crate) entries: Vec<Entry>,
+    /// The rest.
+    pub(crate) aside: toml::Table,
+}
+
 impl CaseArgs {
-    /// Reads and checks the case.
-    pub(crate) fn read(&self) -> Result<Input, Failure> {
-        let (name, mut entries) = match (&self.file, &self.case) {
-            (Some(path), _) => (path.display().to_string(), read_file(path)?),
-            (None, Some(code)) => (code.clone(), built_in(code)?),
-            (None, None) => ("standard case".to_owned(), Vec::new()),
+    /// The file, if there is one.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
+    /// Reads the keys. Those of `aside` are let through as they are, and `case` among them names the built-in
+    /// case that a file begins with.
+    pub(crate) fn given(&self, aside: &[&str]) -> Result<Given, Failure> {
+        let (name, file) = match (&self.file, &self.case) {
+            (Some(path), _) => (path.display().to_string(), read_file(path, aside)?),
+            (None, Some(code)) => (code.clone(), (built_in(code)?, toml::Table::new())),
+            (None, None) => ("standard case".to_owned(), Default::default()),
         };
+        let (mut entries, aside) = file;
+        match aside.get("case") {
+            None => {}
+            Some(toml::Value::String(code)) => {
+                let of_case = built_in(code)
+                    .map_err(|failure| failure.with_prefix(&format!("{name}: case = {code:?}")))?;
+                entries.splice(0..0, of_case);
+            }
+            Some(_) => {
+                let what = "case is the code of a built-in case, a text in quotes";
+                return Err(Failure::BadInput(format!("{name}: {what}")));
+            }
+        }
         for text in &self.set {
             entries.push(parse_set(text)?);
         }
         for Entry { key, value, origin } in &entries {
             check_entry(key, value).map_err(|e| Failure::BadInput(format!("{origin}: {e}")))?;
         }
+        Ok(Given {
+            name,
+            entries,
+            aside,
+        })
+    }
+
+    /// Reads and checks the case.
+    pub(crate) fn read(&self) -> Result<Input, Failure> {
+        let Given { name, entries, .. } = self.given(&[])?;
         let values = entries
             .iter()
             .map(|entry| (&entry.key, entry.value.clone()));
@@ -107,28 +147,28 @@ fn parse_set(text: &str) -> Result<Entry, Failure> {
         )));
     };
     let (key, value) = (key.trim(), value.trim());
-    let origin = "--set".to_owned();
-    if value.is_empty() {
-        let key = key_named(key).map_err(|error| Failure::BadInput(format!("--set: {error}")))?;
-        let error = key.refuse_text("(nothing)");
-        return Err(Failure::BadInput(format!("--set: {error}")));
-    }
-    // What is no TOML value is a bare word: right for `body=point`, else refused with its key.
-    let value = match value.parse::<toml::Value>() {
-        Ok(parsed) => {
-            from_toml(key, &parsed).map_err(|e| Failure::BadInput(format!("--set: {e}")))?
-        }
-        Err(_) => Value::Text(value.to_owned()),
-    };
+    let value = parse_value(key, value).map_err(|e| Failure::BadInput(format!("--set: {e}")))?;
     Ok(Entry {
         key: key.to_owned(),
         value,
-        origin,
+        origin: "--set".to_owned(),
     })
 }
 
+/// A value as it stands on a command line.
+pub(crate) fn parse_value(key: &str, text: &str) -> Result<Value, CaseError> {
+    if text.is_empty() {
+        return Err(key_named(key)?.refuse_text("(nothing)"));
+    }
+    // What is no TOML value is a bare word: right for `body=point`, else refused with its key.
+    match text.parse::<toml::Value>() {
+        Ok(parsed) => from_toml(key, &parsed),
+        Err(_) => Ok(Value::Text(text.to_owned())),
+    }
+}
+
 /// A TOML value as the value of a key; tables, lists and dates are refused.
-fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseError> {
+pub(crate) fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseError> {
     let what = match value {
         toml::Value::Float(number) => return Ok(Value::Number(*number)),
         toml::Value::Integer(number) => return Ok(Value::Integer(*number)),
@@ -141,18 +181,25 @@ fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseError> {
     Err(key_named(key)?.refuse_text(what))
 }
 
-fn read_file(path: &Path) -> Result<Vec<Entry>, Failure> {
+/// The keys of a file, and what it says under the names of `aside`.
+fn read_file(path: &Path, aside: &[&str]) -> Result<(Vec<Entry>, toml::Table), Failure> {
     let text = read_text(path)?;
     let shown = path.display();
     // Once for the values, once for the lines on which they stand.
-    let table: toml::Table = text
+    let mut table: toml::Table = text
         .parse()
         .map_err(|error: toml::de::Error| malformed(path, &text, &error))?;
     let spans = toml::de::DeTable::parse(&text)
         .map(toml::Spanned::into_inner)
         .unwrap_or_default();
     let mut entries = Vec::new();
+    let mut apart = toml::Table::new();
     for key in spans.keys() {
+        let name = key.get_ref().as_ref();
+        if aside.contains(&name) {
+            apart.extend(table.remove_entry(name));
+            continue;
+        }
         let start = key.span().start;
         let origin = format!("{shown}, line {}", line_of(&text, start));
         let Some(value) = table.get(key.get_ref().as_ref()) else {
@@ -171,7 +218,7 @@ fn read_file(path: &Path) -> Result<Vec<Entry>, Failure> {
     }
     // In the order of the file, so that the first fault in it is the one reported.
     entries.sort_by_key(|(start, _)| *start);
-    Ok(entries.into_iter().map(|(_, entry)| entry).collect())
+    Ok((entries.into_iter().map(|(_, entry)| entry).collect(), apart))
 }
 
 /// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated, since
@@ -271,7 +318,7 @@ mod tests {
         ) {
             let file = tempfile::NamedTempFile::new().expect("a scratch file");
             std::fs::write(file.path(), bytes).expect("a writable scratch file");
-            refused_in_words(read_file(file.path()))?;
+            refused_in_words(read_file(file.path(), &[]))?;
         }
     }
 }

@@ -1,14 +1,16 @@
 //! `snapload critical`: the smallest force amplitude at which the limits are exceeded, and all others.
 use crate::case_input::{CaseArgs, Input};
+use crate::doubt::DoubtArgs;
+use crate::exceedance::Probability;
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
-use crate::report::reason;
 use crate::stage::Stage;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::analysis::{CriticalForce, ForceScan};
 use snapload::{Value, key_named};
+use snapload_study::{Grid, reason};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -22,6 +24,8 @@ Examples:
       the standard case: 0.31
   snapload critical --case 2910001000-359 --set stop_when_sliding=true
       a built-in case, read as the chapter read it
+  snapload critical --ensemble 200 --max 0.5
+      how probable it is that each amplitude exceeds, where one run can not tell
   snapload critical --over e=0.5:1:51 --json - | jq -c '.points[] | [.value, .f_cr]'
       against the restitution, for the next program";
 
@@ -40,6 +44,11 @@ pub(crate) struct Args {
     /// Largest amplitude
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     max: f64,
+    /// Run N neighbours at each amplitude where one run can not tell, and give the probability of exceeding
+    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = clap::value_parser!(u32).range(1..))]
+    ensemble: Option<u32>,
+    #[command(flatten)]
+    doubt: DoubtArgs,
     /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
@@ -47,15 +56,26 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if args.doubt.is_given() && args.ensemble.is_none() {
+        return Err(Failure::bad_input(
+            "--uncertainty asks for neighbours, but none are to be run; add --ensemble N, such as --ensemble 200",
+        ));
+    }
     let input = args.case.read()?;
+    let doubt = args.doubt.read(&input.case)?;
     let scan = ForceScan::new(args.step, args.max)
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
     let mut stage = Stage::default();
     let json = Json::open(&mut stage, args.json.as_deref())?;
     let answer = match &args.over {
-        None => Answer::One(Row(
-            CriticalForce::scan(input.case.parameters(), scan).map_err(Failure::bad_input)?
-        )),
+        None => {
+            let parameters = input.case.parameters();
+            let row = Row(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
+            let curve = args.ensemble.map(|members| {
+                Probability::compute(parameters, scan, &doubt, members, args.doubt.seed())
+            });
+            Answer::One(row, curve.transpose()?)
+        }
         Some(over) => Answer::Many(Many::compute(&input, &Over::parse(over)?, scan)?),
     };
     let Some(written) = json.write(stage, &answer)? else {
@@ -75,7 +95,7 @@ struct Over {
 }
 
 /// The most values of another key.
-const MOST_VALUES: usize = 100_000;
+const MOST_VALUES: u64 = 100_000;
 
 impl Over {
     fn parse(text: &str) -> Result<Self, Failure> {
@@ -94,23 +114,23 @@ impl Over {
         let [from, to, count] = parts[..] else {
             return Err(wrong("three numbers are needed, first:last:how many"));
         };
-        let number = |text: &str| -> Result<f64, Failure> {
-            let parsed = text.parse().ok().filter(|n: &f64| n.is_finite());
-            parsed.ok_or_else(|| wrong(&format!("{text:?} is not a number")))
-        };
-        let (from, to) = (number(from)?, number(to)?);
         let count = count.parse().ok().filter(|n| (1..=MOST_VALUES).contains(n));
         let count = count.ok_or_else(|| wrong("n must be a whole number from 1 to 100000"))?;
-        let last = (count - 1).max(1) as f64;
-        let values = (0..count)
-            .map(|k| (from * (last - k as f64) + to * k as f64) / last)
-            .collect();
+        let grid = Grid::new(from, to, count).ok_or_else(|| {
+            let text = if Grid::new(from, from, 1).is_some() {
+                to
+            } else {
+                from
+            };
+            wrong(&format!("{text:?} is not a number"))
+        })?;
+        let values = (0..count).map(|k| grid.value(k)).collect();
         Ok(Self { key, values })
     }
 }
 
 enum Answer {
-    One(Row),
+    One(Row, Option<Probability>),
     Many(Many),
 }
 
@@ -171,7 +191,12 @@ impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         match self {
-            Self::One(row) => row.entries(&mut map)?,
+            Self::One(row, curve) => {
+                row.entries(&mut map)?;
+                if let Some(curve) = curve {
+                    curve.entries(&mut map)?;
+                }
+            }
             Self::Many(many) => {
                 map.serialize_entry("over", many.key)?;
                 let points: Vec<Point> = many.points.iter().map(Point).collect();
@@ -196,7 +221,7 @@ impl Serialize for Point<'_> {
 impl Answer {
     fn told(&self, name: &str, args: &Args) -> String {
         match self {
-            Self::One(row) => {
+            Self::One(row, curve) => {
                 let mut text = format!("Case      {name}\n");
                 let _ = match row.0.first {
                     Some(first) => writeln!(
@@ -209,6 +234,9 @@ impl Answer {
                     ),
                     None => writeln!(text, "Critical  none up to f_o = {}", args.max),
                 };
+                if let Some(curve) = curve {
+                    curve.told(&mut text);
+                }
                 text
             }
             Self::Many(many) => {

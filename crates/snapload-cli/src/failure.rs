@@ -1,4 +1,5 @@
 //! How a command fails, what it says then, and with which exit status.
+use snapload_study::StudyError;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -11,6 +12,8 @@ pub(crate) enum Failure {
     BadInput(String),
     /// Something broke on the way: exit status 1.
     Failed(String),
+    /// It was asked to stop, and did: exit status 130.
+    Interrupted(String),
     /// Whoever read our output has read enough; no failure at all.
     ReaderLeft,
 }
@@ -19,6 +22,17 @@ impl Failure {
     /// A request that can not be met.
     pub(crate) fn bad_input(message: impl Display) -> Self {
         Self::BadInput(message.to_string())
+    }
+
+    /// The same with words on where it is, or on what it is about, before its own.
+    pub(crate) fn with_prefix(self, prefix: &str) -> Self {
+        let before = |words: String| format!("{prefix}: {words}");
+        match self {
+            Self::BadInput(words) => Self::BadInput(before(words)),
+            Self::Failed(words) => Self::Failed(before(words)),
+            Self::Interrupted(words) => Self::Interrupted(before(words)),
+            Self::ReaderLeft => Self::ReaderLeft,
+        }
     }
 
     /// Output that could not be written.
@@ -39,6 +53,15 @@ impl Failure {
     }
 }
 
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Input(words) => Self::BadInput(words),
+            StudyError::Failed(words) => Self::Failed(words),
+        }
+    }
+}
+
 /// The system's words without its number: `No such file or directory`.
 pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
@@ -50,13 +73,14 @@ pub(crate) fn plain(error: &io::Error) -> String {
 
 /// Says what went wrong on standard error, and chooses the exit status.
 pub(crate) fn exit_code(result: Result<(), Failure>) -> ExitCode {
-    let (message, status) = match result {
+    let (kind, message, status) = match result {
         Ok(()) | Err(Failure::ReaderLeft) => return ExitCode::SUCCESS,
-        Err(Failure::BadInput(message)) => (message, 2),
-        Err(Failure::Failed(message)) => (message, 1),
+        Err(Failure::BadInput(message)) => ("error", message, 2),
+        Err(Failure::Failed(message)) => ("error", message, 1),
+        Err(Failure::Interrupted(message)) => ("interrupted", message, 130),
     };
     // Standard error may be closed too; the status still tells.
-    let _ = writeln!(io::stderr(), "error: {message}");
+    let _ = writeln!(io::stderr(), "{kind}: {message}");
     ExitCode::from(status)
 }
 

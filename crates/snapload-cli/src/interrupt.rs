@@ -1,6 +1,7 @@
 //! Ctrl-C, or a request to end: leave no scratch files, exit status 130.
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Directories to take away if the program is interrupted: scratch ones with all they hold, and
@@ -36,12 +37,38 @@ impl Leftovers {
     }
 }
 
+/// Whether a first interruption only asks to stop, as what is at work comes to a good end by itself.
+static GENTLE: AtomicBool = AtomicBool::new(false);
+/// Whether that was asked.
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// From here on the first interruption is for [`asked`] to tell; the second ends the program at once.
+pub(crate) fn be_gentle() {
+    GENTLE.store(true, Ordering::Relaxed);
+}
+
+/// Whether it is time to stop.
+pub(crate) fn asked() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
 /// Installs the handler; where that is not possible the system's own answer to Ctrl-C remains.
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
-        leftovers().clear();
+        let gentle = GENTLE.load(Ordering::Relaxed);
         // Standard error may be closed; the status still tells.
-        let _ = writeln!(std::io::stderr(), "interrupted: nothing was written");
+        if gentle && !ASKED.swap(true, Ordering::Relaxed) {
+            let words = "stopping after the cases at work; once more to stop at once";
+            let _ = writeln!(std::io::stderr(), "{words}");
+            return;
+        }
+        leftovers().clear();
+        let left = if gentle {
+            "what was saved is safe, and --resume goes on from there"
+        } else {
+            "nothing was written"
+        };
+        let _ = writeln!(std::io::stderr(), "interrupted: {left}");
         std::process::exit(130);
     });
 }

@@ -3,18 +3,25 @@ mod case_input;
 mod cases;
 mod completions;
 mod critical;
+mod doubt;
+mod exceedance;
 mod failure;
 mod interrupt;
 mod json;
 mod keys;
+mod merge;
 mod pictures;
 mod progress;
 mod report;
 mod reproduce;
 mod run;
 mod stage;
+mod study_input;
+mod study_picture;
 mod summary;
+mod sweep;
 mod tables;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -33,7 +40,10 @@ Examples:
   snapload run --set f_o=0.5                   the same with a stronger force
   snapload run --case 2910001000-359           a built-in case (list: snapload cases)
   snapload run mooring.toml --out results      a case of your own, with tables and pictures
+  snapload verify                              the same run with 76 digits beside it
   snapload critical --over e=0.5:1:11          critical force against restitution
+  snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
+                                               a map of 3060 cases
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -43,6 +53,12 @@ enum Verb {
     Run(run::Args),
     /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
     Critical(critical::Args),
+    /// Run one case again with many digits, and say where the ordinary run goes wrong
+    Verify(verify::Args),
+    /// Run a study: every case of a grid, of random points or of a list, a row each
+    Sweep(sweep::Args),
+    /// Join the parts of a study that was swept on several machines
+    Merge(merge::Args),
     /// Reproduce the chapter's tables, figures and claims as one report
     Reproduce(reproduce::Args),
     /// List the built-in cases
@@ -58,6 +74,9 @@ fn main() -> ExitCode {
     let result = match Cli::parse().verb {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
+        Verb::Verify(args) => verify::run(&args),
+        Verb::Sweep(args) => sweep::run(&args),
+        Verb::Merge(args) => merge::run(&args),
         Verb::Reproduce(args) => reproduce::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),

@@ -1,6 +1,6 @@
 //! The pictures of a run, as the files they become.
+use crate::doubt::Trusted;
 use crate::failure::Failure;
-use snapload::Trajectory;
 use snapload_figures::{FigureError, Plot, RunPlots, Width, draw};
 
 /// A picture, ready to be written.
@@ -15,9 +15,12 @@ pub(crate) struct Picture {
 const PNG_SCALE: f32 = 300.0 / 72.0;
 
 /// Draws the pictures of a run; `title` is the code or the file name of the case.
-pub(crate) fn pictures(title: &str, trajectory: &Trajectory) -> Result<Vec<Picture>, Failure> {
+pub(crate) fn pictures(title: &str, trusted: &Trusted) -> Result<Vec<Picture>, Failure> {
     let mut files = Vec::new();
-    for (name, plot) in RunPlots::new(trajectory).all() {
+    for (name, plot) in RunPlots::new(&trusted.run)
+        .with_horizon(trusted.horizon())
+        .all()
+    {
         let plot = Plot {
             title: title.to_owned(),
             ..plot

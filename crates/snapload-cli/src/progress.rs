@@ -51,6 +51,35 @@ impl Progress {
     }
 }
 
+/// Counts what is done of many, from any thread, with the rate and the time left.
+pub(crate) struct Counter(ProgressBar);
+
+impl Counter {
+    /// Of so many, some of which were there before.
+    pub(crate) fn new(what: &'static str, all: u64, before: u64) -> Self {
+        let style = ProgressStyle::with_template(
+            "{msg} {bar:30} {human_pos} of {human_len}, {per_sec:0}, {eta} left",
+        );
+        let bar = ProgressBar::new(all)
+            .with_message(what)
+            .with_position(before);
+        let bar = bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.reset_eta();
+        Self(bar)
+    }
+
+    /// One more.
+    pub(crate) fn one(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Counter {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
+
 impl Drop for Progress {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {

@@ -1,17 +1,21 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
+use crate::doubt::{OutcomeRow, TrustRow, Trusted};
 use crate::progress::Progress;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use snapload::{
-    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Stop, Trajectory, Value,
+    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
 };
+use snapload_study::reason;
 
 /// Everything there is to say about a run.
 #[derive(Serialize)]
 pub(crate) struct Report<'a> {
     case: CaseEcho<'a>,
     end: EndRow,
-    impacts: Rows<'a, Impact, ImpactRow>,
+    outcome: OutcomeRow,
+    trust: TrustRow<'a>,
+    impacts: ImpactRows<'a>,
     modes: Rows<'a, ModeInterval, ModeRow>,
     norms: NormsRow,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -22,9 +26,10 @@ impl<'a> Report<'a> {
     /// The report of a run, with the motion sampled if asked for.
     pub(crate) fn new(
         parameters: &'a Parameters,
-        trajectory: &'a Trajectory,
+        trusted: &'a Trusted,
         sampling: Option<Sampling>,
     ) -> Self {
+        let trajectory = &trusted.run;
         let end = trajectory.end();
         Self {
             case: CaseEcho(parameters),
@@ -33,7 +38,9 @@ impl<'a> Report<'a> {
                 t: end.t,
                 t_limit: end.t_limit,
             },
-            impacts: Rows(trajectory.impacts(), ImpactRow::new),
+            outcome: OutcomeRow::new(trusted),
+            trust: TrustRow::new(trusted),
+            impacts: ImpactRows(trusted),
             modes: Rows(trajectory.modes(), ModeRow::new),
             norms: NormsRow::new(trajectory.norms()),
             motion: sampling.map(|sampling| MotionRows {
@@ -41,18 +48,6 @@ impl<'a> Report<'a> {
                 sampling,
             }),
         }
-    }
-}
-
-/// The name of a reason to stop.
-pub(crate) fn reason(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Settled => "settled",
-        Stop::RotationLimit => "rotation_limit",
-        Stop::UpperBound => "upper_bound",
-        Stop::SlidingStart => "sliding_start",
-        Stop::EndTime => "end_time",
-        Stop::ImpactLimit => "impact_limit",
     }
 }
 
@@ -91,6 +86,17 @@ impl<T, R: Serialize> Serialize for Rows<'_, T, R> {
     }
 }
 
+/// The impacts with the digits that are known of each.
+struct ImpactRows<'a>(&'a Trusted);
+
+impl Serialize for ImpactRows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Trusted { run, trust, .. } = self.0;
+        let rows = run.impacts().iter().zip(trust.digits());
+        serializer.collect_seq(rows.map(|(impact, digits)| ImpactRow::new(impact, digits)))
+    }
+}
+
 #[derive(Serialize)]
 struct ImpactRow {
     t: f64,
@@ -100,10 +106,11 @@ struct ImpactRow {
     energy_lost: f64,
     before: [f64; 6],
     after: [f64; 6],
+    digits: f64,
 }
 
 impl ImpactRow {
-    fn new(impact: &Impact) -> Self {
+    fn new(impact: &Impact, digits: f64) -> Self {
         Self {
             t: impact.t,
             cable: impact.cable + 1,
@@ -112,20 +119,14 @@ impl ImpactRow {
             energy_lost: impact.energy_lost,
             before: components(&impact.before),
             after: components(&impact.after),
+            digits,
         }
     }
 }
 
 /// x, y, theta, vx, vy, vtheta.
 pub(crate) fn components(state: &State) -> [f64; 6] {
-    [
-        state.x,
-        state.y,
-        state.theta,
-        state.vx,
-        state.vy,
-        state.vtheta,
-    ]
+    state.components()
 }
 
 #[derive(Serialize)]

@@ -1,9 +1,9 @@
 //! `snapload run`: one case, from its start to its end.
 use crate::case_input::{CaseArgs, Input};
+use crate::doubt::{DoubtArgs, EnsembleArgs, Trusted};
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory, to_line};
 use crate::pictures::pictures;
-use crate::progress::Progress;
 use crate::report::{MOST_ROWS, Report, Sampling};
 use crate::stage::{Room, Stage};
 use crate::{summary, tables};
@@ -20,6 +20,8 @@ Examples:
       a point mass that starts higher
   snapload run mooring.toml --out results --sample 0.01
       a case of your own: tables, pictures and run.json in the directory results
+  snapload run --set f_o=0.5 --uncertainty 1e-3 --uncertainty f_o=0.01
+      how far it can be trusted if the start is known to 1e-3 and the force to 0.01
   snapload run --json - --sample 0.1 | jq .norms
       everything as JSON, for the next program";
 
@@ -35,6 +37,10 @@ pub(crate) struct Args {
     /// Write tables (CSV), run.json and pictures into a directory, created if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    doubt: DoubtArgs,
+    #[command(flatten)]
+    ensemble: EnsembleArgs,
     /// Time step of the motion in --json and --out
     #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
     sample: Option<f64>,
@@ -49,31 +55,22 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let input = args.case.read()?;
     let mut outputs = Outputs::open(args)?;
-    let trajectory = simulate(&input);
-    let sampling = args
-        .sample
-        .map(|dt| sampling(dt, &trajectory))
-        .transpose()?;
-    let report = Report::new(input.case.parameters(), &trajectory, sampling);
+    let trusted = Trusted::run(&input.case, &args.doubt, &args.ensemble)?;
+    let trajectory = &trusted.run;
+    let sampling = args.sample.map(|dt| sampling(dt, trajectory)).transpose()?;
+    let report = Report::new(input.case.parameters(), &trusted, sampling);
 
     if let Some((room, directory)) = outputs.directory.take() {
         let stage = &mut outputs.stage;
-        write_directory(stage, room, &directory, &input, &trajectory, sampling)?;
+        write_directory(stage, room, &directory, &input, &trusted, sampling)?;
         stage.write(room, directory.join("run.json"), |out| {
             to_line(&report, out)
         })?;
     }
     match outputs.json.write(outputs.stage, &report)? {
-        Some(written) => print(&summary::of(&input, &trajectory, &written)),
+        Some(written) => print(&summary::of(&input, &trusted, &written)),
         None => Ok(()),
     }
-}
-
-fn simulate(input: &Input) -> Trajectory {
-    let mut progress = Progress::new("running", input.case.parameters().t_end);
-    Trajectory::record_watched(input.case.simulation(), |simulation, _| {
-        progress.at(simulation.time());
-    })
 }
 
 /// A time step, as clap reads it.
@@ -133,13 +130,14 @@ fn write_directory(
     room: Room,
     directory: &Path,
     input: &Input,
-    trajectory: &Trajectory,
+    trusted: &Trusted,
     sampling: Option<Sampling>,
 ) -> Result<(), Failure> {
+    let trajectory = &trusted.run;
     let sampling = sampling.unwrap_or_else(|| Sampling::thousand(trajectory.end().t));
     let place = |name: &str| directory.join(name);
     stage.write(room, place("impacts.csv"), |out| {
-        tables::impacts(trajectory, out)
+        tables::impacts(trusted, out)
     })?;
     stage.write(room, place("modes.csv"), |out| {
         tables::modes(trajectory, out)
@@ -147,7 +145,7 @@ fn write_directory(
     stage.write(room, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
-    for picture in pictures(&summary::case(input), trajectory)? {
+    for picture in pictures(&summary::case(input), trusted)? {
         stage.write(room, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;

@@ -68,6 +68,19 @@ impl Stage {
         Ok(())
     }
 
+    /// The same for a writer that wants to know the scratch file's name, and brings it to the disk itself.
+    pub(crate) fn place(
+        &mut self,
+        room: Room,
+        target: PathBuf,
+        fill: impl FnOnce(&Path) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let scratch = self.scratch[room.0].join(self.files.len().to_string());
+        fill(&scratch)?;
+        self.files.push((scratch, target));
+        Ok(())
+    }
+
     /// Puts every file in its place and says where they are.
     pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, Failure> {
         let mut leftovers = leftovers();

@@ -1,5 +1,6 @@
 //! A run in a few lines, for a person.
 use crate::case_input::Input;
+use crate::doubt::{Trusted, outcome_in_words, trust_in_words};
 use snapload::{Impact, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -8,7 +9,8 @@ use std::path::PathBuf;
 const FEW_MODES: usize = 6;
 
 /// The summary, with the files that were written.
-pub(crate) fn of(input: &Input, trajectory: &Trajectory, written: &[PathBuf]) -> String {
+pub(crate) fn of(input: &Input, trusted: &Trusted, written: &[PathBuf]) -> String {
+    let trajectory = &trusted.run;
     let mut lines = Lines(String::new());
     lines.add("Case", &case(input));
     lines.add("End", &end(trajectory, input.case.parameters()));
@@ -18,6 +20,8 @@ pub(crate) fn of(input: &Input, trajectory: &Trajectory, written: &[PathBuf]) ->
             &format!("the impacts accumulate at t = {}", digits(limit)),
         );
     }
+    lines.add("Outcome", &outcome_in_words(trusted));
+    lines.add("Trust", &trust_in_words(trusted));
     lines.add("Impacts", &impacts(trajectory.impacts()));
     if let Some(hardest) = hardest(trajectory.impacts()) {
         lines.add("Hardest", &hardest);
@@ -40,12 +44,18 @@ pub(crate) fn of(input: &Input, trajectory: &Trajectory, written: &[PathBuf]) ->
     lines.0
 }
 
+/// A text of several lines, of which the later ones stand below the first.
+pub(crate) fn indented(text: &str) -> String {
+    text.replace('\n', "\n          ")
+}
+
 /// Lines with a label in front.
 struct Lines(String);
 
 impl Lines {
+    /// A text of several lines stands below itself.
     fn add(&mut self, label: &str, text: &str) {
-        let _ = writeln!(self.0, "{label:<9} {text}");
+        let _ = writeln!(self.0, "{label:<9} {}", indented(text));
     }
 }
 

@@ -1,10 +1,11 @@
 //! The tables of a run as CSV: the columns carry the names of the JSON.
+use crate::doubt::Trusted;
 use crate::report::{MotionRow, Sampling, components};
 use serde::Serialize;
 use snapload::{Playback, Trajectory};
 use std::io::{self, Write};
 
-const IMPACTS: [&str; 17] = [
+const IMPACTS: [&str; 18] = [
     "t",
     "cable",
     "v_n",
@@ -22,6 +23,7 @@ const IMPACTS: [&str; 17] = [
     "after_vx",
     "after_vy",
     "after_vtheta",
+    "digits",
 ];
 const MODES: [&str; 4] = ["mode", "taut", "t_start", "t_end"];
 const MOTION: [&str; 10] = [
@@ -29,8 +31,9 @@ const MOTION: [&str; 10] = [
 ];
 
 /// `impacts.csv`: one row an impact and cable.
-pub(crate) fn impacts(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
-    let rows = trajectory.impacts().iter().map(|impact| {
+pub(crate) fn impacts(trusted: &Trusted, out: &mut dyn Write) -> io::Result<()> {
+    let impacts = trusted.run.impacts().iter().zip(trusted.trust.digits());
+    let rows = impacts.map(|(impact, digits)| {
         let scalars = (
             impact.t,
             impact.cable + 1,
@@ -42,6 +45,7 @@ pub(crate) fn impacts(trajectory: &Trajectory, out: &mut dyn Write) -> io::Resul
             scalars,
             components(&impact.before),
             components(&impact.after),
+            digits,
         )
     });
     write(&IMPACTS, rows, out)

@@ -256,6 +256,14 @@ fn value(json: &Value, key: &str, shown: &str) -> String {
             .any(|[p, q]| (*p..=*q).contains(&published));
         return if within { "yes" } else { "no" }.to_owned();
     }
+    if let Some(rest) = key.strip_prefix("all(.probability[]; .f_o > ") {
+        let published: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+        let points = json["probability"].as_array().unwrap().iter();
+        let agree = points
+            .filter(|point| point["f_o"].as_f64().unwrap() <= published)
+            .all(|point| point["part"] == 0.0 || point["part"] == 1.0);
+        return if agree { "yes" } else { "no" }.to_owned();
+    }
     if key == ".exceeding" {
         let range = |[p, q]: &[f64; 2]| {
             if p == q {

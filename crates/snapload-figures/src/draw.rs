@@ -11,17 +11,17 @@ use crate::svg::{Anchor, FRAME, Sheet};
 use crate::text::{CAP_HEIGHT, plain, width};
 
 /// The size of the labels of axes, in points.
-const LABEL: f64 = 8.0;
+pub(crate) const LABEL: f64 = 8.0;
 /// The length of a tick.
-const TICK: f64 = 2.5;
+pub(crate) const TICK: f64 = 2.5;
 /// From a tick to its number.
-const GAP: f64 = 2.0;
+pub(crate) const GAP: f64 = 2.0;
 /// The white rim of the page.
-const RIM: f64 = 2.0;
+pub(crate) const RIM: f64 = 2.0;
 /// From one panel to the next.
 const BETWEEN: f64 = 6.0;
 /// The height of a line of small text.
-const ROW: f64 = 10.0;
+pub(crate) const ROW: f64 = 10.0;
 
 /// Draws plots one below the other, with one x axis for all.
 ///
@@ -186,7 +186,7 @@ fn draw_header(
     top + 2.5
 }
 
-fn draw_y_axis(sheet: &mut Sheet, plot: &Plot, area: &Area) {
+pub(crate) fn draw_y_axis(sheet: &mut Sheet, plot: &Plot, area: &Area) {
     let left = area.rect.left;
     for (value, text) in ticks(plot.y.ticks, area.y).at {
         let [_, y] = area.to_page([area.x.0, value]);
@@ -200,7 +200,7 @@ fn draw_y_axis(sheet: &mut Sheet, plot: &Plot, area: &Area) {
 }
 
 /// Ticks and, for the lowest panel, numbers and label; returns where the page may end.
-fn draw_x_axis(sheet: &mut Sheet, plot: &Plot, area: &Area, numbered: bool) -> f64 {
+pub(crate) fn draw_x_axis(sheet: &mut Sheet, plot: &Plot, area: &Area, numbered: bool) -> f64 {
     let bottom = area.rect.bottom();
     let Ticks { at, factor } = ticks(plot.x.ticks, area.x);
     let numbers_at = bottom + TICK + GAP + CAP_HEIGHT * SMALL;

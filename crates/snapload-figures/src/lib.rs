@@ -4,7 +4,8 @@
 //! ([`RunPlots`]) that tells it where they are. Five functions
 //! ([`trajectory`], [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a
 //! [`Plot`]; [`draw()`] puts one plot, or several over one another, on a [`Picture`] that gives
-//! itself as SVG and, from that very SVG, as PNG.
+//! itself as SVG and, from that very SVG, as PNG. A [`Map`], drawn by [`draw_map()`], shows a number or a
+//! class over two axes.
 //!
 //! ```
 //! use snapload_figures::{Plot, Width, draw, rotation};
@@ -40,17 +41,20 @@ mod draw;
 mod error;
 mod figures;
 mod legend;
+mod map;
 mod picture;
 mod place;
 mod plot;
 mod polyline;
 mod run;
+mod scale;
 mod svg;
 mod text;
 
 pub use draw::draw;
 pub use error::FigureError;
 pub use figures::{Leg, Mode, energy, rotation, snap_velocities, tensions, trajectory};
+pub use map::{Cell, Map, draw_map};
 pub use picture::Picture;
 pub use plot::{
     Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,

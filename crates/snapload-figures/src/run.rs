@@ -15,6 +15,7 @@ const SHORTEST: f64 = 2e-3;
 pub struct RunPlots<'a> {
     run: &'a Trajectory,
     stretches: Vec<Stretch>,
+    horizon: Option<f64>,
 }
 
 /// A stretch of motion between two events, at the times at which it is drawn: its last one is just
@@ -55,7 +56,16 @@ impl<'a> RunPlots<'a> {
             }
         });
         let stretches = stretches.collect();
-        Self { run, stretches }
+        Self {
+            run,
+            stretches,
+            horizon: None,
+        }
+    }
+
+    /// With what lies past a time, from which on the motion can not be trusted, drawn as such.
+    pub fn with_horizon(self, horizon: Option<f64>) -> Self {
+        Self { horizon, ..self }
     }
 
     /// y against x, with the region's boundaries and the letters of chapter Figs 6.43 and 6.45: I start,
@@ -64,7 +74,9 @@ impl<'a> RunPlots<'a> {
     pub fn trajectory(&self) -> Plot {
         let mut legs: Vec<Leg> = Vec::new();
         for stretch in &self.stretches {
+            let begins = stretch.motion.first().map_or(0.0, |motion| motion.t);
             let mode = match stretch.taut.len() {
+                _ if self.horizon.is_some_and(|horizon| begins >= horizon) => Mode::BeyondHorizon,
                 0 => Mode::Slack,
                 1 => Mode::Sliding,
                 _ => Mode::Rocking,
@@ -86,7 +98,7 @@ impl<'a> RunPlots<'a> {
     pub fn rotation(&self) -> Plot {
         self.over_whole_run(figures::rotation(
             &self.points(|m| [m.t, m.state.theta]),
-            None,
+            self.horizon,
         ))
     }
 
@@ -99,18 +111,21 @@ impl<'a> RunPlots<'a> {
                 .map(|impact| [impact.t, impact.v_n])
                 .collect()
         });
-        self.over_whole_run(figures::snap_velocities([&first, &second], None))
+        self.over_whole_run(figures::snap_velocities([&first, &second], self.horizon))
     }
 
     /// Tensions against t.
     pub fn tensions(&self) -> Plot {
         let [first, second] = [0, 1].map(|cable| self.tension_pieces(cable));
-        self.over_whole_run(figures::tensions([&first, &second], None))
+        self.over_whole_run(figures::tensions([&first, &second], self.horizon))
     }
 
     /// Energy against t.
     pub fn energy(&self) -> Plot {
-        self.over_whole_run(figures::energy(&self.points(|m| [m.t, m.energy]), None))
+        self.over_whole_run(figures::energy(
+            &self.points(|m| [m.t, m.energy]),
+            self.horizon,
+        ))
     }
 
     /// All five with their names.

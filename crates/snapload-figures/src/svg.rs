@@ -38,6 +38,17 @@ pub(crate) enum Anchor {
     End,
 }
 
+/// What fills a cell of a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Fill {
+    /// Red, green and blue.
+    Colour([u8; 3]),
+    /// Light grey.
+    Blank,
+    /// Grey lines, told from every colour in print, too.
+    Hatch,
+}
+
 /// What has been drawn so far.
 #[derive(Debug, Default)]
 pub(crate) struct Sheet {
@@ -100,6 +111,33 @@ impl Sheet {
     /// A light grey background.
     pub(crate) fn shade(&mut self, rect: &Rect) {
         self.push(format_args!("<rect {} fill=\"{SHADE}\"/>", box_of(rect)));
+    }
+
+    /// The lines of [`Fill::Hatch`].
+    pub(crate) fn define_hatch(&mut self) {
+        self.push(format_args!(
+            "<pattern id=\"hatch\" width=\"3\" height=\"3\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">\
+             <rect width=\"3\" height=\"3\" fill=\"#fff\"/><rect width=\"1\" height=\"3\" fill=\"#666\"/></pattern>"
+        ));
+    }
+
+    /// One path for rectangles of one fill, without seams between neighbours.
+    pub(crate) fn rects(&mut self, rects: &[Rect], fill: Fill) {
+        let mut d = String::new();
+        for rect in rects {
+            let (left, right) = (number(rect.left), number(rect.left + rect.width));
+            let (top, bottom) = (number(rect.top), number(rect.top + rect.height));
+            // Places and no lengths: what two share is rounded alike.
+            d.push_str(&format!("M{left} {top}H{right}V{bottom}H{left}z"));
+        }
+        let paint = match fill {
+            Fill::Colour([r, g, b]) => format!("#{r:02x}{g:02x}{b:02x}"),
+            Fill::Blank => SHADE.to_string(),
+            Fill::Hatch => "url(#hatch)".to_string(),
+        };
+        self.push(format_args!(
+            "<path d=\"{d}\" fill=\"{paint}\" shape-rendering=\"crispEdges\"/>"
+        ));
     }
 
     /// The frame of a plot.

@@ -1,6 +1,6 @@
 //! What makes a number of the report again: a command, and where in its JSON the number stands.
 
-use crate::study::{CriticalRow, Reading};
+use crate::study::{CriticalRow, NEIGHBOURS, Reading};
 
 /// A number (or a word) of the report, with what makes it again.
 #[derive(Clone, Debug)]
@@ -22,10 +22,19 @@ pub(crate) fn run(code: &str, reading: Reading) -> String {
 
 /// The command that prints the critical force of a row of Table 6.2 as JSON.
 pub(crate) fn critical(row: &CriticalRow, reading: Reading) -> String {
-    let [a, b] = row.size;
+    format!("{} --json -", scan(row, reading))
+}
+
+/// The command that prints how many of its neighbours exceed.
+pub(crate) fn probability(row: &CriticalRow, reading: Reading) -> String {
+    let (scan, max) = (scan(row, reading), row.looked_up_to());
+    format!("{scan} --max {max} --ensemble {NEIGHBOURS} --json -")
+}
+
+fn scan(row: &CriticalRow, reading: Reading) -> String {
+    let ([a, b], r) = (row.size, row.r);
     format!(
-        "snapload critical --set r={} --set a={a} --set b={b}{} --json -",
-        row.r,
+        "snapload critical --set r={r} --set a={a} --set b={b}{}",
         reading.option()
     )
 }

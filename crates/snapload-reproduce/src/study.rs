@@ -1,7 +1,7 @@
 //! Every run that the report needs, each computed once.
 
 use rayon::prelude::*;
-use snapload::analysis::{CriticalForce, ForceScan, Outcome};
+use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan, Outcome};
 use snapload::{
     Case, CaseError, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
 };
@@ -94,13 +94,39 @@ pub struct CriticalRow {
     pub published: f64,
     /// The computed ones, with all amplitudes that exceed.
     pub computed: Both<CriticalForce>,
+    /// How many of [`NEIGHBOURS`] exceed, at amplitudes up to [`CriticalRow::looked_up_to`].
+    pub probable: Both<ExceedanceCurve>,
 }
+
+/// Neighbours of each run of Table 6.2, 1e-12 away at the most.
+pub const NEIGHBOURS: u32 = 20;
 
 impl CriticalRow {
     /// The body with all else as in the standard case.
     pub fn parameters(&self) -> Parameters {
         of_shape(self.r, self.size)
     }
+
+    /// The larger of the published critical force and the computed ones.
+    pub fn looked_up_to(&self) -> f64 {
+        looked_up_to(self.published, &self.computed)
+    }
+
+    /// Whether arithmetic in doubles can decide the published value: at no amplitude up to it neighbours
+    /// disagree.
+    pub fn decidable(&self, reading: Reading) -> bool {
+        let points = self.probable.of(reading).points.iter();
+        points
+            .filter(|point| point.f_o <= self.published)
+            .all(|point| point.share.count == 0 || point.share.count == point.share.of)
+    }
+}
+
+fn looked_up_to(published: f64, computed: &Both<CriticalForce>) -> f64 {
+    Reading::BOTH
+        .into_iter()
+        .filter_map(|reading| computed.of(reading).first)
+        .fold(published, |largest, first| largest.max(first.f_o))
 }
 
 /// The standard case with another body and cables.
@@ -251,13 +277,26 @@ fn critical_row(
     &(r, shape, a, b, published): &(f64, &'static str, f64, f64, f64),
 ) -> Result<CriticalRow, CaseError> {
     let parameters = of_shape(r, [a, b]);
+    let computed = Both::try_new(|reading| {
+        CriticalForce::scan(&reading.apply(parameters), ForceScan::default())
+    })?;
+    let scan = ForceScan::new(0.01, looked_up_to(published, &computed))?;
+    let doubt = Doubt::default();
     Ok(CriticalRow {
         r,
         shape,
         size: [a, b],
         published,
-        computed: Both::try_new(|reading| {
-            CriticalForce::scan(&reading.apply(parameters), ForceScan::default())
+        computed,
+        probable: Both::try_new(|reading| {
+            ExceedanceCurve::scan(
+                &reading.apply(parameters),
+                scan,
+                &doubt,
+                NEIGHBOURS,
+                1,
+                |_| {},
+            )
         })?,
     })
 }

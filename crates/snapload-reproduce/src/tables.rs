@@ -91,17 +91,26 @@ pub fn intervals(computed: &CriticalForce) -> String {
     all.join("; ")
 }
 
+/// The parts of the neighbours at which it is told from which amplitude on they exceed: name, part.
+pub const LEVELS: [(&str, f64); 3] = [("p05", 0.05), ("p50", 0.5), ("p95", 0.95)];
+
+/// The amplitude from which on such a part of the neighbours exceeds; nothing where none does.
+fn probable(row: &CriticalRow, reading: Reading, level: f64) -> String {
+    let passes = row.probable.of(reading).passes(level);
+    passes.map_or(String::new(), |f_o| f_o.to_string())
+}
+
 /// Table 6.2, computed beside published, in both readings.
 pub fn csv_6_2(study: &Study) -> String {
     let mut text = String::from(
-        "r,shape,a,b,published,reading,computed,difference,published_exceeds,exceeding\n",
+        "r,shape,a,b,published,reading,computed,difference,published_exceeds,p05,p50,p95,decidable,exceeding\n",
     );
     for row in &study.critical {
         for reading in Reading::BOTH {
             let found = row.computed.of(reading);
             let first = found.first.map(|first| first.f_o);
             text.push_str(&format!(
-                "{},{},{},{},{},{},{},{},{},{}\n",
+                "{},{},{},{},{},{},{},{},{},{},{},{}\n",
                 row.r,
                 row.shape,
                 row.size[0],
@@ -111,6 +120,10 @@ pub fn csv_6_2(study: &Study) -> String {
                 first.map_or(String::new(), |f| f.to_string()),
                 first.map_or(String::new(), |f| format!("{:.2}", f - row.published)),
                 published_exceeds(row, found),
+                LEVELS
+                    .map(|(_, level)| probable(row, reading, level))
+                    .join(","),
+                row.decidable(reading),
                 intervals(found)
             ));
         }

@@ -116,6 +116,28 @@ impl<T: Real> Cable<T> {
         (self.gap_moved(moved), error)
     }
 
+    /// The constraint's direction, and how its entries n_x, n_y and s change with x, y and θ:
+    /// ∂n = (δP)/r, ∂s = δρ × n + ρ × ∂n, as P moves by (δx, δy) and by δθ about the centre.
+    pub(crate) fn normal_and_slopes(&self, state: &State<T>) -> (Normal<T>, [[T; 3]; 3]) {
+        let (sine, cosine) = state.theta.sin_cos();
+        let lever = self.lever(sine, cosine);
+        let span = self.span(state);
+        let n = [span[0] / self.length, span[1] / self.length];
+        let normal = Normal {
+            n,
+            arm: lever[0] * n[1] - lever[1] * n[0],
+        };
+        let (along, across) = (lever[0] / self.length, lever[1] / self.length);
+        let stretch = T::ONE / self.length;
+        let turning = lever[0] * along + lever[1] * across - dot(n, lever);
+        let slopes = [
+            [stretch, T::ZERO, -across],
+            [T::ZERO, stretch, along],
+            [-across, along, turning],
+        ];
+        (normal, slopes)
+    }
+
     /// The constraint's direction; meant where the gap is closed, so that n has unit length.
     pub fn normal(&self, state: &State<T>) -> Normal<T> {
         let turn = Turn::by(state.theta);

@@ -60,8 +60,12 @@ impl Case {
     ) -> Result<Simulation<T>, StartError> {
         let p = &self.parameters;
         let mut numbers = p.map(number);
-        if p.inertia.is_some() && p.inertia == natural_inertia(p.a, p.b) {
-            numbers.inertia = natural_inertia(numbers.a, numbers.b);
+        if let (Some(inertia), Some(given)) = (p.inertia, numbers.inertia)
+            && p.inertia == natural_inertia(p.a, p.b)
+        {
+            // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
+            let beyond = given - T::from_decimal(inertia);
+            numbers.inertia = natural_inertia(numbers.a, numbers.b).map(|natural| natural + beyond);
         }
         begin(&numbers)
     }

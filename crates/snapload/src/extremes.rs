@@ -51,12 +51,11 @@ impl<T: Real> Extremes<T> {
     }
 }
 
-/// The highest point above `floor` that a search for one inside \[0, s\] comes across, on a function with
-/// |f̈| ≤ `bend`; none if there is no maximum above the floor.
-pub(crate) fn peak<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T, floor: T) -> Option<T> {
-    let mut record = floor;
+/// Whether a function with |f̈| ≤ `bend` has a maximum above zero inside \[0, s\].
+pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T) -> bool {
+    let mut record = T::ZERO;
     search(f, (T::ZERO, f(T::ZERO)), (s, f(s)), bend, bend, &mut record);
-    (record > floor).then_some(record)
+    record > T::ZERO
 }
 
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by

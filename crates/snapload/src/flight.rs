@@ -123,13 +123,6 @@ impl<T: Real> Flight<T> {
         self.tethers[cable].gap
     }
 
-    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| over the first `s` of the flight.
-    pub(crate) fn gap_bend(&self, cable: usize, s: T) -> T {
-        let tether = &self.tethers[cable];
-        let speed = length(tether.velocity) + tether.bounds[0] * s;
-        (speed * speed + tether.length * tether.bounds[0]) * 2.0
-    }
-
     /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.
     ///
     /// |P − A| ≤ r holds up to the first crossing, which is all that the bound is used for. |Ṗ| grows

@@ -3,9 +3,9 @@
 use super::{Simulation, Step};
 use crate::State;
 use crate::contact::Contact;
-use crate::extremes::peak;
+use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
-use crate::real::Real;
+use crate::real::{Real, length};
 use std::borrow::Cow;
 
 /// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
@@ -51,22 +51,52 @@ impl<T: Real> Simulation<T> {
         self.contacts[cable].gap
     }
 
-    /// The closest that a slack cable came to being taut within the latest step without reaching it: the
-    /// largest gap there, if it is above `floor` < 0.
-    pub(crate) fn closest_approach(&self, step: &Step<T>, cable: usize, floor: T) -> Option<T> {
+    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
+    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
+    /// grows from nothing.
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
-        if step.taut.is_empty() {
-            let flight = self.flown();
-            let bend = flight.gap_bend(cable, s);
-            let ends = flight.gap_at_start(cable).max(self.gap(cable));
-            if ends + bend * s * s * 0.125 < floor {
-                return None;
-            }
-            peak(&|s| flight.gap_and_rate(cable, s), s, bend, floor)
-        } else {
-            let bend = self.series.gap_bend(cable);
-            peak(&|s| self.series.gap_and_rate(cable, s), s, bend, floor)
+        if s <= T::ZERO {
+            return false;
         }
+        let free = step.taut.is_empty();
+        let (bend, first) = match &self.departure {
+            _ if !free => (
+                self.series.gap_bend(cable),
+                self.series.gap_and_rate(cable, T::ZERO).0,
+            ),
+            Some(from) => (self.gap_bend(step, cable), from.gaps[cable][0]),
+            None => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+        };
+        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
+            return false;
+        }
+        let (offset, slope) = if first < T::ZERO {
+            (margin, T::ZERO)
+        } else {
+            (T::ZERO, margin / s)
+        };
+        let flight = self.flown();
+        let nearness = |s: T| {
+            let (gap, rate) = if free {
+                flight.gap_and_rate(cable, s)
+            } else {
+                self.series.gap_and_rate(cable, s)
+            };
+            (gap + offset + slope * s, rate + slope)
+        };
+        rises_above_zero(&nearness, s, bend)
+    }
+
+    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
+        let tether = &self.system.cables[cable];
+        let (start, reach) = (&step.start, length(tether.fairlead()));
+        let spin = start.vtheta.abs();
+        let accel = self.system.forcing.bounds()[0] + spin * spin * reach;
+        let s = step.t_end - step.t_start;
+        let speed = length([start.vx, start.vy]) + spin * reach + accel * s;
+        (speed * speed + tether.length() * accel) * 2.0
     }
 
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.

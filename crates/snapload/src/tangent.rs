@@ -16,10 +16,10 @@
 //! which with δz = w − ż τ is the saltation matrix
 //! S = R' + (ż₊ − R' ż₋) ∇h / ḣ (Aizerman & Gantmakher 1958; Müller, *Chaos, Solitons & Fractals* 5 (1995)
 //! 1671). R' is the law of [`crate::impact`] itself over [`Dual`] numbers, sticking and several cables
-//! included.
+//! included; for one cable alone, which is nearly every impact, it is written out there.
 
 use crate::dual::Dual;
-use crate::impact::{impact, impact_alone};
+use crate::impact::{impact, slope_of_impact_alone};
 use crate::simulate::{Simulation, Step};
 use crate::taut::{acceleration, project_position, project_velocity};
 use crate::{State, System, TautSet};
@@ -29,6 +29,10 @@ pub type Matrix = [[f64; 6]; 6];
 
 /// A deviation (w, τ): six of the state, and the time.
 pub type Deviation = [f64; 7];
+
+/// Deviations side by side: a row for each of their seven components, a column for each of them, so that
+/// one operation does them all.
+pub(crate) type Block<const M: usize> = [[f64; M]; 7];
 
 type Number = Dual<f64, 6>;
 
@@ -58,25 +62,27 @@ pub struct StepMap {
     rate_after: [f64; 6],
 }
 
+/// Φ along a stretch.
 #[derive(Clone, Copy, Debug)]
-enum Flow {
-    /// Slack: positions drift with the velocities for a time s.
-    Free(f64),
-    Taut(Matrix),
+struct Flow {
+    /// How long it is.
+    s: f64,
+    /// Φ where cables are taut; where none is, positions drift with the velocities.
+    taut: Option<Matrix>,
 }
 
 impl Flow {
-    fn of(&self, w: &[f64; 6]) -> [f64; 6] {
-        match self {
-            Flow::Free(s) => [
-                w[0] + s * w[3],
-                w[1] + s * w[4],
-                w[2] + s * w[5],
-                w[3],
-                w[4],
-                w[5],
-            ],
-            Flow::Taut(phi) => phi.map(|row| dot6(&row, w)),
+    fn carry<const M: usize>(&self, block: &mut Block<M>) {
+        match &self.taut {
+            None => {
+                for i in 0..3 {
+                    add_row(block, i, &block[i + 3].clone(), self.s);
+                }
+            }
+            Some(phi) => {
+                let moved = phi.map(|row| combined(block, &row));
+                block[..6].copy_from_slice(&moved);
+            }
         }
     }
 }
@@ -84,33 +90,61 @@ impl Flow {
 impl StepMap {
     /// Along the stretch: (w, τ) just before the event, told at the previous event's time.
     pub fn along(&self, deviation: &Deviation) -> Deviation {
-        let (w, tau) = split(deviation);
-        let moved = self.flow.of(&w);
-        join(&add_scaled(&moved, &self.lag, tau), tau)
+        single(deviation, |block| self.carry_along(block))
     }
 
     /// To the event's own time.
     pub fn meet(&self, deviation: &Deviation) -> Deviation {
-        let (w, tau) = split(deviation);
-        let later = dot6(&self.delay, &w);
-        join(&add_scaled(&w, &self.rate, later), tau + later)
+        single(deviation, |block| self.carry_to_meet(block))
+    }
+
+    /// Through the law of the event.
+    pub fn through(&self, deviation: &Deviation) -> Deviation {
+        single(deviation, |block| self.carry_through(block))
+    }
+
+    /// [`StepMap::along`] of many.
+    pub(crate) fn carry_along<const M: usize>(&self, block: &mut Block<M>) {
+        self.flow.carry(block);
+        let tau = block[6];
+        for (i, lag) in self.lag.iter().enumerate() {
+            add_row(block, i, &tau, *lag);
+        }
+    }
+
+    /// [`StepMap::meet`] of many.
+    pub(crate) fn carry_to_meet<const M: usize>(&self, block: &mut Block<M>) {
+        let later = combined(block, &self.delay);
+        for (i, rate) in self.rate.iter().enumerate() {
+            add_row(block, i, &later, *rate);
+        }
+        add_row(block, 6, &later, 1.0);
+    }
+
+    /// [`StepMap::through`] of many.
+    pub(crate) fn carry_through<const M: usize>(&self, block: &mut Block<M>) {
+        if let Some(law) = &self.law {
+            let velocities = law.map(|row| combined(block, &row));
+            block[3..6].copy_from_slice(&velocities);
+        }
+    }
+
+    /// All of the step for many deviations at one time, at its start and at its end.
+    pub(crate) fn carry_at_one_time<const M: usize>(&self, block: &mut Block<M>) {
+        block[6] = [0.0; M];
+        self.carry_along(block);
+        self.carry_to_meet(block);
+        self.carry_through(block);
+        let tau = block[6];
+        for (i, rate) in self.rate_after.iter().enumerate() {
+            add_row(block, i, &tau, -rate);
+        }
     }
 
     /// What [`StepMap::meet`] undoes: the deviation told at the previous event's time, when τ was `tau`.
     pub(crate) fn before_meeting(&self, deviation: &Deviation, tau: f64) -> Deviation {
         let (w, now) = split(deviation);
         join(&add_scaled(&w, &self.rate, tau - now), tau)
-    }
-
-    /// Through the law of the event.
-    pub fn through(&self, deviation: &Deviation) -> Deviation {
-        let Some(law) = &self.law else {
-            return *deviation;
-        };
-        let (mut w, tau) = split(deviation);
-        let velocities = law.map(|row| dot6(&row, &w));
-        w[3..].copy_from_slice(&velocities);
-        join(&w, tau)
     }
 
     /// The deviation at one time, of one that is told at the event at the end of the step.
@@ -121,8 +155,8 @@ impl StepMap {
 
     /// All of the step for a deviation at one time, at its start and at its end.
     pub fn fundamental(&self, deviation: &[f64; 6]) -> [f64; 6] {
-        let w = self.along(&join(deviation, 0.0));
-        self.at_one_time(&self.through(&self.meet(&w)))
+        let end = single(&join(deviation, 0.0), |block| self.carry_at_one_time(block));
+        split(&end).0
     }
 
     /// −∇h/ḣ: how much later the event comes for a deviation just before it.
@@ -168,11 +202,9 @@ impl Tangent {
     /// Of the step that `simulation` has just made.
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
-        let s = step.t_end - step.t_start;
-        let flow = if step.taut.is_empty() {
-            Flow::Free(s)
-        } else {
-            Flow::Taut(self.taut_flow(simulation, step))
+        let flow = Flow {
+            s: step.t_end - step.t_start,
+            taut: (!step.taut.is_empty()).then(|| self.taut_flow(simulation, step)),
         };
         let first = rate(system, step.t_start, &step.start, step.taut);
         let last = rate(system, step.t_end, &step.before, step.taut);
@@ -185,10 +217,14 @@ impl Tangent {
         };
         StepMap {
             flow,
-            lag: add_scaled(&last, &flow.of(&first), -1.0),
+            lag: add_scaled(
+                &last,
+                &split(&single(&join(&first, 0.0), |block| flow.carry(block))).0,
+                -1.0,
+            ),
             rate: last,
             delay: self.delay(system, step),
-            law: (!step.event.reached.gaps.is_empty()).then(|| self.law(step)),
+            law: (!step.event.reached.gaps.is_empty()).then(|| self.law(system, step)),
             rate_after,
         }
     }
@@ -245,19 +281,18 @@ impl Tangent {
     }
 
     /// R' of an impact, and of the sticking that may follow.
-    fn law(&self, step: &Step) -> [[f64; 6]; 3] {
-        let before = variables(&step.before);
+    fn law(&self, system: &System, step: &Step) -> [[f64; 6]; 3] {
         let event = &step.event;
         let mut closed = event.closed.iter();
-        let mut after = match (closed.next(), closed.next()) {
-            (Some(cable), None) if event.still.is_empty() => {
-                impact_alone(&self.system, &before, cable)
-            }
-            _ => impact(&self.system, &before, event.closed, event.still).after,
-        };
-        if !step.taut_after.is_empty() {
-            project_velocity(&self.system, &mut after, step.taut_after);
+        if let (Some(cable), None) = (closed.next(), closed.next())
+            && event.still.is_empty()
+            && step.taut_after.is_empty()
+        {
+            return slope_of_impact_alone(system, &step.before, cable);
         }
+        let before = variables(&step.before);
+        let mut after = impact(&self.system, &before, event.closed, event.still).after;
+        project_velocity(&self.system, &mut after, step.taut_after);
         [after.vx, after.vy, after.vtheta].map(|v| v.slope)
     }
 }
@@ -283,7 +318,7 @@ fn change(lower: &[[f64; 6]; 3], w: &[f64; 6]) -> [f64; 6] {
     [w[3], w[4], w[5], x, y, theta]
 }
 
-pub(crate) fn identity() -> Matrix {
+fn identity() -> Matrix {
     let mut matrix = [[0.0; 6]; 6];
     for (i, row) in matrix.iter_mut().enumerate() {
         row[i] = 1.0;
@@ -291,8 +326,33 @@ pub(crate) fn identity() -> Matrix {
     matrix
 }
 
-pub(crate) fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Adds to a row of a block.
+fn add_row<const M: usize>(block: &mut Block<M>, to: usize, row: &[f64; M], factor: f64) {
+    for (sum, entry) in block[to].iter_mut().zip(row) {
+        *sum += factor * entry;
+    }
+}
+
+/// A linear function of the state, of every deviation.
+fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
+    let mut sum = [0.0; M];
+    for (row, factor) in block.iter().zip(factors) {
+        for (sum, entry) in sum.iter_mut().zip(row) {
+            *sum += factor * entry;
+        }
+    }
+    sum
+}
+
+/// An operation on blocks, on one deviation.
+fn single(deviation: &Deviation, carry: impl Fn(&mut Block<1>)) -> Deviation {
+    let mut block = deviation.map(|component| [component]);
+    carry(&mut block);
+    block.map(|[component]| component)
 }
 
 fn add_scaled(a: &[f64; 6], b: &[f64; 6], scale: f64) -> [f64; 6] {

@@ -51,6 +51,24 @@ pub enum Stop {
     ImpactLimit,
 }
 
+impl Stop {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Settled,
+        Self::RotationLimit,
+        Self::UpperBound,
+        Self::SlidingStart,
+        Self::EndTime,
+        Self::ImpactLimit,
+    ];
+
+    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
+    /// rotation limit or the upper bound (chapter 6.4.2).
+    pub fn exceeds(self) -> bool {
+        matches!(self, Self::RotationLimit | Self::UpperBound)
+    }
+}
+
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {

@@ -30,7 +30,8 @@ pub(super) fn introduction(study: &Study, claims: &[Claim], commands: &mut Comma
             }
             h2 { "How far to trust the numbers" }
             p {
-                "The motion is chaotic. After 40 to 230 impacts double precision is exhausted, and what comes \
+                "The motion is chaotic. After 40 to 230 impacts double precision is exhausted (" code { "snapload run" }
+                " says where, for each run), and what comes \
                  later (numbers of impacts, last digits of end times, some critical forces) is decided by \
                  rounding, here as in the thesis. The program does its arithmetic in the same order everywhere, so \
                  its commands give these very digits on any machine; another program would not."
@@ -48,6 +49,8 @@ fn results(study: &Study, claims: &[Claim], commands: &mut Commands) -> Markup {
     let within = |limit: f64| differences().filter(|d| *d < limit + 0.005).count();
     let exceed = study.critical.iter();
     let exceed = exceed.filter(|row| published_exceeds(row, &row.computed.chapter));
+    let rows = study.critical.iter();
+    let decidable = rows.filter(|row| row.decidable(Reading::Chapter)).count();
     html! {
         h2 { "What came of it" }
         ul {
@@ -61,7 +64,8 @@ fn results(study: &Study, claims: &[Claim], commands: &mut Commands) -> Markup {
                 a href="#table-6-2" { "Table 6.2" } ": of " (study.critical.len()) " published critical forces "
                 (within(0.0)) " come out to the last digit and " (within(0.03)) " within 0.03, in the chapter's \
                  reading; " (exceed.count()) " of the published amplitudes do exceed the limits, as the first or as \
-                 a later one."
+                 a later one. " (decidable) " of them could be decided at all in double precision: for the others \
+                 neighbours disagree at an amplitude at or below the published one."
             }
             li {
                 "Figures: all of 6.1 to 6.38, 6.43 and 6.45 are computed, 6.39 to 6.42 and 6.44 are drawn from \

@@ -2,9 +2,9 @@
 
 use super::commands::Commands;
 use super::symbols;
-use crate::source::{SNAPS, critical, decimals, run};
-use crate::study::{CaseRuns, CriticalRow, Reading, Study};
-use crate::tables::{impacts, published_exceeds, reason, rows_6_1};
+use crate::source::{SNAPS, critical, decimals, probability, run};
+use crate::study::{CaseRuns, CriticalRow, NEIGHBOURS, Reading, Study};
+use crate::tables::{LEVELS, impacts, published_exceeds, reason, rows_6_1};
 use maud::{Markup, html};
 use snapload::analysis::CriticalForce;
 use snapload::{Trajectory, anchor_height};
@@ -121,21 +121,26 @@ pub(super) fn table_6_2(study: &Study, commands: &mut Commands) -> Markup {
             h2 { "Table 6.2: critical force, computed beside published" }
             p {
                 "Standard conditions: e = 0.9, Ω = 0.9. The computed critical force is the smallest amplitude, in \
-                 steps of 0.01, that exceeds the limits; the last columns tell whether the published one exceeds \
-                 them, and all amplitudes up to 1 that do. Data: " a href="table-6-2.csv" { "table-6-2.csv" } "."
+                 steps of 0.01, that exceeds the limits. Then follow: whether the published one exceeds them; from \
+                 which amplitude on 5, 50 and 95 % of " (NEIGHBOURS) " neighbours exceed, whose start values differ \
+                 by up to 1e−12; whether the published value could be decided at all, as neighbours agree at every \
+                 amplitude up to it; and all amplitudes up to 1 that exceed. Data: " a href="table-6-2.csv" { "table-6-2.csv" } "."
             }
             div class="wide" {
                 table {
                     thead {
                         tr {
                             @for name in ["shape", "r", "a", "b", "published f_cr", "sliding", "computed f_cr",
-                                          "difference", "published exceeds", "all that exceed", "made by"] {
+                                          "difference", "published exceeds", "5 %", "50 %", "95 %", "decidable",
+                                          "all that exceed", "made by"] {
                                 th { (symbols(name)) }
                             }
                         }
                         tr class="keys" {
                             th colspan="6" {}
-                            th { code { "f_cr" } } th {} th {} th { code { "exceeding" } } th {}
+                            th { code { "f_cr" } } th {} th {}
+                            @for (name, _) in LEVELS { th { code { "passes." (name) } } }
+                            th {} th { code { "exceeding" } } th {}
                         }
                     }
                     tbody {
@@ -164,6 +169,9 @@ fn critical_line(row: &CriticalRow, reading: Reading, commands: &mut Commands) -
     } else {
         "no"
     };
+    let crowd = probability(row, reading);
+    let decidable = if row.decidable(reading) { "yes" } else { "no" };
+    let agree = format!("all(.probability[]; .f_o > {published} or .part == 0 or .part == 1)");
     let within = format!("any(.exceeding[]; .[0] <= {published} and {published} <= .[1])");
     html! {
         tr {
@@ -177,10 +185,20 @@ fn critical_line(row: &CriticalRow, reading: Reading, commands: &mut Commands) -
                 td { (commands.link("none", &made, ".f_cr")) } td {}
             }
             td { (commands.link(exceeds, &made, &within)) }
+            @for (name, level) in LEVELS {
+                td { (commands.link(&passes(row, reading, level), &crowd, &format!(".passes.{name}"))) }
+            }
+            td { (commands.link(decidable, &crowd, &agree)) }
             td class="long" { (commands.link(&ranges(found), &made, ".exceeding")) }
-            td { (commands.cite(&made)) }
+            td { (commands.cite(&made)) " " (commands.cite(&crowd)) }
         }
     }
+}
+
+/// The amplitude from which on such a part of the neighbours exceeds.
+fn passes(row: &CriticalRow, reading: Reading, level: f64) -> String {
+    let passes = row.probable.of(reading).passes(level);
+    passes.map_or("none".to_owned(), |f_o| decimals(f_o, 2))
 }
 
 /// A difference with its sign; none where it vanishes.

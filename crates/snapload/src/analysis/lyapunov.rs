@@ -1,55 +1,89 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
-use crate::{Matrix, StepMap};
+use crate::StepMap;
+use crate::tangent::Block;
 
 /// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani, Giorgilli &
 /// Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their lengths add up to the
 /// exponents.
 #[derive(Clone, Debug)]
 pub struct Frame {
-    directions: Matrix,
+    /// The directions are columns; two more are zero.
+    directions: Block<8>,
     logs: [f64; 6],
+    /// Lengths taken off since the logarithms were last taken.
+    lengths: [f64; 6],
 }
+
+/// Logarithms are taken when a length leaves this range, and its inverse.
+const RANGE: f64 = 1e100;
 
 impl Frame {
     /// The frame of the components.
     pub fn new() -> Self {
-        let mut directions = [[0.0; 6]; 6];
-        for (i, direction) in directions.iter_mut().enumerate() {
-            direction[i] = 1.0;
+        let mut directions = [[0.0; 8]; 7];
+        for (i, row) in directions.iter_mut().enumerate().take(6) {
+            row[i] = 1.0;
         }
         Self {
             directions,
             logs: [0.0; 6],
+            lengths: [1.0; 6],
         }
     }
 
     /// Carries it through one step.
     pub fn follow(&mut self, map: &StepMap) {
+        map.carry_at_one_time(&mut self.directions);
+        self.make_orthogonal();
+    }
+
+    /// Gram and Schmidt's procedure.
+    fn make_orthogonal(&mut self) {
+        let mut columns = [[0.0; 6]; 6];
+        for (i, column) in columns.iter_mut().enumerate() {
+            for (entry, row) in column.iter_mut().zip(&self.directions) {
+                *entry = row[i];
+            }
+        }
         for i in 0..6 {
-            let mut direction = map.fundamental(&self.directions[i]);
-            for earlier in &self.directions[..i] {
-                let along = dot(earlier, &direction);
+            let (done, rest) = columns.split_at_mut(i);
+            let direction = &mut rest[0];
+            for earlier in done {
+                let along = dot(earlier, direction);
                 for (component, other) in direction.iter_mut().zip(earlier) {
-                    *component -= along * other;
+                    *component -= along * *other;
                 }
             }
-            let length = dot(&direction, &direction).sqrt();
+            let length = dot(direction, direction).sqrt();
             // A direction that the law has closed stays closed.
             let scale = if length > 0.0 { 1.0 / length } else { 0.0 };
-            self.directions[i] = direction.map(|component| component * scale);
-            self.logs[i] += libm::log(length);
+            *direction = direction.map(|component| component * scale);
+            self.lengths[i] *= length;
+            if !(1.0 / RANGE..RANGE).contains(&self.lengths[i]) {
+                self.logs[i] += libm::log(self.lengths[i]);
+                self.lengths[i] = 1.0;
+            }
+        }
+        for (i, column) in columns.iter().enumerate() {
+            for (row, entry) in self.directions.iter_mut().zip(column) {
+                row[i] = *entry;
+            }
         }
     }
 
     /// ln of the factors by which the six directions have grown.
-    pub fn logs(&self) -> &[f64; 6] {
-        &self.logs
+    pub fn logs(&self) -> [f64; 6] {
+        let mut logs = self.logs;
+        for (log, length) in logs.iter_mut().zip(self.lengths) {
+            *log += libm::log(length);
+        }
+        logs
     }
 
     /// The exponents over a time t, the largest first.
     pub fn exponents(&self, t: f64) -> [f64; 6] {
-        let mut exponents = self.logs.map(|log| log / t);
+        let mut exponents = self.logs().map(|log| log / t);
         exponents.sort_by(|a, b| b.total_cmp(a));
         exponents
     }

@@ -1,7 +1,7 @@
 //! What a run comes to, without keeping the run.
 
 use crate::lanes::Finished;
-use crate::{Case, End, Lanes, Norms, Simulation, Stop, Usage};
+use crate::{Case, End, Lanes, Norms, Simulation, Usage};
 use rayon::prelude::*;
 
 /// How many of `count` cases go to a thread at a time: enough for lanes to be full, and few enough to share.
@@ -73,9 +73,8 @@ impl Outcome {
         }
     }
 
-    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
-    /// rotation limit or the upper bound (chapter 6.4.2).
+    /// Whether it stopped at the rotation limit or the upper bound.
     pub fn exceeds(&self) -> bool {
-        matches!(self.end.reason, Stop::RotationLimit | Stop::UpperBound)
+        self.end.reason.exceeds()
     }
 }

@@ -2,7 +2,9 @@
 #![allow(dead_code)] // each test binary uses its own part
 
 use serde_json::Value;
-use snapload::{Body, Harmonic, Shape, Simulation, State, StopRules, System, Trajectory};
+use snapload::{
+    Body, Harmonic, Matrix, Shape, Simulation, State, StepMap, StopRules, System, Trajectory,
+};
 use std::f64::consts::FRAC_PI_2;
 
 /// The breakwater of docs/model.md, with everything that its cases vary.
@@ -142,4 +144,59 @@ pub fn breakwater(case: &Value) -> Breakwater {
     };
     assert!((it.inertia() - number(&case["Ic"])).abs() < 1e-15);
     it
+}
+
+pub const IDENTITY: Matrix = {
+    let mut identity = [[0.0; 6]; 6];
+    let mut i = 0;
+    while i < 6 {
+        identity[i][i] = 1.0;
+        i += 1;
+    }
+    identity
+};
+
+/// The matrix of a step of the linearised motion, for deviations at one time.
+pub fn matrix(map: &StepMap) -> Matrix {
+    let mut matrix = [[0.0; 6]; 6];
+    for (j, unit) in IDENTITY.iter().enumerate() {
+        for (row, entry) in matrix.iter_mut().zip(map.fundamental(unit)) {
+            row[j] = entry;
+        }
+    }
+    matrix
+}
+
+/// a b.
+pub fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    a.map(|row| {
+        let mut sum = [0.0; 6];
+        for (factor, line) in row.iter().zip(b) {
+            for (sum, entry) in sum.iter_mut().zip(line) {
+                *sum += factor * entry;
+            }
+        }
+        sum
+    })
+}
+
+/// Rows and columns of one degree of freedom of a matrix: position and velocity.
+pub type Square = [[f64; 2]; 2];
+
+/// Of 0 for x, 1 for y, 2 for θ.
+pub fn block(matrix: &Matrix, i: usize) -> Square {
+    [i, i + 3].map(|row| [i, i + 3].map(|column| matrix[row][column]))
+}
+
+pub fn trace(a: &Square) -> f64 {
+    a[0][0] + a[1][1]
+}
+
+pub fn determinant(a: &Square) -> f64 {
+    a[0][0] * a[1][1] - a[0][1] * a[1][0]
+}
+
+/// A motion that goes on until long after every test, in which no cable sticks by its speed.
+pub fn unending(system: System, t: f64, start: State) -> Simulation {
+    Simulation::new(system, StopRules::until(t + 1e6), 0.0, t, start).expect("a legal start")
 }

@@ -218,12 +218,13 @@ impl<'a> Table<'a> {
 mod tests {
     use super::*;
     use crate::study::Both;
-    use snapload::analysis::CriticalForce;
+    use snapload::analysis::{CriticalForce, ExceedanceCurve};
 
     /// The standard case as a row that publishes this value, from few amplitudes.
     fn row(published: f64) -> Result<CriticalRow, CaseError> {
         let scan =
             || CriticalForce::scan(&chapter(Parameters::STANDARD), ForceScan::new(0.01, 0.4)?);
+        let none = || ExceedanceCurve { points: Vec::new() };
         Ok(CriticalRow {
             r: 1.5,
             shape: "circle",
@@ -232,6 +233,10 @@ mod tests {
             computed: Both {
                 chapter: scan()?,
                 sliding_on: scan()?,
+            },
+            probable: Both {
+                chapter: none(),
+                sliding_on: none(),
             },
         })
     }

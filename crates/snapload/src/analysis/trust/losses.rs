@@ -3,7 +3,7 @@
 use super::Loss;
 use super::spread::Spread;
 use crate::taut::normal_acceleration;
-use crate::{Normal, Simulation, Step, StepMap};
+use crate::{Normal, START_TOLERANCE, Simulation, Step, StepMap, Stop};
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
@@ -32,8 +32,40 @@ pub(super) fn loss(
             .find(|&cable| may_snap(simulation, step, spread, cable))
             .map(|cable| Loss::NearMiss { cable })
     };
-    let stop = || may_stop(simulation, step, spread).then_some(Loss::StopRule);
+    let stop = || {
+        let may =
+            may_stop(simulation, step, spread) || may_fall_short(simulation, step, map, spread);
+        may.then_some(Loss::StopRule)
+    };
     graze.or_else(near).or_else(stop)
+}
+
+/// A cable that is closed at the start of a run, and might be slack within what is in doubt, or leave or snap where
+/// it rests.
+pub(super) fn loss_at_start(simulation: &Simulation, spread: &Spread) -> Option<Loss> {
+    let system = simulation.system();
+    let resting = simulation.resting();
+    let open = |cable: &usize| {
+        let tether = &system.cables[*cable];
+        let normal = tether.normal(simulation.state());
+        let Normal { n, arm } = normal;
+        let gap = 2.0 * tether.length() * spread.along(&[n[0], n[1], arm, 0.0, 0.0, 0.0]);
+        let speed = REACH * spread.along(&[0.0, 0.0, 0.0, n[0], n[1], arm]);
+        let turns = if resting.contains(*cable) {
+            speed > START_TOLERANCE
+        } else {
+            speed >= normal.velocity(simulation.state()).abs()
+        };
+        REACH * gap > START_TOLERANCE || turns
+    };
+    let cable = simulation.closed().iter().find(open)?;
+    Some(Loss::Start { cable })
+}
+
+/// Whether the run stops so late that a neighbour, `met` just before the same event, may run out of time first.
+pub(super) fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &Spread) -> bool {
+    let left = simulation.rules().t_end - step.t_end;
+    step.stop.is_some_and(|stop| stop != Stop::EndTime) && REACH * met.of_component(6) >= left
 }
 
 /// How a gap closes, just before the one impact of a step.
@@ -77,10 +109,16 @@ fn may_miss(map: &StepMap, spread: &Spread, closing: &Closing) -> bool {
 /// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its end.
 fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize) -> bool {
     let tether = &simulation.system().cables[cable];
+    // A bound first: |n| = 1, and the arm is no longer than the lever.
+    let [a, b] = tether.fairlead();
+    let most = 2.0 * tether.length() * REACH * spread.at_most([1.0, 1.0, a.abs() + b.abs()]);
+    if simulation.gap(cable) <= -most && !simulation.comes_near(step, cable, most) {
+        return false;
+    }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n[0], n[1], arm, 0.0, 0.0, 0.0];
     let margin = 2.0 * tether.length() * REACH * spread.along(&direction);
-    simulation.gap(cable) > -margin || simulation.closest_approach(step, cable, -margin).is_some()
+    simulation.gap(cable) > -margin || simulation.comes_near(step, cable, margin)
 }
 
 /// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.
@@ -92,7 +130,7 @@ fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
         .rotation_limit
         .is_some_and(|limit| !reached.rotation && before.theta.abs() + reach(2) >= limit);
     let rises = rules.upper_bound.is_some_and(|level| {
-        let margin = reach(1) + reach(2);
+        let margin = reach(1) + reach(2) * simulation.system().body.reach();
         !reached.top && simulation.highest_within(step, level - margin) + margin >= level
     });
     let sticks = step.taut_after.len() > step.taut.len();
@@ -101,4 +139,21 @@ fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
         .flatten()
         .any(|height| sticks && (before.y - height).abs() <= reach(1));
     turns || rises || settles
+}
+
+/// Whether neighbours may turn round just before a limit that the run still reaches: as for a graze, where
+/// they lag by more than the rate over twice the slowing-down.
+fn may_fall_short(simulation: &Simulation, step: &Step, map: &StepMap, spread: &Spread) -> bool {
+    let (before, reached) = (&step.before, step.event.reached);
+    if !(reached.rotation || reached.top) {
+        return false;
+    }
+    let delay = map.delay();
+    let [.., x, y, theta] = *map.rate();
+    let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
+    if !reached.rotation {
+        let height = simulation.system().top(before) - before.y;
+        slowing -= delay[1] * height * before.vtheta * before.vtheta;
+    }
+    REACH * spread.along(delay) * 2.0 * slowing >= 1.0
 }

@@ -49,7 +49,7 @@ impl Doubt {
         }
     }
 
-    /// Adds the uncertainty of one key.
+    /// Sets the uncertainty of one key; 0 takes it back.
     ///
     /// # Errors
     /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is negative or
@@ -64,7 +64,9 @@ impl Doubt {
             self.start[component] = size;
         } else if UNCERTAIN_KEYS.contains(&key.name) {
             self.keys.retain(|(name, _)| *name != key.name);
-            self.keys.push((key.name, size));
+            if size > 0.0 {
+                self.keys.push((key.name, size));
+            }
         } else {
             let allowed = format!("no uncertainty: it is no quantity of the motion; {} are", {
                 let mut all = START_KEYS.to_vec();
@@ -97,6 +99,11 @@ pub enum Loss {
     },
     /// Several cables snap at one instant: which is first decides what follows.
     Simultaneous,
+    /// The start is at the end of a cable, and a neighbour may begin slack.
+    Start {
+        /// The cable.
+        cable: usize,
+    },
     /// A stop rule that a neighbour may meet where the run does not, or the other way round.
     StopRule,
 }
@@ -177,4 +184,58 @@ pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), Ca
         witness.follow(simulation, step);
     });
     Ok((run, witness.verdict()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Parameters, Simulation};
+
+    /// Without forcing nothing depends on when a motion begins, its exponents neither.
+    #[test]
+    fn exponents_are_over_the_time_that_the_run_takes() {
+        let case = Case::new(Parameters {
+            f_o: 0.0,
+            theta: 0.1,
+            ..Parameters::STANDARD
+        });
+        let usual = case.expect("legal").simulation();
+        let exponents = |t: f64| {
+            let mut rules = *usual.rules();
+            rules.t_end = t + 1.0;
+            let (system, start) = (usual.system().clone(), *usual.state());
+            let mut simulation = Simulation::new(system, rules, 1e-6, t, start).expect("legal");
+            let mut witness = Witness::new(&simulation, &[0.0; 6], 1e-3);
+            while let Some(step) = simulation.step() {
+                witness.follow(&simulation, &step);
+            }
+            witness.verdict().exponents
+        };
+        for (at_once, later) in exponents(0.0).into_iter().zip(exponents(8.0)) {
+            assert!((at_once - later).abs() < 1e-9, "{at_once} {later}");
+        }
+    }
+
+    /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt does what it does to
+    /// a case whose inertia is another.
+    #[test]
+    fn an_inertia_can_be_in_doubt() {
+        let mut doubt = Doubt::default();
+        doubt.set("inertia", 1e-6).expect("a key that moves");
+        let error = |inertia: f64| {
+            let parameters = Parameters {
+                theta: 0.1,
+                inertia: Some(inertia),
+                ..Parameters::STANDARD
+            };
+            let case = Case::new(parameters).expect("legal");
+            trusted_run(&case, &doubt).expect("legal").1.errors[1]
+        };
+        let natural = Parameters::STANDARD.inertia.expect("rigid");
+        let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));
+        assert!(
+            (natural / other - 1.0).abs() < 1e-3,
+            "{natural:e} {other:e}"
+        );
+    }
 }

@@ -1,6 +1,6 @@
 //! Follows a run and keeps account of what is known of it.
 
-use super::losses::{Closing, loss};
+use super::losses::{Closing, loss, loss_at_start, may_run_out_of_time};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
@@ -9,11 +9,11 @@ use crate::{Case, CaseError, Deviation, Dual, Simulation, State, Step, StepMap, 
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;
 
-/// What rounding adds in one step to a component of size 1, as standard deviation.
-const ROUNDING: f64 = f64::EPSILON;
-
-/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
-const LOST: f64 = 1e30;
+/// What rounding adds in one step to a component of size 1, as standard deviation: a few operations, each
+/// off by up to ε/2, most of them on increments smaller than what they are added to.
+const ROUNDING: f64 = 0.25 * f64::EPSILON;
+/// A component is taken to be no smaller than this: it is computed from others that are not.
+const LEAST: f64 = 0.25;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -27,6 +27,7 @@ pub struct Witness {
     grazes: Vec<Graze>,
     horizon: Option<Horizon>,
     end_error: f64,
+    begin: f64,
     end: f64,
 }
 
@@ -50,21 +51,21 @@ impl Witness {
     pub fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
         let tangent = Tangent::new(simulation.system());
         let projection = tangent.of_start(simulation);
-        let mut spread = Spread {
-            covariance: [[0.0; 7]; 7],
-            columns: Vec::new(),
-        };
-        for (i, size) in start.iter().enumerate() {
-            spread.covariance[i][i] = uniform(*size).powi(2);
-        }
-        spread.map_covariance(|w| {
+        let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
+        let spread = Spread::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
+        let horizon = loss_at_start(simulation, &spread).map(|loss| Horizon {
+            t: simulation.time(),
+            impact: 1,
+            loss,
+        });
+        let mut spread = spread.mapped(|w| {
             let mut projected = *w;
             for (component, row) in projected.iter_mut().zip(&projection) {
                 *component = row.iter().zip(w).map(|(p, w)| p * w).sum();
             }
             projected
         });
-        spread.add_noise(&rounding(simulation.state()));
+        spread.add_noise(&rounding(simulation.state(), simulation.time()));
         Self {
             tolerance,
             tangent,
@@ -73,8 +74,9 @@ impl Witness {
             frame: Frame::new(),
             errors: Vec::new(),
             grazes: Vec::new(),
-            horizon: None,
+            horizon,
             end_error: 0.0,
+            begin: simulation.time(),
             end: simulation.time(),
         }
     }
@@ -108,6 +110,7 @@ impl Witness {
         let closing = Closing::of(simulation, step, &map);
         self.note_graze(closing, &map);
         let error = if self.is_lost() {
+            self.lose(step, Loss::Tolerance);
             f64::INFINITY
         } else {
             self.carry(simulation, step, &map, closing)
@@ -118,13 +121,7 @@ impl Witness {
     /// Past an event that neighbours may not share, or with no digit left, nothing is known.
     fn is_lost(&self) -> bool {
         let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
-        other_events
-            || !self
-                .spread
-                .covariance
-                .iter()
-                .flatten()
-                .all(|c| c.abs() < LOST)
+        other_events || self.spread.is_lost()
     }
 
     /// Carries the spread through the step; returns the error at its event.
@@ -145,13 +142,16 @@ impl Witness {
             self.lose(step, loss);
         }
         let met = stage(&along, 1, &|w| map.meet(w));
+        if may_run_out_of_time(simulation, step, &met) {
+            self.lose(step, Loss::StopRule);
+        }
         let mut after = stage(&met, 2, &|w| map.through(w));
         let error =
             relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
-        after.add_noise(&rounding(&step.after));
+        after.add_noise(&rounding(&step.after, step.t_end));
         self.spread = after;
         self.end_error = self.spread.of_component(6);
-        if error > self.tolerance {
+        if error > self.tolerance || self.spread.is_lost() {
             self.lose(step, Loss::Tolerance);
         }
         if self.is_lost() { f64::INFINITY } else { error }
@@ -192,7 +192,7 @@ impl Witness {
             horizon: self.horizon,
             end_error,
             grazes: self.grazes,
-            exponents: self.frame.exponents(self.end),
+            exponents: self.frame.exponents(self.end - self.begin),
         }
     }
 }
@@ -250,9 +250,10 @@ fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// What rounding adds to a state in one step.
-fn rounding(state: &State) -> [f64; 6] {
-    state
+/// What rounding adds to a state and its time in one step.
+fn rounding(state: &State, t: f64) -> Deviation {
+    let [x, y, theta, vx, vy, vtheta] = state
         .components()
-        .map(|component| ROUNDING * component.abs().max(1.0))
+        .map(|component| ROUNDING * component.abs().max(LEAST));
+    [x, y, theta, vx, vy, vtheta, ROUNDING * t]
 }

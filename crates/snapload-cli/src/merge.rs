@@ -1,0 +1,51 @@
+//! `snapload merge`: the parts of a study, joined into the file that one run would have written.
+use crate::failure::Failure;
+use crate::failure::print;
+use crate::stage::Stage;
+use crate::study_picture::{PictureArgs, description_of};
+use crate::sweep::summary;
+use snapload_study::merge;
+use std::path::{Path, PathBuf};
+
+/// Which parts, and where the whole goes.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  snapload merge part-*.parquet --out map.parquet
+  snapload merge part-*.parquet --out map.parquet --plot map.svg --show rho1")]
+pub(crate) struct Args {
+    /// The files that snapload sweep --shard wrote, all of them, in any order
+    #[arg(value_name = "PART.parquet", required = true)]
+    parts: Vec<PathBuf>,
+    /// The file to write
+    #[arg(long, value_name = "FILE.parquet")]
+    out: PathBuf,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+/// Joins them.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if std::fs::symlink_metadata(&args.out).is_ok() {
+        return Err(Failure::BadInput(format!(
+            "{} is there already; choose another --out, or remove it",
+            args.out.display()
+        )));
+    }
+    if let Some((study, _)) = args.parts.first().and_then(|part| description_of(part)) {
+        args.picture.check(&study)?;
+    }
+    let mut stage = Stage::default();
+    let parent = args
+        .out
+        .parent()
+        .filter(|parent| !parent.as_os_str().is_empty());
+    let room = stage.open(parent.unwrap_or(Path::new(".")))?;
+    stage.place(room, args.out.clone(), |scratch| {
+        Ok(merge(&args.parts, scratch)?)
+    })?;
+    stage.commit()?;
+    let picture = args.picture.draw(&args.out)?;
+    let cases = description_of(&args.out).map_or(0, |(_, cases)| cases);
+    print(&summary(&args.out, cases, picture)?)
+}

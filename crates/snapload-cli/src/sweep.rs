@@ -1,0 +1,159 @@
+//! `snapload sweep`: a study, a row a case, in one Parquet file.
+use crate::failure::{Failure, print};
+use crate::interrupt;
+use crate::progress::Counter;
+use crate::study_input::StudyArgs;
+use crate::study_picture::PictureArgs;
+use clap::CommandFactory;
+use snapload_study::{
+    Finished, Identity, Opened, Shard, Store, StudyError, Watch, columns, ends, sweep,
+};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+A key varies over first:last:n, n evenly spaced values that are the decimals one would write, or over a list
+v1,v2,...; all combinations are run, the first key the slowest. Every chunk of rows is safe once it is run: after
+whatever happened the same command with --resume goes on, and the file is the same to the byte.
+
+Examples:
+  snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet --plot map.svg
+      a map over force and frequency, with a picture of how the runs end
+  snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet --resume
+      the same, gone on with
+  snapload sweep mooring.toml --vary e=0.5:1:501 --no-trust --out e.parquet --plot e.png --show rho1
+      a line over the restitution, for a case of your own
+  snapload sweep --vary f_o=0.1:0.6 --vary x=-0.05:0.05 --random 100000 --seed 1 --out box.parquet
+      Sobol points in a box
+  snapload sweep --list cases.csv --out cases.parquet
+      the cases of a table with a column a key
+  snapload sweep study.toml --shard 3/8 --out part-3.parquet
+      the third of eight parts, for one of eight machines; snapload merge joins them";
+
+/// Which study, and where its rows go.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    study: StudyArgs,
+    /// The file to write; its parts are kept in FILE.parquet.parts until it is complete
+    #[arg(long, value_name = "FILE.parquet")]
+    out: PathBuf,
+    /// Go on where an earlier run of this command was stopped; right for a first run, too
+    #[arg(long)]
+    resume: bool,
+    /// Compute the i-th of n parts only
+    #[arg(long, value_name = "i/n", conflicts_with = "plot")]
+    shard: Option<String>,
+    /// Threads to use; as many as the machine has if left out
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    picture: PictureArgs,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let study = args.study.read()?;
+    let shard = args.shard.as_deref().map(Shard::parse).transpose();
+    let shard = shard.map_err(|error| Failure::from(error).with_prefix("--shard"))?;
+    let identity = Identity::new(&study, shard);
+    args.picture.check(&identity.study)?;
+    if let Some(threads) = args.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
+        let built = pool.build_global();
+        built.map_err(|error| {
+            Failure::Failed(format!("can not start {threads} threads: {error}"))
+        })?;
+    }
+    let rows = identity.rows.end - identity.rows.start;
+    match Store::open(&args.out, identity, args.resume)? {
+        Opened::Complete => {}
+        Opened::Work(store) => {
+            interrupt::be_gentle();
+            let counter = Counter::new("sweep", store.asked(), store.safe());
+            let watch = Watch {
+                done: &|| counter.one(),
+                stop: &interrupt::asked,
+            };
+            let finished = sweep(&study, store, &watch).map_err(go_on)?;
+            drop(counter);
+            if let Finished::Stopped(safe) = finished {
+                let command = resume_command();
+                return Err(Failure::Interrupted(format!(
+                    "{safe} of {rows} rows are safe; to go on:\n  {command}"
+                )));
+            }
+        }
+    }
+    let picture = args.picture.draw(&args.out)?;
+    print(&summary(&args.out, rows, picture)?)
+}
+
+/// What broke, and that no more than a few seconds of work are lost.
+fn go_on(error: StudyError) -> Failure {
+    match error {
+        StudyError::Input(words) => Failure::BadInput(words),
+        StudyError::Failed(words) => Failure::Failed(format!(
+            "{words}\nhint: what was saved is safe; once there is room again, go on with\n  {}",
+            resume_command()
+        )),
+    }
+}
+
+/// The command that was given, with --resume.
+fn resume_command() -> String {
+    let mut words: Vec<String> = std::env::args().skip(1).map(|word| quoted(&word)).collect();
+    if !words.iter().any(|word| word == "--resume") {
+        words.push("--resume".to_owned());
+    }
+    format!("{} {}", crate::Cli::command().get_name(), words.join(" "))
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
+/// What there is in the file now, for a person.
+pub(crate) fn summary(file: &Path, rows: u64, picture: Option<PathBuf>) -> Result<String, Failure> {
+    let tally = ends(file)?;
+    let mut text = format!("Cases     {rows}\n");
+    let counts = tally.ends.iter();
+    let counts: Vec<String> = counts
+        .map(|(end, n)| format!("{} {n}", end.replace('_', " ")))
+        .collect();
+    let ends = if counts.is_empty() {
+        "none".to_owned()
+    } else {
+        counts.join(", ")
+    };
+    let _ = writeln!(text, "Ends      {ends}");
+    if let Some((row, error)) = tally.first_error {
+        let first = error.lines().next().unwrap_or_default();
+        let _ = writeln!(
+            text,
+            "Errors    {}; the first, in row {row}: {first}",
+            tally.errors
+        );
+    }
+    for (i, path) in [Some(file.to_owned()), picture]
+        .into_iter()
+        .flatten()
+        .enumerate()
+    {
+        let label = if i == 0 { "Written" } else { "" };
+        let _ = writeln!(text, "{label:<9} {}", path.display());
+    }
+    Ok(text)
+}
+
+/// The names of the columns that can be shown in a picture.
+pub(crate) fn showable() -> String {
+    let names: Vec<&str> = columns().iter().map(|column| column.name).collect();
+    names.join(", ")
+}

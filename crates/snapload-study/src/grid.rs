@@ -1,0 +1,135 @@
+//! Evenly spaced values, each the double nearest to the decimal number that one would write.
+
+use dashu_int::IBig;
+use dashu_int::UBig;
+use dashu_ratio::RBig;
+use std::fmt;
+
+/// So many digits and powers of ten a bound may have: those of doubles, with room.
+const MOST_DIGITS: usize = 400;
+
+/// `n` values from a first to a last one, both among them.
+///
+/// They are computed as fractions of the decimal texts and rounded once, so there is no sum whose errors
+/// would show as 0.30000000000000004.
+///
+/// ```
+/// use snapload_study::Grid;
+/// let grid = Grid::new("0.01", "0.6", 60).unwrap();
+/// assert_eq!((grid.value(2), grid.value(56)), (0.03, 0.57));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    text: String,
+    first: RBig,
+    span: RBig,
+    count: u64,
+}
+
+impl Grid {
+    /// Of two decimal numbers and how many there are to be, one at the least; none if a text is no number.
+    pub fn new(first: &str, last: &str, count: u64) -> Option<Self> {
+        let (first, last) = (first.trim(), last.trim());
+        let from = decimal(first)?;
+        let span = decimal(last)? - from.clone();
+        let intervals = count.checked_sub(1)?.max(1);
+        Some(Self {
+            text: format!("{first}:{last}:{count}"),
+            first: from,
+            span: span / RBig::from(intervals),
+            count,
+        })
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The k-th value, from 0.
+    pub fn value(&self, k: u64) -> f64 {
+        let exact = &self.first + &self.span * RBig::from(k);
+        exact.to_f64().value()
+    }
+}
+
+impl fmt::Display for Grid {
+    /// As it was written, `first:last:n`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// A decimal number, exactly.
+fn decimal(text: &str) -> Option<RBig> {
+    // What a double can not hold is no number here either: `inf`, `1e999`, `0x10`, nothing at all.
+    text.parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite())?;
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i64>().ok()?),
+        None => (text, 0),
+    };
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let digits = format!("{whole}{fraction}");
+    let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
+    let size = usize::try_from(exponent.unsigned_abs()).ok()?;
+    if digits.len() > MOST_DIGITS || size > MOST_DIGITS {
+        return None;
+    }
+    let digits: IBig = digits.parse().ok()?;
+    let power = UBig::from(10_u8).pow(size);
+    Some(if exponent < 0 {
+        RBig::from_parts(digits, power)
+    } else {
+        RBig::from(digits * IBig::from(power))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_as_one_writes_them() {
+        for (first, last, count, scale) in [
+            ("0.01", "0.6", 60, 100),
+            ("0.001", "0.6", 600, 1000),
+            ("1e-2", "0.60", 60, 100),
+            ("-0.01", "-6e-1", 60, -100),
+        ] {
+            let grid = Grid::new(first, last, count).unwrap();
+            for k in 0..count {
+                let written = format!("{}", (k + 1) as f64 / f64::from(scale));
+                assert_eq!(grid.value(k).to_string(), written);
+                assert_eq!(grid.value(k), written.parse().unwrap());
+            }
+        }
+        let grid = Grid::new("0.4", "2.4", 501).unwrap();
+        for k in 0..501_u64 {
+            let thousandths = 400 + 4 * k;
+            let written = format!("{}.{:03}", thousandths / 1000, thousandths % 1000);
+            assert_eq!(grid.value(k), written.parse().unwrap());
+        }
+    }
+
+    #[test]
+    fn ends_are_exact_and_one_value_is_the_first() {
+        let grid = Grid::new("0.1", "0.7", 600).unwrap();
+        assert_eq!((grid.value(0), grid.value(599)), (0.1, 0.7));
+        assert_eq!(Grid::new("0.3", "0.9", 1).unwrap().value(0), 0.3);
+        assert_eq!(Grid::new("5e-324", "1e-323", 2).unwrap().value(1), 1e-323);
+        assert_eq!(Grid::new("+1", "2.", 2).unwrap().value(1), 2.0);
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused() {
+        for text in [
+            "", "x", "inf", "NaN", "1e999", "1e-999", "1,5", "0x1", "1e", "--1",
+        ] {
+            assert_eq!(Grid::new(text, "1", 3), None, "{text}");
+        }
+        assert_eq!(Grid::new("0", "1", 0), None);
+        assert_eq!(Grid::new("1e-999999999999999999999", "1", 3), None);
+    }
+}

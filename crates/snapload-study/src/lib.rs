@@ -1,0 +1,33 @@
+//! Studies: many cases, a row each, in one Parquet file.
+//!
+//! A [`Study`] is a base case and a [`Plan`]: axes of a grid, Sobol points in a box, or a list. It gives case i
+//! without the ones before it, so a study can be cut anywhere: into chunks, into shards for several machines,
+//! at the point where a run was killed. [`rows()`] is the one place where cases become rows; a [`Store`] keeps
+//! each chunk as a file of its own until all are there, and then joins them. What the file holds depends on the
+//! study alone, to the byte: not on threads, chunks, shards or interruptions.
+
+mod error;
+mod grid;
+mod list;
+mod metadata;
+mod plan;
+mod rows;
+mod sobol;
+mod store;
+mod study;
+mod sweep;
+mod table;
+mod whole;
+
+pub use error::StudyError;
+pub use grid::Grid;
+pub use list::List;
+pub use metadata::{Identity, Shard};
+pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
+pub use rows::{Row, rows};
+pub use sobol::Sobol;
+pub use store::{Opened, Store};
+pub use study::{Drawn, Study};
+pub use sweep::{Finished, Watch, sweep};
+pub use table::{Column, columns, reason};
+pub use whole::{Shown, Tally, ends, identity_of, merge, read_shown};

@@ -1,0 +1,386 @@
+//! A list of cases in a CSV or Parquet file, read where it is needed and never as a whole.
+
+use crate::StudyError;
+use arrow_array::cast::AsArray;
+use arrow_array::types::{Float64Type, Int64Type};
+use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_cast::{CastOptions, cast_with_options};
+use arrow_schema::{DataType, Schema};
+use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use sha2::{Digest, Sha256};
+use snapload::{CaseError, Value, key_named};
+use std::fs::File;
+use std::io::Read;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// The place of every so many rows of a CSV file is remembered.
+const MARK_EVERY: u64 = 1024;
+
+/// What one row gives: keys with their values, or why it can not be read.
+pub(crate) type ListRow = Result<Vec<(&'static str, Value)>, CaseError>;
+
+/// A file with a row a case and a column a key. An empty cell leaves the key to the base case.
+#[derive(Debug)]
+pub struct List {
+    path: PathBuf,
+    keys: Vec<&'static str>,
+    count: u64,
+    sha256: String,
+    format: Format,
+}
+
+#[derive(Debug)]
+enum Format {
+    Csv { marks: Vec<Position> },
+    Parquet,
+}
+
+impl List {
+    /// Opens a list; a name that ends in `.parquet` is a Parquet file, any other a CSV file.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or if a column
+    /// is no key.
+    pub fn open(path: &Path) -> Result<Self, StudyError> {
+        let input = |error: &dyn std::fmt::Display| StudyError::read(path, error).of_input();
+        let sha256 = digest(path).map_err(|error| input(&error))?;
+        let parquet = path
+            .extension()
+            .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
+        let (names, count, format) = if parquet {
+            let file = File::open(path).map_err(|error| input(&error))?;
+            let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+                .map_err(|error| input(&format!("it is no Parquet file ({error})")))?;
+            let count = reader.metadata().file_metadata().num_rows();
+            let names = named_columns(path, reader.schema())?;
+            (names, count.unsigned_abs(), Format::Parquet)
+        } else {
+            let (names, marks, count) = index(path).map_err(|error| input(&error))?;
+            (names, count, Format::Csv { marks })
+        };
+        let keys = keys(path, &names)?;
+        if count == 0 {
+            return Err(input(&"it holds no case, only names of columns"));
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            keys,
+            count,
+            sha256,
+            format,
+        })
+    }
+
+    /// How many cases.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// The name of the file, without the way to it.
+    pub fn name(&self) -> String {
+        let name = self.path.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    }
+
+    /// What `sha256sum` prints of the file.
+    pub fn sha256(&self) -> &str {
+        &self.sha256
+    }
+
+    /// The rows of a range.
+    pub(crate) fn read(&self, range: Range<u64>) -> Result<Vec<ListRow>, StudyError> {
+        let rows = match &self.format {
+            Format::Csv { marks } => self.read_csv(marks, &range),
+            Format::Parquet => self.read_parquet(&range),
+        };
+        let rows = rows.map_err(|words| StudyError::read(&self.path, words))?;
+        if rows.len() as u64 == range.end - range.start {
+            return Ok(rows);
+        }
+        Err(StudyError::read(
+            &self.path,
+            "it has fewer rows than before",
+        ))
+    }
+
+    fn read_csv(&self, marks: &[Position], range: &Range<u64>) -> Result<Vec<ListRow>, String> {
+        let mark = range.start / MARK_EVERY;
+        let mut reader = open_csv(&self.path).map_err(|error| error.to_string())?;
+        let position = marks
+            .get(mark as usize)
+            .cloned()
+            .unwrap_or_else(Position::new);
+        reader.seek(position).map_err(|error| error.to_string())?;
+        reader
+            .into_byte_records()
+            .skip((range.start - mark * MARK_EVERY) as usize)
+            .take((range.end - range.start) as usize)
+            .map(|record| Ok(self.row(&record.map_err(|error| error.to_string())?)))
+            .collect()
+    }
+
+    fn row(&self, record: &ByteRecord) -> ListRow {
+        if record.len() != self.keys.len() {
+            let shown = format!("(a row with {} fields)", record.len());
+            let allowed = format!("{} fields, as in the first line", self.keys.len());
+            return Err(CaseError::value("list", shown, allowed));
+        }
+        let cells = self.keys.iter().zip(record);
+        Ok(cells
+            .filter_map(|(key, cell)| Some((*key, value(&String::from_utf8_lossy(cell))?)))
+            .collect())
+    }
+
+    fn read_parquet(&self, range: &Range<u64>) -> Result<Vec<ListRow>, String> {
+        let file = File::open(&self.path).map_err(|error| error.to_string())?;
+        let length = (range.end - range.start) as usize;
+        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+            .and_then(|reader| {
+                reader
+                    .with_offset(range.start as usize)
+                    .with_limit(length)
+                    .with_batch_size(length)
+                    .build()
+            })
+            .map_err(|error| error.to_string())?;
+        let mut rows = Vec::with_capacity(length);
+        for batch in reader {
+            self.take_batch(&batch.map_err(|error| error.to_string())?, &mut rows)?;
+        }
+        Ok(rows)
+    }
+
+    fn take_batch(&self, batch: &RecordBatch, rows: &mut Vec<ListRow>) -> Result<(), String> {
+        let columns = batch.columns().iter().map(plain);
+        let columns: Vec<ArrayRef> = columns.collect::<Result<_, String>>()?;
+        for row in 0..batch.num_rows() {
+            let cells = self.keys.iter().zip(&columns);
+            let entries = cells.filter_map(|(key, column)| Some((*key, cell(column, row)?)));
+            rows.push(Ok(entries.collect()));
+        }
+        Ok(())
+    }
+}
+
+fn digest(path: &Path) -> std::io::Result<String> {
+    let mut file = File::open(path)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let length = file.read(&mut buffer)?;
+        if length == 0 {
+            let bytes = hash.finalize();
+            return Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect());
+        }
+        hash.update(&buffer[..length]);
+    }
+}
+
+fn open_csv(path: &Path) -> csv::Result<Reader<File>> {
+    ReaderBuilder::new()
+        .flexible(true)
+        .trim(Trim::All)
+        .from_path(path)
+}
+
+/// The names of the columns, the place of every 1024th row, and how many rows there are.
+fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
+    let mut reader = open_csv(path)?;
+    let names = reader.byte_headers()?.iter();
+    let names = names.map(|name| String::from_utf8_lossy(name).into_owned());
+    let names = names.collect();
+    let (mut marks, mut count) = (Vec::new(), 0_u64);
+    let mut record = ByteRecord::new();
+    loop {
+        let position = reader.position().clone();
+        if !reader.read_byte_record(&mut record)? {
+            return Ok((names, marks, count));
+        }
+        if count.is_multiple_of(MARK_EVERY) {
+            marks.push(position);
+        }
+        count += 1;
+    }
+}
+
+/// The names of the columns of a Parquet file, if each is of a type that a key could have.
+fn named_columns(path: &Path, schema: &Schema) -> Result<Vec<String>, StudyError> {
+    let fields = schema.fields().iter().map(|field| {
+        let (name, kind) = (field.name(), field.data_type());
+        target(kind).map(|_| name.clone()).ok_or_else(|| {
+            let allowed = "numbers, texts, or true and false";
+            let (shown, file) = (CaseError::value(name, "", allowed).key, path.display());
+            StudyError::Input(format!(
+                "{file}: column {shown} holds {kind}; allowed: {allowed}"
+            ))
+        })
+    });
+    fields.collect()
+}
+
+/// The keys that the columns are named after, each once.
+fn keys(path: &Path, names: &[String]) -> Result<Vec<&'static str>, StudyError> {
+    let wrong = |words: String| StudyError::Input(format!("{}: {words}", path.display()));
+    let mut keys = Vec::new();
+    for name in names {
+        let key = key_named(name).map_err(|error| {
+            wrong(format!(
+                "{error}\nhint: a list has the names of keys in its first line, and nothing else beside them"
+            ))
+        })?;
+        if keys.contains(&key.name) {
+            return Err(wrong(format!("{} stands over two columns", key.name)));
+        }
+        keys.push(key.name);
+    }
+    Ok(keys)
+}
+
+/// A cell of a CSV file; none where it is empty. What is neither number nor flag is a word.
+fn value(cell: &str) -> Option<Value> {
+    Some(match cell {
+        "" => return None,
+        "true" | "True" | "TRUE" => Value::Bool(true),
+        "false" | "False" | "FALSE" => Value::Bool(false),
+        _ => match (cell.parse::<i64>(), cell.parse::<f64>()) {
+            (Ok(integer), _) => Value::Integer(integer),
+            (_, Ok(number)) => Value::Number(number),
+            _ => Value::Text(cell.to_owned()),
+        },
+    })
+}
+
+/// Which of the four types of values a column becomes.
+fn target(kind: &DataType) -> Option<DataType> {
+    match kind {
+        DataType::Boolean => Some(DataType::Boolean),
+        kind if kind.is_integer() => Some(DataType::Int64),
+        kind if kind.is_floating() || kind.is_decimal() => Some(DataType::Float64),
+        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => Some(DataType::Utf8),
+        DataType::Dictionary(_, values) => target(values),
+        // A column of nothing but empty cells.
+        DataType::Null => Some(DataType::Boolean),
+        _ => None,
+    }
+}
+
+fn plain(column: &ArrayRef) -> Result<ArrayRef, String> {
+    let kind = target(column.data_type()).unwrap_or(DataType::Utf8);
+    // A number that does not fit is to be refused, not to be left out.
+    let options = CastOptions {
+        safe: false,
+        ..CastOptions::default()
+    };
+    cast_with_options(column, &kind, &options).map_err(|error| error.to_string())
+}
+
+fn cell(column: &ArrayRef, row: usize) -> Option<Value> {
+    if column.is_null(row) {
+        return None;
+    }
+    Some(match column.data_type() {
+        DataType::Boolean => Value::Bool(column.as_boolean().value(row)),
+        DataType::Int64 => Value::Integer(column.as_primitive::<Int64Type>().value(row)),
+        DataType::Float64 => Value::Number(column.as_primitive::<Float64Type>().value(row)),
+        _ => Value::Text(column.as_string::<i32>().value(row).to_owned()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arrow_array::types::Int8Type;
+    use arrow_array::{DictionaryArray, Float32Array, UInt16Array};
+    use parquet::arrow::ArrowWriter;
+    use std::io::Write;
+    use std::sync::Arc;
+
+    fn csv(text: &str) -> tempfile::NamedTempFile {
+        let mut file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+        file.write_all(text.as_bytes()).unwrap();
+        file
+    }
+
+    #[test]
+    fn a_csv_file_is_read_from_anywhere() {
+        let mut text = "f_o, e ,body\n".to_owned();
+        for k in 0..5000 {
+            text += &format!("0.{k:04},1,\"rigid\"\n");
+        }
+        let file = csv(&text);
+        let list = List::open(file.path()).unwrap();
+        assert_eq!(list.count(), 5000);
+        for range in [0..3, 1023..1026, 4999..5000, 2048..2049] {
+            for (row, k) in list.read(range.clone()).unwrap().into_iter().zip(range) {
+                let f_o = format!("0.{k:04}").parse::<f64>().unwrap();
+                let wanted: ListRow = Ok(vec![
+                    ("f_o", Value::Number(f_o)),
+                    ("e", Value::Integer(1)),
+                    ("body", Value::Text("rigid".to_owned())),
+                ]);
+                assert_eq!(row, wanted);
+            }
+        }
+    }
+
+    #[test]
+    fn a_parquet_file_is_read_from_anywhere() {
+        let f_o = Float32Array::from_iter((0..300).map(|k| (k % 3 > 0).then_some(k as f32)));
+        let body = DictionaryArray::<Int8Type>::from_iter((0..300).map(|_| "point"));
+        let columns: [(&str, ArrayRef); 3] = [
+            ("f_o", Arc::new(f_o)),
+            ("body", Arc::new(body)),
+            (
+                "max_impacts",
+                Arc::new(UInt16Array::from_iter_values(0..300)),
+            ),
+        ];
+        let batch = RecordBatch::try_from_iter(columns).unwrap();
+        let file = tempfile::Builder::new()
+            .suffix(".parquet")
+            .tempfile()
+            .unwrap();
+        let mut writer = ArrowWriter::try_new(&file, batch.schema(), None).unwrap();
+        writer.write(&batch).unwrap();
+        writer.close().unwrap();
+        let list = List::open(file.path()).unwrap();
+        let rows = list.read(123..125).unwrap();
+        let rest = |k: i64| [("body", "point".into()), ("max_impacts", Value::Integer(k))];
+        assert_eq!(rows[0], Ok(rest(123).to_vec()));
+        assert_eq!(rows[1].as_ref().unwrap()[0], ("f_o", Value::Number(124.0)));
+        assert_eq!(
+            (list.count(), rows[1].as_ref().unwrap()[1..].to_vec()),
+            (300, rest(124).to_vec())
+        );
+    }
+
+    #[test]
+    fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
+        let file = csv("f_o,stop_when_settled\n0.1,\n0.2\n,false\nx,True\n");
+        let rows = List::open(file.path()).unwrap().read(0..4).unwrap();
+        assert_eq!(rows[0], Ok(vec![("f_o", Value::Number(0.1))]));
+        let error = rows[1].clone().unwrap_err().to_string();
+        assert!(
+            error.contains("(a row with 1 fields)") && error.contains("2 fields"),
+            "{error}"
+        );
+        assert_eq!(rows[2], Ok(vec![("stop_when_settled", Value::Bool(false))]));
+        assert_eq!(rows[3].as_ref().unwrap()[0].1, Value::Text("x".to_owned()));
+    }
+
+    #[test]
+    fn a_list_with_other_columns_is_refused() {
+        for (text, wanted) in [
+            ("f_o,omgea\n1,2\n", "did you mean omega?"),
+            ("f_o,f_o\n1,2\n", "f_o stands over two columns"),
+            ("f_o\n", "holds no case"),
+        ] {
+            let error = List::open(csv(text).path()).unwrap_err().to_string();
+            assert!(error.contains(wanted), "{error}");
+        }
+        let error = List::open(Path::new("/no/such/list.csv")).unwrap_err();
+        assert!(matches!(&error, StudyError::Input(words) if words.contains("No such file")));
+    }
+}

@@ -1,0 +1,307 @@
+//! Which cases a study has: the axes of a grid, the sides of a box, or a list.
+
+use crate::{Grid, List, Sobol, StudyError};
+use snapload::{Kind, Value, check_entry, key_named};
+use std::fmt;
+
+/// The most cases of a study, for a slip of the keyboard.
+pub const MOST_CASES: u64 = 1_000_000_000_000;
+/// The most sides of a box of random points.
+pub const MOST_SIDES: usize = Sobol::MOST;
+
+/// One key of a grid, with its values.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    key: &'static str,
+    values: Values,
+}
+
+#[derive(Clone, Debug)]
+enum Values {
+    Even(Grid),
+    Listed(Vec<Value>),
+}
+
+impl Axis {
+    /// Evenly spaced.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such key, or it can not take the first or the last value.
+    pub fn even(key: &str, grid: Grid) -> Result<Self, StudyError> {
+        for k in [0, grid.count() - 1] {
+            check_entry(key, &Value::Number(grid.value(k)))?;
+        }
+        let (key, values) = (key_named(key)?.name, Values::Even(grid));
+        Ok(Self { key, values })
+    }
+
+    /// One after the other.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such key, or it can not take one of the values.
+    pub fn listed(key: &str, values: Vec<Value>) -> Result<Self, StudyError> {
+        for value in &values {
+            check_entry(key, value)?;
+        }
+        let key = key_named(key)?;
+        if values.is_empty() {
+            let error = key
+                .refuse_text("[]")
+                .with_hint("give one value at the least");
+            return Err(error.into());
+        }
+        let (key, values) = (key.name, Values::Listed(values));
+        Ok(Self { key, values })
+    }
+
+    /// The key that varies.
+    pub fn key(&self) -> &'static str {
+        self.key
+    }
+
+    /// How many values there are.
+    pub fn count(&self) -> u64 {
+        match &self.values {
+            Values::Even(grid) => grid.count(),
+            Values::Listed(values) => values.len() as u64,
+        }
+    }
+
+    /// The k-th value, from 0.
+    pub fn value(&self, k: u64) -> Value {
+        match &self.values {
+            Values::Even(grid) => Value::Number(grid.value(k)),
+            Values::Listed(values) => values[k as usize].clone(),
+        }
+    }
+}
+
+impl fmt::Display for Axis {
+    /// As it stands in a study file.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.values {
+            Values::Even(grid) => write!(f, "\"{grid}\""),
+            Values::Listed(values) => {
+                let all: Vec<String> = values.iter().map(Value::to_string).collect();
+                write!(f, "[{}]", all.join(", "))
+            }
+        }
+    }
+}
+
+/// One side of a box of random points.
+#[derive(Clone, Debug)]
+pub struct Side {
+    key: &'static str,
+    low: f64,
+    high: f64,
+}
+
+impl Side {
+    /// From a lowest value to a highest one, which is not reached itself.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such key, if it is none that takes every number of a range, or if
+    /// it can not take one of the two.
+    pub fn new(key: &str, low: f64, high: f64) -> Result<Self, StudyError> {
+        check_entry(key, &Value::Number(low))?;
+        let key = check_entry(key, &Value::Number(high))?;
+        if !matches!(key.kind, Kind::Number { .. }) {
+            let words = format!(
+                "{} can not be drawn at random, as it takes no fractions; let it vary over a grid",
+                key.name
+            );
+            return Err(StudyError::Input(words));
+        }
+        let key = key.name;
+        Ok(Self { key, low, high })
+    }
+
+    /// The key that varies.
+    pub fn key(&self) -> &'static str {
+        self.key
+    }
+
+    fn at(&self, part: f64) -> Value {
+        Value::Number(self.low + part * (self.high - self.low))
+    }
+}
+
+impl fmt::Display for Side {
+    /// As it stands in a study file, without its quotes.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}:{}",
+            Value::Number(self.low),
+            Value::Number(self.high)
+        )
+    }
+}
+
+/// Which cases a study has.
+#[derive(Debug)]
+pub enum Plan {
+    /// Every combination of the axes' values; the first axis is the slowest.
+    Grid(Vec<Axis>),
+    /// Sobol points in a box.
+    Random {
+        /// The sides of the box.
+        sides: Vec<Side>,
+        /// The points.
+        points: Sobol,
+        /// How many.
+        count: u64,
+        /// Which scrambling.
+        seed: u64,
+    },
+    /// The rows of a file.
+    List(List),
+}
+
+impl Plan {
+    /// A grid.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] for a key with two axes, and for too many cases.
+    pub fn grid(axes: Vec<Axis>) -> Result<Self, StudyError> {
+        once(axes.iter().map(Axis::key))?;
+        let count = axes
+            .iter()
+            .try_fold(1_u64, |product, axis| product.checked_mul(axis.count()));
+        match count {
+            Some(count) if count <= MOST_CASES => Ok(Self::Grid(axes)),
+            _ => Err(too_many()),
+        }
+    }
+
+    /// Random points.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] for a key with two sides, a box without any or with more than [`MOST_SIDES`], and
+    /// for no points or too many.
+    pub fn random(sides: Vec<Side>, count: u64, seed: u64) -> Result<Self, StudyError> {
+        once(sides.iter().map(Side::key))?;
+        let points = Sobol::new(sides.len(), seed).ok_or_else(|| {
+            StudyError::Input(format!(
+                "random points need a box of 1 to {MOST_SIDES} keys, and {} vary",
+                sides.len()
+            ))
+        })?;
+        if !(1..=MOST_CASES).contains(&count) {
+            return Err(too_many());
+        }
+        Ok(Self::Random {
+            sides,
+            points,
+            count,
+            seed,
+        })
+    }
+
+    /// How many cases.
+    pub fn count(&self) -> u64 {
+        match self {
+            Self::Grid(axes) => axes.iter().map(Axis::count).product(),
+            Self::Random { count, .. } => *count,
+            Self::List(list) => list.count(),
+        }
+    }
+
+    /// What varies in case `index` of a grid or box.
+    pub(crate) fn entries(&self, index: u64) -> Vec<(&'static str, Value)> {
+        match self {
+            Self::Grid(axes) => {
+                let mut rest = index;
+                let mut entries: Vec<_> = axes
+                    .iter()
+                    .rev()
+                    .map(|axis| {
+                        let value = axis.value(rest % axis.count());
+                        rest /= axis.count();
+                        (axis.key, value)
+                    })
+                    .collect();
+                entries.reverse();
+                entries
+            }
+            Self::Random { sides, points, .. } => sides
+                .iter()
+                .enumerate()
+                .map(|(d, side)| (side.key, side.at(points.coordinate(index, d))))
+                .collect(),
+            Self::List(_) => Vec::new(),
+        }
+    }
+}
+
+/// That no key varies twice.
+fn once(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
+    let mut seen: Vec<&str> = Vec::new();
+    for key in keys {
+        if seen.contains(&key) {
+            let words = format!("{key} varies twice; give all its values at once");
+            return Err(StudyError::Input(words));
+        }
+        seen.push(key);
+    }
+    Ok(())
+}
+
+fn too_many() -> StudyError {
+    StudyError::Input(format!("a study has from 1 to {MOST_CASES:e} cases"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn even(key: &str, first: &str, last: &str, count: u64) -> Axis {
+        Axis::even(key, Grid::new(first, last, count).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_first_axis_is_the_slowest() {
+        let flag = Axis::listed("stop_when_sliding", vec![false.into(), true.into()]).unwrap();
+        let plan = Plan::grid(vec![even("e", "0.5", "0.7", 3), flag]).unwrap();
+        let all: Vec<_> = (0..plan.count()).map(|i| plan.entries(i)).collect();
+        let e =
+            |value: f64, flag: bool| vec![("e", value.into()), ("stop_when_sliding", flag.into())];
+        assert_eq!(all[..3], [e(0.5, false), e(0.5, true), e(0.6, false)]);
+        assert_eq!(all.len(), 6);
+        assert_eq!(Plan::grid(Vec::new()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn random_points_stay_in_the_box() {
+        let sides = vec![
+            Side::new("f_o", 0.1, 0.6).unwrap(),
+            Side::new("x", -0.05, 0.05).unwrap(),
+        ];
+        let plan = Plan::random(sides, 1000, 1).unwrap();
+        for i in 0..1000 {
+            let entries = plan.entries(i);
+            let (Value::Number(f_o), Value::Number(x)) = (&entries[0].1, &entries[1].1) else {
+                panic!("{entries:?}");
+            };
+            assert!((0.1..=0.6).contains(f_o) && (-0.05..=0.05).contains(x));
+        }
+    }
+
+    #[test]
+    fn slips_are_refused_in_words() {
+        let words = |error: StudyError| error.to_string();
+        let grid = |a: &str, b: &str, n| Grid::new(a, b, n).unwrap();
+        let error = Axis::even("e", grid("0.5", "1.5", 3)).unwrap_err();
+        assert!(words(error).contains("e = 1.5 is not allowed; allowed: a number, 0 <= e <= 1"));
+        let error = Axis::even("omgea", grid("0", "1", 2)).unwrap_err();
+        assert!(words(error).contains("did you mean omega?"));
+        let twice = Plan::grid(vec![even("e", "0", "1", 2), even("e", "0", "1", 2)]);
+        assert!(words(twice.unwrap_err()).contains("e varies twice"));
+        let many = ["x", "y", "vx"].map(|key| even(key, "0", "1", 1_000_000));
+        assert!(words(Plan::grid(many.into()).unwrap_err()).contains("1e12 cases"));
+        let error = Side::new("max_impacts", 10.0, 20.0).unwrap_err();
+        assert!(words(error).contains("max_impacts can not be drawn at random"));
+        assert!(Plan::random(Vec::new(), 10, 0).is_err());
+    }
+}

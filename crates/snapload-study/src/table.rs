@@ -1,0 +1,216 @@
+//! The columns of a study's file.
+
+use crate::Row;
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_schema::{ArrowError, DataType, Field, Schema, SchemaRef};
+use snapload::analysis::{Account, Certainty, FirstImpact};
+use snapload::{KEYS, Kind, Stop, Value};
+use std::sync::Arc;
+
+/// How a column's values are taken from an account.
+#[derive(Clone, Copy)]
+enum Take {
+    Number(fn(&Account) -> Option<f64>),
+    Count(fn(&Account) -> Option<u64>),
+    Flag(fn(&Account) -> Option<bool>),
+    Word(fn(&Account) -> &'static str),
+}
+
+/// A column that tells what a run comes to.
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Its symbol in the text of the model; the name where there is none.
+    pub symbol: &'static str,
+    /// Its unit, as in [`snapload::Key::unit`]; empty where it has none.
+    pub unit: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    take: Take,
+}
+
+impl Column {
+    /// Whether it holds numbers.
+    pub fn is_number(&self) -> bool {
+        matches!(self.take, Take::Number(_) | Take::Count(_))
+    }
+
+    /// The words it may hold, where it holds words.
+    pub fn words(&self) -> Vec<&'static str> {
+        match self.take {
+            Take::Word(_) => REASONS.map(reason).to_vec(),
+            Take::Flag(_) => vec!["true", "false"],
+            Take::Number(_) | Take::Count(_) => Vec::new(),
+        }
+    }
+}
+
+const fn column(
+    name: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    take: Take,
+    meaning: &'static str,
+) -> Column {
+    Column {
+        name,
+        symbol,
+        unit,
+        meaning,
+        take,
+    }
+}
+
+fn first<T>(account: &Account, of: fn(FirstImpact) -> T) -> Option<T> {
+    account.first.map(of)
+}
+
+fn horizon(account: &Account) -> Option<(f64, u64)> {
+    account.certainty.and_then(|certainty| certainty.horizon)
+}
+
+/// The columns beside the row's number, the keys and the error, in their order.
+#[rustfmt::skip] // one row a column
+static COLUMNS: [Column; 18] = [
+    column("end", "end", "", Take::Word(|a| reason(a.end.reason)),
+        "why the run ended, in the words of run --json"),
+    column("t", "t", "T", Take::Number(|a| Some(a.end.t)), "when"),
+    column("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.impacts[0])),
+        "impacts of cable 1"),
+    column("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.impacts[1])),
+        "impacts of cable 2"),
+    column("rho1", "ρ₁", "L/T", Take::Number(|a| Some(a.norms.rho1)), "largest v_n of a snap"),
+    column("rho2", "ρ₂", "L/T", Take::Number(|a| Some(a.norms.rho2)), "sum of v_n up to t = 10"),
+    column("rho3", "ρ₃", "L/T", Take::Number(|a| Some(a.norms.rho3)), "sum of v_n"),
+    column("y_max", "*y*ₘₐₓ", "L", Take::Number(|a| Some(a.norms.y_max)), "highest y of the centre"),
+    column("theta_max", "|*θ*|ₘₐₓ", "rad", Take::Number(|a| Some(a.norms.theta_max)),
+        "largest rotation"),
+    column("first_t", "time of the first impact", "T", Take::Number(|a| first(a, |f| f.t)),
+        "time of the first impact"),
+    column("first_cable", "cable of the first impact", "", Take::Count(|a| first(a, |f| f.cable as u64 + 1)),
+        "its cable, 1 or 2"),
+    column("first_v_n", "*v*ₙ of the first impact", "L/T", Take::Number(|a| first(a, |f| f.v_n)),
+        "its normal velocity"),
+    column("t_slack", "time slack", "T", Take::Number(|a| Some(a.slack)), "time without a taut cable"),
+    column("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.sliding)),
+        "time with one taut cable"),
+    column("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.rocking)), "time with both"),
+    column("horizon_t", "horizon", "T", Take::Number(|a| horizon(a).map(|(t, _)| t)),
+        "time up to which the run can be trusted; null if to its end"),
+    column("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a).map(|(_, n)| n)),
+        "the number of the impact there"),
+    column("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c: Certainty| c.certain)),
+        "whether the way it ends is certain; null without trust"),
+];
+
+/// The columns that tell what a run comes to.
+pub fn columns() -> &'static [Column] {
+    &COLUMNS
+}
+
+/// Every reason to stop.
+const REASONS: [Stop; 6] = [
+    Stop::Settled,
+    Stop::RotationLimit,
+    Stop::UpperBound,
+    Stop::SlidingStart,
+    Stop::EndTime,
+    Stop::ImpactLimit,
+];
+
+/// The name of a reason to stop.
+pub fn reason(stop: Stop) -> &'static str {
+    match stop {
+        Stop::Settled => "settled",
+        Stop::RotationLimit => "rotation_limit",
+        Stop::UpperBound => "upper_bound",
+        Stop::SlidingStart => "sliding_start",
+        Stop::EndTime => "end_time",
+        Stop::ImpactLimit => "impact_limit",
+    }
+}
+
+/// Names and types: `row`, the keys, what the runs come to, `error`.
+pub(crate) fn schema() -> SchemaRef {
+    let key_type = |kind: &Kind| match kind {
+        Kind::Number { .. } => DataType::Float64,
+        Kind::Count { .. } => DataType::Int64,
+        Kind::Flag => DataType::Boolean,
+        Kind::Choice(_) => DataType::Utf8,
+    };
+    let take_type = |take: Take| match take {
+        Take::Number(_) => DataType::Float64,
+        Take::Count(_) => DataType::Int64,
+        Take::Flag(_) => DataType::Boolean,
+        Take::Word(_) => DataType::Utf8,
+    };
+    let mut fields = vec![Field::new("row", DataType::Int64, false)];
+    fields.extend(
+        KEYS.iter()
+            .map(|key| Field::new(key.name, key_type(&key.kind), true)),
+    );
+    fields.extend(
+        COLUMNS
+            .iter()
+            .map(|c| Field::new(c.name, take_type(c.take), true)),
+    );
+    fields.push(Field::new("error", DataType::Utf8, true));
+    Arc::new(Schema::new(fields))
+}
+
+/// Rows as columns.
+pub(crate) fn batch(rows: &[Row]) -> Result<RecordBatch, ArrowError> {
+    let index = rows.iter().map(|row| signed(row.index));
+    let mut arrays: Vec<ArrayRef> = vec![Arc::new(Int64Array::from_iter_values(index))];
+    for (k, key) in KEYS.iter().enumerate() {
+        arrays.push(key_array(
+            &key.kind,
+            rows.iter().map(|row| row.keys[k].as_ref()),
+        ));
+    }
+    for column in &COLUMNS {
+        arrays.push(account_array(column.take, rows));
+    }
+    let errors = rows
+        .iter()
+        .map(|row| row.account.as_ref().err().map(ToString::to_string));
+    arrays.push(Arc::new(StringArray::from_iter(errors)));
+    RecordBatch::try_new(schema(), arrays)
+}
+
+/// The values of a key. A value of another type, in a row with an error, is left out: the error tells it.
+fn key_array<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -> ArrayRef {
+    match kind {
+        Kind::Number { .. } => Arc::new(Float64Array::from_iter(values.map(|v| match v? {
+            Value::Number(number) => Some(*number),
+            Value::Integer(number) => Some(*number as f64),
+            _ => None,
+        }))),
+        Kind::Count { .. } => Arc::new(Int64Array::from_iter(values.map(|v| match v? {
+            Value::Integer(number) => Some(*number),
+            _ => None,
+        }))),
+        Kind::Flag => Arc::new(BooleanArray::from_iter(values.map(|v| match v? {
+            Value::Bool(flag) => Some(*flag),
+            _ => None,
+        }))),
+        Kind::Choice(_) => Arc::new(StringArray::from_iter(values.map(|v| match v? {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }))),
+    }
+}
+
+fn account_array(take: Take, rows: &[Row]) -> ArrayRef {
+    let accounts = rows.iter().map(|row| row.account.as_ref().ok());
+    match take {
+        Take::Number(of) => Arc::new(Float64Array::from_iter(accounts.map(|a| of(a?)))),
+        Take::Count(of) => Arc::new(Int64Array::from_iter(accounts.map(|a| of(a?).map(signed)))),
+        Take::Flag(of) => Arc::new(BooleanArray::from_iter(accounts.map(|a| of(a?)))),
+        Take::Word(of) => Arc::new(StringArray::from_iter(accounts.map(|a| a.map(of)))),
+    }
+}
+
+fn signed(count: u64) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}

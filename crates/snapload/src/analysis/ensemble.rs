@@ -1,0 +1,252 @@
+//! Neighbours of a case: what comes of it where one run can not tell.
+
+use crate::analysis::{Doubt, Outcome, START_KEYS};
+use crate::parameters::natural_inertia;
+use crate::{Case, CaseError, Parameters, Stop, Value};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+
+/// A cloud of cases about one, drawn evenly from what its uncertainty allows.
+///
+/// Every member is drawn from a stream of its own, so that the first hundred of a thousand are
+/// the same as a hundred, on any number of threads. The generator is ChaCha with 8 rounds, of the
+/// crate `rand_chacha`: the same numbers on every platform, and streams that can be entered anywhere.
+#[derive(Clone, Debug)]
+pub struct Ensemble {
+    base: Parameters,
+    doubt: Doubt,
+    /// How many members.
+    pub count: u32,
+    /// Which members.
+    pub seed: u64,
+}
+
+/// In every value of the start, unless an uncertainty is given \[L\], \[rad\], \[L/T\], \[rad/T\].
+pub const DEFAULT_CLOUD: f64 = 1e-12;
+
+/// How many members, unless told.
+pub const DEFAULT_MEMBERS: u32 = 1000;
+
+/// A member outside what is legal, such as one whose cable would have to be longer, is drawn again so often.
+const DRAWS: usize = 1000;
+
+impl Ensemble {
+    /// About a case, within what is in doubt of it; where nothing is, within [`DEFAULT_CLOUD`].
+    pub fn about(case: &Case, doubt: &Doubt, count: u32, seed: u64) -> Self {
+        let mut doubt = doubt.clone();
+        for (size, key) in doubt.start.iter_mut().zip(START_KEYS) {
+            if !case.parameters().moves_by(key) {
+                *size = 0.0;
+            }
+        }
+        if doubt.start == [0.0; 6] && doubt.keys.is_empty() {
+            doubt.start = [DEFAULT_CLOUD; 6];
+        }
+        Self {
+            base: *case.parameters(),
+            doubt,
+            count,
+            seed,
+        }
+    }
+
+    /// What the members may be off by.
+    pub fn doubt(&self) -> &Doubt {
+        &self.doubt
+    }
+
+    /// One member.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if no legal case could be drawn.
+    pub fn member(&self, index: u32) -> Result<Case, CaseError> {
+        let mut generator = ChaCha8Rng::seed_from_u64(self.seed);
+        generator.set_stream(index.into());
+        let mut latest = None;
+        for _ in 0..DRAWS {
+            match Case::new(self.draw(&mut generator)) {
+                Ok(case) => return Ok(case),
+                Err(error) => latest = Some(error),
+            }
+        }
+        Err(latest.unwrap_or_else(|| {
+            CaseError::value(
+                "uncertainty",
+                Value::Integer(index.into()),
+                "a legal neighbour",
+            )
+        }))
+    }
+
+    fn draw(&self, generator: &mut ChaCha8Rng) -> Parameters {
+        let base = &self.base;
+        let drawn = base.map(|key, value| {
+            let size = self.size_of(key);
+            if size == 0.0 || !base.moves_by(key) {
+                return value;
+            }
+            // 53 random bits: evenly in [−1, 1).
+            let side = (generator.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0;
+            value + size * side
+        });
+        let follows = base.inertia.is_some() && base.inertia == natural_inertia(base.a, base.b);
+        if follows && self.size_of("inertia") == 0.0 {
+            let inertia = natural_inertia(drawn.a, drawn.b);
+            Parameters { inertia, ..drawn }
+        } else {
+            drawn
+        }
+    }
+
+    fn size_of(&self, key: &str) -> f64 {
+        if let Some(component) = START_KEYS.iter().position(|name| *name == key) {
+            return self.doubt.start[component];
+        }
+        let given = self.doubt.keys.iter().find(|(name, _)| *name == key);
+        given.map_or(0.0, |(_, size)| *size)
+    }
+
+    /// Runs all members; `watch` is told of each, from any thread.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a member could not be drawn.
+    pub fn tally(&self, watch: impl Fn() + Sync) -> Result<Tally, CaseError> {
+        let ends: Vec<Stop> = (0..self.count)
+            .into_par_iter()
+            .map(|index| {
+                let outcome = Outcome::of(&self.member(index)?);
+                watch();
+                Ok(outcome.end.reason)
+            })
+            .collect::<Result<_, CaseError>>()?;
+        Ok(Tally { ends })
+    }
+}
+
+/// How the members of an ensemble end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tally {
+    ends: Vec<Stop>,
+}
+
+impl Tally {
+    /// How many members there are.
+    pub fn members(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// The share of each end that occurs, the most frequent first.
+    pub fn shares(&self) -> Vec<(Stop, Share)> {
+        let mut shares: Vec<(Stop, Share)> = Stop::ALL
+            .into_iter()
+            .map(|reason| (reason, self.share(|end| end == reason)))
+            .filter(|(_, share)| share.count > 0)
+            .collect();
+        shares.sort_by_key(|(_, share)| std::cmp::Reverse(share.count));
+        shares
+    }
+
+    /// The share that exceeds: reaches the rotation limit or the upper bound.
+    pub fn exceeding(&self) -> Share {
+        self.share(Stop::exceeds)
+    }
+
+    fn share(&self, holds: impl Fn(Stop) -> bool) -> Share {
+        let count = self.ends.iter().filter(|end| holds(**end)).count();
+        Share {
+            count,
+            of: self.ends.len(),
+        }
+    }
+}
+
+/// A part of an ensemble.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Share {
+    /// So many members.
+    pub count: usize,
+    /// Of so many.
+    pub of: usize,
+}
+
+impl Share {
+    /// The part, between 0 and 1.
+    pub fn part(self) -> f64 {
+        self.count as f64 / self.of as f64
+    }
+
+    /// The interval that holds the probability with 95 % confidence (E. B. Wilson, *J. Amer. Statist.
+    /// Assoc.* 22 (1927) 209); it makes sense for none and for all, too.
+    pub fn interval(self) -> [f64; 2] {
+        let (n, p) = (self.of as f64, self.part());
+        let z2 = NORMAL_975 * NORMAL_975;
+        let centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
+        let half = NORMAL_975 / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+        [(centre - half).max(0.0), (centre + half).min(1.0)]
+    }
+}
+
+/// The 97.5 % quantile of the normal distribution.
+const NORMAL_975: f64 = 1.959_963_984_540_054;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of SciPy's `binomtest(count, of).proportion_ci(method="wilson")`.
+    #[test]
+    fn intervals_are_wilsons() {
+        let known = [
+            (630, 1000, [0.599_631_7, 0.659_373_3]),
+            (0, 20, [0.0, 0.161_125_2]),
+            (20, 20, [0.838_874_8, 1.0]),
+        ];
+        for (count, of, [low, high]) in known {
+            let interval = Share { count, of }.interval();
+            assert!((interval[0] - low).abs() < 1e-6, "{interval:?}");
+            assert!((interval[1] - high).abs() < 1e-6, "{interval:?}");
+        }
+    }
+
+    #[test]
+    fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<(), CaseError> {
+        let case = Case::new(Parameters::STANDARD)?;
+        let mut doubt = Doubt::default();
+        doubt.set("f_o", 0.02)?;
+        doubt.set("a", 0.001)?;
+        let many = Ensemble::about(&case, &doubt, 100, 7);
+        let few = Ensemble {
+            count: 3,
+            ..many.clone()
+        };
+        for index in 0..100 {
+            let member = *many.member(index)?.parameters();
+            assert!((member.f_o - 0.3).abs() <= 0.02 && member.f_o != 0.3);
+            assert_eq!(member.inertia, Some(member.a * member.a));
+            assert_eq!((member.x, member.y), (0.0, 0.1));
+            assert_eq!(member, *few.member(index)?.parameters());
+        }
+        let other = Ensemble {
+            seed: 8,
+            ..many.clone()
+        };
+        assert_ne!(other.member(0)?.parameters(), many.member(0)?.parameters());
+        Ok(())
+    }
+
+    /// A start on a cable's end: half of the cloud is out of reach, and is drawn again.
+    #[test]
+    fn illegal_neighbours_are_drawn_again() -> Result<(), CaseError> {
+        let case = Case::new(Parameters {
+            y: 0.0,
+            ..Parameters::STANDARD
+        })?;
+        let ensemble = Ensemble::about(&case, &Doubt::of_start(1e-3), 50, 1);
+        let tally = ensemble.tally(|| {})?;
+        assert_eq!(tally.members(), 50);
+        let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();
+        assert_eq!(total, 50);
+        Ok(())
+    }
+}
