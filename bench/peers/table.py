@@ -50,8 +50,9 @@ def markdown(results: dict) -> str:
     left_out = [r for r in results["peers"] if "left_out" in r]
     notes = [f"{row['tool']} is left out: {row['left_out']}." for row in left_out]
     source = (
-        f"Measured {results['date']} on {results['machine']} (load {results['load']}); of the {truth['impacts']} true impacts the "
-        f"first {compared} are compared, those that double precision can decide."
+        f"Measured {results['date']} on {results['machine']} (load {results['load']}); "
+        f"of the {truth['impacts']} true impacts the first {compared} are compared, "
+        "those that double precision can decide."
     )
     return "\n".join([*lines, "", " ".join([source, *notes])])
 
