@@ -1,7 +1,6 @@
 //! What of a case is uncertain, and what that makes of the result: the options, and the answer.
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::report::reason;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::analysis::{
@@ -9,6 +8,7 @@ use snapload::analysis::{
     Witness, sensitivity,
 };
 use snapload::{Case, Stop, Trajectory};
+use snapload_study::reason;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The impacts of which it is told how they depend on every key.

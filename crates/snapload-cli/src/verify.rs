@@ -4,11 +4,11 @@ use crate::doubt::{TrustRow, Trusted, trust_in_words};
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
-use crate::report::reason;
 use crate::stage::Stage;
 use crate::summary;
 use serde::Serialize;
 use snapload::analysis::{Doubt, MOST_DIGITS, Verification, sensitivity, verify};
+use snapload_study::reason;
 use std::fmt::Write;
 use std::path::PathBuf;
 

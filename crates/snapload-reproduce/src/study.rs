@@ -94,7 +94,7 @@ pub struct CriticalRow {
     pub published: f64,
     /// The computed ones, with all amplitudes that exceed.
     pub computed: Both<CriticalForce>,
-    /// How many of [`NEIGHBOURS`] exceed, at amplitudes up to [`CriticalRow::looked_up_to`].
+    /// How many neighbours exceed, at amplitudes up to [`CriticalRow::looked_up_to`].
     pub probable: Both<ExceedanceCurve>,
 }
 
