@@ -11,16 +11,10 @@ use crate::mooring::{MOMENT, MOORING, Moment, Mooring};
 use crate::simulate::{LastImpacts, Progress};
 use crate::trajectory::RHO2_UNTIL;
 use crate::vector::{Bits, Portable, Vector};
-use crate::{Norms, Simulation, TautSet};
+use crate::{Case, Outcome, Simulation, TautSet};
 
-/// A run that has stopped, and what it came to.
-pub(crate) struct Finished {
-    /// Which of the runs, in the order in which they came.
-    pub(crate) index: usize,
-    pub(crate) simulation: Simulation,
-    pub(crate) norms: Norms,
-    pub(crate) impacts: u64,
-}
+/// What is told of a run that has stopped: which it was, in the order in which they came, and its outcome.
+type Tell<'a> = &'a mut dyn FnMut(usize, Outcome);
 
 /// How many runs go side by side. All give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,13 +56,19 @@ impl Lanes {
         }
     }
 
+    /// The outcomes of many cases, in their order, on one thread, and how well the lanes were used.
+    pub fn outcomes(self, cases: &[Case]) -> (Vec<Outcome>, Usage) {
+        let mut outcomes = vec![None; cases.len()];
+        let mut runs = cases.iter().map(Case::simulation);
+        let usage = self.run(&mut runs, &mut |index, outcome| {
+            outcomes[index] = Some(outcome);
+        });
+        (outcomes.into_iter().flatten().collect(), usage)
+    }
+
     /// Runs all of `runs` to their ends and tells each as it stops. Lanes that this processor lacks are
     /// done in plain Rust.
-    pub(crate) fn run(
-        self,
-        runs: &mut dyn Iterator<Item = Simulation>,
-        tell: &mut dyn FnMut(Finished),
-    ) -> Usage {
+    fn run(self, runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         match self {
             Self::One => Fleet::<f64>::board(runs, tell).sail(),
             #[cfg(target_arch = "x86_64")]
@@ -85,13 +85,10 @@ impl Lanes {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
-    use super::{Finished, Fleet, Simulation, Usage};
+    use super::{Fleet, Simulation, Tell, Usage};
     use crate::vector::x86::{Avx2, Avx512};
 
-    pub(super) fn four(
-        runs: &mut dyn Iterator<Item = Simulation>,
-        tell: &mut dyn FnMut(Finished),
-    ) -> Usage {
+    pub(super) fn four(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         #[target_feature(enable = "avx2")]
         fn sail(fleet: Fleet<'_, Avx2>) -> Usage {
             fleet.sail()
@@ -101,10 +98,7 @@ mod x86 {
         unsafe { sail(fleet) }
     }
 
-    pub(super) fn eight(
-        runs: &mut dyn Iterator<Item = Simulation>,
-        tell: &mut dyn FnMut(Finished),
-    ) -> Usage {
+    pub(super) fn eight(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         #[target_feature(enable = "avx512f")]
         fn sail(fleet: Fleet<'_, Avx512>) -> Usage {
             fleet.sail()
@@ -132,6 +126,8 @@ pub struct Usage {
 #[derive(Clone, Copy)]
 struct Tally<L> {
     impacts: L,
+    /// Impacts of the second cable among them.
+    second: L,
     rho1: L,
     rho2: L,
     rho3: L,
@@ -145,13 +141,12 @@ struct Tally<L> {
 struct Rider {
     index: usize,
     simulation: Simulation,
-    norms: Norms,
-    impacts: u64,
+    outcome: Outcome,
 }
 
 struct Fleet<'a, L> {
     runs: &'a mut dyn Iterator<Item = Simulation>,
-    tell: &'a mut dyn FnMut(Finished),
+    tell: Tell<'a>,
     boarded: usize,
     riders: Vec<Option<Box<Rider>>>,
     mooring: Mooring<L>,
@@ -163,10 +158,7 @@ struct Fleet<'a, L> {
 }
 
 impl<'a, L: Vector> Fleet<'a, L> {
-    fn board(
-        runs: &'a mut dyn Iterator<Item = Simulation>,
-        tell: &'a mut dyn FnMut(Finished),
-    ) -> Self {
+    fn board(runs: &'a mut dyn Iterator<Item = Simulation>, tell: Tell<'a>) -> Self {
         let zero = L::ZERO;
         let mut fleet = Self {
             runs,
@@ -238,9 +230,8 @@ impl<'a, L: Vector> Fleet<'a, L> {
         if let Some(simulation) = self.runs.next() {
             let rider = Box::new(Rider {
                 index: self.boarded,
+                outcome: Outcome::begun(&simulation),
                 simulation,
-                norms: Norms::default(),
-                impacts: 0,
             });
             self.boarded += 1;
             self.settle(lane, rider);
@@ -251,10 +242,12 @@ impl<'a, L: Vector> Fleet<'a, L> {
     fn settle(&mut self, lane: usize, mut rider: Box<Rider>) {
         loop {
             if rider.simulation.stop().is_some() {
-                (self.tell)(rider.finished());
+                (self.tell)(rider.index, rider.outcome.ended(&rider.simulation));
                 return self.refill(lane);
             }
-            if let Some((mooring, moment)) = rider.simulation.aboard() {
+            // The first impact is kept as such, so it is not made in a lane.
+            let begun = rider.outcome.first.is_some();
+            if let (true, Some((mooring, moment))) = (begun, rider.simulation.aboard()) {
                 self.enter(lane, &rider, &mooring, &moment);
                 self.riders[lane] = Some(rider);
                 return;
@@ -268,9 +261,10 @@ impl<'a, L: Vector> Fleet<'a, L> {
         let progress = rider.simulation.progress();
         let tally = Tally {
             impacts: progress.impacts as f64,
-            rho1: rider.norms.rho1,
-            rho2: rider.norms.rho2,
-            rho3: rider.norms.rho3,
+            second: rider.outcome.impacts[1] as f64,
+            rho1: rider.outcome.norms.rho1,
+            rho2: rider.outcome.norms.rho2,
+            rho3: rider.outcome.norms.rho3,
             cables: f64::from(progress.last.cables.bits()),
             v_n: progress.last.v_n,
             repeats: f64::from(progress.last.repeats),
@@ -295,10 +289,13 @@ impl<'a, L: Vector> Fleet<'a, L> {
                 repeats: tally.repeats as u32,
             },
         };
-        rider.impacts += progress.impacts - before;
-        rider.norms.rho1 = tally.rho1;
-        rider.norms.rho2 = tally.rho2;
-        rider.norms.rho3 = tally.rho3;
+        let Outcome { impacts, norms, .. } = &mut rider.outcome;
+        let second = tally.second as u64;
+        *impacts = [
+            impacts[0] + (progress.impacts - before) - (second - impacts[1]),
+            second,
+        ];
+        (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         rider.simulation.resume(&moment, progress);
     }
 }
@@ -313,21 +310,7 @@ fn put<L: Vector, const N: usize>(lane: usize, mut all: [L; N], one: [f64; N]) -
 impl Rider {
     fn step(&mut self) {
         if let Some(step) = self.simulation.step() {
-            for impact in step.impacts() {
-                self.norms.take(&impact);
-                self.impacts += u64::from(impact.v_n > 0.0);
-            }
-        }
-    }
-
-    fn finished(mut self: Box<Self>) -> Finished {
-        self.norms.y_max = self.simulation.y_max();
-        self.norms.theta_max = self.simulation.theta_max();
-        Finished {
-            index: self.index,
-            simulation: self.simulation,
-            norms: self.norms,
-            impacts: self.impacts,
+            self.outcome.take(&step);
         }
     }
 }
@@ -341,6 +324,7 @@ impl<L: Lane> Tally<L> {
         let early = t.at_most(L::from_f64(RHO2_UNTIL));
         let counted = Self {
             impacts: self.impacts + 1.0,
+            second: L::select(second, self.second + 1.0, self.second),
             rho1: self.rho1.larger(v_n),
             rho2: L::select(early, self.rho2 + v_n, self.rho2),
             rho3: self.rho3 + v_n,
@@ -350,6 +334,7 @@ impl<L: Lane> Tally<L> {
         };
         *self = Self {
             impacts: L::select(plain, counted.impacts, self.impacts),
+            second: L::select(plain, counted.second, self.second),
             rho1: L::select(plain, counted.rho1, self.rho1),
             rho2: L::select(plain, counted.rho2, self.rho2),
             rho3: L::select(plain, counted.rho3, self.rho3),
@@ -361,12 +346,13 @@ impl<L: Lane> Tally<L> {
 }
 
 /// How many numbers a [`Tally`] is.
-const TALLY: usize = 7;
+const TALLY: usize = 8;
 
 impl<L: Copy> Tally<L> {
     fn numbers(&self) -> [L; TALLY] {
         let Self {
             impacts,
+            second,
             rho1,
             rho2,
             rho3,
@@ -374,12 +360,13 @@ impl<L: Copy> Tally<L> {
             v_n,
             repeats,
         } = *self;
-        [impacts, rho1, rho2, rho3, cables, v_n, repeats]
+        [impacts, second, rho1, rho2, rho3, cables, v_n, repeats]
     }
 
-    fn from_numbers([impacts, rho1, rho2, rho3, cables, v_n, repeats]: [L; TALLY]) -> Self {
+    fn from_numbers([impacts, second, rho1, rho2, rho3, cables, v_n, repeats]: [L; TALLY]) -> Self {
         Self {
             impacts,
+            second,
             rho1,
             rho2,
             rho3,

@@ -1,7 +1,7 @@
 //! The same case gives the same bits, whatever it is computed beside and by how many.
 
-use snapload::analysis::Outcome;
-use snapload::{Case, Lanes, Parameters, Simulation, Value, named_case};
+use snapload::analysis::outcomes;
+use snapload::{Case, Lanes, Outcome, Parameters, Simulation, Value, named_case};
 
 /// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state after).
 fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
@@ -121,11 +121,18 @@ fn bits(outcome: &Outcome) -> Vec<u64> {
         norms.y_max,
         norms.theta_max,
         end.t,
+        outcome.sliding,
+        outcome.rocking,
     ];
-    let numbers = numbers.into_iter().chain(end.state.components());
+    let first = outcome.first.map_or([0.0; 2], |first| [first.t, first.v_n]);
+    let numbers = numbers
+        .into_iter()
+        .chain(first)
+        .chain(end.state.components());
     numbers
         .map(f64::to_bits)
-        .chain([limit, outcome.impacts, end.reason as u64])
+        .chain(outcome.impacts)
+        .chain([limit, end.reason as u64])
         .collect()
 }
 
@@ -135,14 +142,14 @@ fn every_width_of_lanes_has_the_bits_of_one_run_by_itself() {
     assert!(cases.len() > 400, "{}", cases.len());
     let alone: Vec<Outcome> = cases.iter().map(Outcome::of).collect();
     for lanes in Lanes::available() {
-        let (beside, usage) = Outcome::side_by_side(&cases, lanes);
+        let (beside, usage) = lanes.outcomes(&cases);
         assert_eq!(beside.len(), alone.len());
         for (k, (beside, alone)) in beside.iter().zip(&alone).enumerate() {
             assert_eq!(bits(beside), bits(alone), "{lanes:?}, case {k}");
         }
         assert!(usage.bounces > 20_000, "{lanes:?}: {usage:?}");
     }
-    assert_eq!(Outcome::of_many(&cases), alone);
+    assert_eq!(outcomes(&cases), alone);
 }
 
 #[test]
@@ -151,7 +158,7 @@ fn threads_do_not_matter() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().expect("threads");
-        pool.install(|| Outcome::of_many(&cases))
+        pool.install(|| outcomes(&cases))
     };
     let one: Vec<_> = on(1).iter().map(bits).collect();
     for threads in [2, 5] {
@@ -165,9 +172,29 @@ fn few_cases_fill_no_lanes() {
     let cases = varied();
     for count in [0, 1, 3, 9] {
         for lanes in Lanes::available() {
-            let (outcomes, _) = Outcome::side_by_side(&cases[..count], lanes);
+            let (outcomes, _) = lanes.outcomes(&cases[..count]);
             let alone: Vec<Outcome> = cases[..count].iter().map(Outcome::of).collect();
             assert_eq!(outcomes, alone);
         }
+    }
+}
+
+/// A lane whose run has stopped takes the next one at once: of the places for bounces hardly any stay empty.
+#[test]
+fn lanes_are_kept_full() {
+    let cases: Vec<Case> = (0..1000)
+        .map(|k| {
+            let f_o = 0.01 + 0.3 * f64::from(k) / 999.0;
+            Case::new(Parameters {
+                f_o,
+                ..Parameters::STANDARD
+            })
+        })
+        .collect::<Result<_, _>>()
+        .expect("legal");
+    for lanes in Lanes::available() {
+        let usage = lanes.outcomes(&cases).1;
+        let used = usage.bounces as f64 / (usage.rounds * usage.width as u64) as f64;
+        assert!(used > 0.9, "{lanes:?}: {used}");
     }
 }

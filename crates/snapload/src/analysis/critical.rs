@@ -1,9 +1,8 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound is
 //! reached (chapter 6.4.2), and every other one that reaches it.
 
-use crate::analysis::Outcome;
-use crate::analysis::outcome::share;
-use crate::{Case, CaseError, Lanes, Parameters, Stop, Value};
+use super::many::share;
+use crate::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
 use rayon::prelude::*;
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
@@ -101,7 +100,7 @@ impl CriticalForce {
                     })
                 };
                 let cases: Vec<Case> = chunk.iter().map(case).collect::<Result<_, _>>()?;
-                Ok(Outcome::side_by_side(&cases, Lanes::best()).0)
+                Ok(Lanes::best().outcomes(&cases).0)
             })
             .collect::<Result<_, CaseError>>()?;
         let outcomes: Vec<(f64, Outcome)> = amplitudes
