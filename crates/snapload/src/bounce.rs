@@ -150,8 +150,8 @@ impl<L: Lane> TakeOff<L> {
 
     /// When the gap of a tether closes, by Halley's iteration from a guess, and where that was found.
     ///
-    /// The last step is short enough for its quadratic to be exact to rounding, so it knows the crossing, and
-    /// (over dual numbers) how the crossing moves; where the search looked before is no part of the motion.
+    /// The last step is short enough for its quadratic to be exact to rounding. Where the search looked is no part
+    /// of the motion: over dual numbers the crossing moves by −∂g/ġ, whose digits that quadratic has not all.
     #[inline(always)]
     fn meet(&self, tether: &Tether<L>, guess: L, horizon: L) -> (L, L::Mask) {
         let [a, j, _] = tether.bounds;
@@ -178,6 +178,11 @@ impl<L: Lane> TakeOff<L> {
                 break;
             }
             s = L::select(active, next.detached(), s);
+        }
+        if L::CARRIES_SLOPES {
+            let s = meeting.detached();
+            let jet = tether.jet(s, &self.instant(s));
+            meeting = s - (jet.value - jet.value.detached()) / jet.rate;
         }
         (meeting, found)
     }

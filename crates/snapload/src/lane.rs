@@ -41,6 +41,8 @@ pub trait Lane:
     type Mask: Mask;
     /// Spacing of the numbers next to 1.
     const EPSILON: Self;
+    /// See [`Real::CARRIES_SLOPES`].
+    const CARRIES_SLOPES: bool = false;
     /// Zero.
     const ZERO: Self;
     /// One.
@@ -92,6 +94,7 @@ pub trait Lane:
 impl<T: Real> Lane for T {
     type Mask = bool;
     const EPSILON: Self = <T as Real>::EPSILON;
+    const CARRIES_SLOPES: bool = <T as Real>::CARRIES_SLOPES;
     const ZERO: Self = <T as Real>::ZERO;
     const ONE: Self = <T as Real>::ONE;
 

@@ -37,6 +37,8 @@ pub trait Real:
     const ONE: Self;
     /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
     const NEWTON_STEPS: usize;
+    /// Whether it carries derivatives, which [`Real::detached`] leaves out.
+    const CARRIES_SLOPES: bool = false;
 
     /// The number of this arithmetic that equals `value`.
     fn from_f64(value: f64) -> Self;
