@@ -1,6 +1,7 @@
 //! Forces that depend on time alone: a constant one and a sum of sinusoids.
 
-use crate::real::{Real, length};
+use crate::lane::{Lane, combined, length, scaled, sum};
+use crate::real::Real;
 
 /// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
 /// amplitudes and phases in x and y are covered.
@@ -12,6 +13,19 @@ pub struct Harmonic<T = f64> {
     pub cosine: [T; 2],
     /// d, the force in phase with sin Ωt \[F\].
     pub sine: [T; 2],
+}
+
+impl<L: Lane> Harmonic<L> {
+    /// The same force seen from t0: f(t0 + s) = c' cos Ωs + d' sin Ωs.
+    #[inline(always)]
+    pub fn shifted(&self, t0: L) -> Self {
+        let (s, c) = (self.omega * t0).sin_cos();
+        Self {
+            omega: self.omega,
+            cosine: combined(c, self.cosine, s, self.sine),
+            sine: combined(c, self.sine, -s, self.cosine),
+        }
+    }
 }
 
 /// The forces on the body but for those in the cables.
@@ -44,18 +58,6 @@ impl<T: Real> Harmonic<T> {
         }
     }
 
-    /// The same force seen from t0: f(t0 + s) = c' cos Ωs + d' sin Ωs.
-    pub fn shifted(&self, t0: T) -> Self {
-        let (s, c) = (self.omega * t0).sin_cos();
-        let turn = |i: usize| self.cosine[i] * c + self.sine[i] * s;
-        let advance = |i: usize| self.sine[i] * c - self.cosine[i] * s;
-        Self {
-            omega: self.omega,
-            cosine: [turn(0), turn(1)],
-            sine: [advance(0), advance(1)],
-        }
-    }
-
     /// The largest |f(t)|: the larger half-axis of the ellipse that the force describes, which is
     /// the sum of two circular motions in opposite directions.
     pub fn amplitude(&self) -> T {
@@ -80,13 +82,13 @@ pub(crate) struct Push<T> {
     pub(crate) force: [T; 2],
 }
 
-impl<T: Real> Push<T> {
+impl<L: Lane> Push<L> {
     /// Of a constant force.
-    pub(crate) fn constant(force: [T; 2], s: T) -> Self {
-        let half = s * s * 0.5;
+    #[inline(always)]
+    pub(crate) fn constant(force: [L; 2], s: L) -> Self {
         Self {
-            drift: [force[0] * half, force[1] * half],
-            gain: [force[0] * s, force[1] * s],
+            drift: scaled(force, s * s * 0.5),
+            gain: scaled(force, s),
             force,
         }
     }
@@ -96,20 +98,19 @@ impl<T: Real> Push<T> {
     /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
     /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
     /// s (c (1 − z S) + d z C) and the force c (1 − z² C) + d (z − z² S).
-    pub(crate) fn with_harmonic(mut self, harmonic: &Harmonic<T>, s: T) -> Self {
+    #[inline(always)]
+    pub(crate) fn with_harmonic(self, harmonic: &Harmonic<L>, s: L) -> Self {
         let z = harmonic.omega * s;
         let (even, odd) = z.versines();
-        let square = z * z;
-        let sine = z - square * odd;
-        let cosine = T::ONE - square * even;
-        let sinc = T::ONE - z * odd;
-        for i in 0..2 {
-            let (c, d) = (harmonic.cosine[i], harmonic.sine[i]);
-            self.drift[i] += s * s * (c * even + d * odd);
-            self.gain[i] += s * (c * sinc + d * (z * even));
-            self.force[i] += c * cosine + d * sine;
+        let (c, d) = (harmonic.cosine, harmonic.sine);
+        let drift = combined(even, c, odd, d);
+        let gain = combined(L::ONE - z * odd, c, z * even, d);
+        let force = combined(L::ONE - z * z * even, c, z - z * z * odd, d);
+        Self {
+            drift: sum(self.drift, scaled(drift, s * s)),
+            gain: sum(self.gain, scaled(gain, s)),
+            force: sum(self.force, force),
         }
-        self
     }
 }
 
@@ -153,6 +154,13 @@ impl<T: Real> Forcing<T> {
         self.harmonics
             .iter()
             .fold(self.constant[1], |sum, h| sum + h.amplitude_y())
+    }
+
+    /// The largest |f_y|.
+    pub fn steepest(&self) -> T {
+        let upward = self.most_upward();
+        let downward = self.constant[1] - (upward - self.constant[1]);
+        upward.abs().max(downward.abs())
     }
 }
 

@@ -73,6 +73,8 @@ pub(crate) struct Series<T: Real> {
     tops_count: usize,
     rotation_limit: Option<T>,
     step: T,
+    /// What may be reached within the step: event functions, as far as they are not the gaps of `lines`.
+    watched: Vec<(Watch, Polynomial<T>, usize)>,
 }
 
 impl<T: Real> Series<T> {
@@ -98,6 +100,7 @@ impl<T: Real> Series<T> {
             tops_count: 0,
             rotation_limit,
             step: T::ZERO,
+            watched: Vec::new(),
         }
     }
 
@@ -144,6 +147,38 @@ impl<T: Real> Series<T> {
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
+        self.choose_watched();
+    }
+
+    /// Leaves out what provably is not reached within the step.
+    fn choose_watched(&mut self) {
+        let step = self.step;
+        self.watched.clear();
+        for cable in 0..self.cables {
+            let line = &self.lines[cable];
+            let (watch, function, order) = if self.taut.contains(cable) {
+                (Watch::Tension(cable), line.tension.negated(), ORDER - 2)
+            } else {
+                (Watch::Gap(cable), line.gap, ORDER - 1)
+            };
+            if !function.stays_negative(step, order) {
+                self.watched.push((watch, function, order));
+            }
+        }
+        for mut theta in [self.theta, self.theta.negated()] {
+            let Some(limit) = self.rotation_limit else {
+                break;
+            };
+            theta[0] -= limit;
+            if !theta.stays_negative(step, ORDER) {
+                self.watched.push((Watch::Rotation, theta, ORDER));
+            }
+        }
+        for top in &self.tops[..self.tops_count] {
+            if !top.stays_negative(step, ORDER - 1) {
+                self.watched.push((Watch::Top, *top, ORDER - 1));
+            }
+        }
     }
 
     /// f(t0 + s) as a power series.
@@ -332,10 +367,10 @@ impl<T: Real> Series<T> {
 
     /// The gap of a slack cable a time `s` after the start.
     pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
-        let gap = &self.lines[cable].gap;
+        let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER - 1);
         Contact {
-            gap: gap.jet(s, ORDER - 1)[0],
-            error: self.contacts[cable].error + gap.noise(s, ORDER - 1),
+            gap: value,
+            error: self.contacts[cable].error + noise,
             resting: false,
         }
     }
@@ -359,10 +394,10 @@ impl<T: Real> Series<T> {
     }
 
     fn jet(&self, watch: Watch, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
-        let [value, rate, accel] = polynomial.jet(s, order);
+        let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
         Jet {
             third: polynomial.derivative_bound(3, self.step, order),
-            noise: polynomial.noise(s, order),
+            noise,
             ..Jet::new(watch, value, rate, accel)
         }
     }
@@ -394,22 +429,11 @@ impl<T: Real> Series<T> {
 
 impl<T: Real> Watched<T> for Series<T> {
     fn watch(&self, s: T, jets: &mut Jets<T>) {
-        for cable in 0..self.cables {
-            jets.push(if self.taut.contains(cable) {
-                let tension = self.lines[cable].tension.negated();
-                self.jet(Watch::Tension(cable), &tension, ORDER - 2, s)
-            } else {
-                self.gap_jet(cable, s)
+        for (watch, polynomial, order) in &self.watched {
+            jets.push(match *watch {
+                Watch::Gap(cable) => self.gap_jet(cable, s),
+                other => self.jet(other, polynomial, *order, s),
             });
-        }
-        if let Some(limit) = self.rotation_limit {
-            for mut theta in [self.theta, self.theta.negated()] {
-                theta[0] -= limit;
-                jets.push(self.jet(Watch::Rotation, &theta, ORDER, s));
-            }
-        }
-        for top in &self.tops[..self.tops_count] {
-            jets.push(self.jet(Watch::Top, top, ORDER - 1, s));
         }
     }
 }
