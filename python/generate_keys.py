@@ -5,7 +5,7 @@ Run ``python python/generate_keys.py`` after a key was added; a test fails where
 
 from pathlib import Path
 
-from snapload import _engine  # noqa
+from snapload import _engine
 
 TARGET = Path(__file__).parent / "snapload" / "_keys.py"
 

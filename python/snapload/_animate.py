@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import json
 from functools import cached_property
+from importlib import resources
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from uuid import uuid4
 
 import numpy as np
-from matplotlib import animation, pyplot, rc_context
+from matplotlib import animation, pyplot
 from matplotlib.patches import Polygon
 
 from ._check import whole
 from ._plot import CABLES, GREY, geometry, times_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
     from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from ._run import Run
@@ -53,13 +57,14 @@ class Animation:
 
     @cached_property
     def _html(self) -> str:
-        figure, artist = self._animation()
-        try:
-            with rc_context({"animation.embed_limit": 100.0}):
-                html: str = artist.to_jshtml(fps=self._fps, default_mode="loop")
-                return html
-        finally:
-            pyplot.close(figure)
+        scene = _scene_data(self._run, *self._span, self._count)
+        page = resources.files(__package__).joinpath("animation.html").read_text(encoding="utf-8")
+        words = {
+            "scene": scene,
+            "seconds": self._count / self._fps,
+            "colours": [colour for colour, _ in CABLES.values()],
+        }
+        return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(words))
 
     def _repr_html_(self) -> str:
         return self._html
@@ -90,55 +95,73 @@ class Animation:
 
     def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
         figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
-        update = _scene(self._run, ax, *self._span)
-        times = np.linspace(*self._span, self._count)
-        moving = animation.FuncAnimation(figure, update, frames=times.tolist(), interval=1000 / self._fps, blit=True)
-        return figure, moving
+        update = _scene(ax, _scene_data(self._run, *self._span, self._count))
+        # Laid out once and not for every picture.
+        figure.canvas.draw()
+        figure.set_layout_engine("none")
+        return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
 
 
-def _scene(run: Run, ax: Any, start: float, stop: float) -> Callable[[float], Iterable[Artist]]:
-    """Draws what stands still, and returns what moves the rest to a time."""
+def _scene_data(run: Run, start: float, stop: float, count: int) -> dict[str, Any]:
+    """What there is to see: what stands still, and at every time where the body is and which cables are taut."""
     _, a, b, h = geometry(run)
-    anchors = np.array([[1.0, h + b], [-1.0, h + b]])
-    fairleads = np.array([[a, b], [-a, b]])
     angles = np.linspace(0, 2 * np.pi, 60)
-    corners = np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
-    outline = corners if b > 0 else a * np.column_stack([np.cos(angles), np.sin(angles)])
-    path = run.at(times_of(run, start, stop))
-    t, cables = run.impacts["t"], run.impacts["cable"]
-    flash = 4 * (stop - start) / 100
+    size = max(a, b, 0.012)
+    ring = size * np.column_stack([np.cos(angles), np.sin(angles)])
+    outline = ring if b == 0 else np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
+    path, times = run.at(times_of(run, start, stop)), np.linspace(start, stop, count)
+    frames = run.at(times)
+    t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
+    # A snap takes no time; it is shown for as long as an eye needs.
+    flash = 0.03 * (stop - start)
+    taut = []
+    for cable in (1, 2):
+        snaps = t[(cables == cable) & (v_n > 0)]
+        struck = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
+        taut.append(((frames[f"T{cable}"] > 0) | struck).astype(int).tolist())
+    left, right = min(-1.0, path.x.min() - size), max(1.0, path.x.max() + size)
+    return {
+        "anchors": [[1.0, h + b], [-1.0, h + b]],
+        "fairleads": [[a, b], [-a, b]],
+        "outline": outline.round(6).tolist(),
+        "box": [left - 0.06, right + 0.06, path.y.min() - 1.3 * size, h + b + 0.08],
+        "path": np.column_stack([path.t, path.x, path.y]).round(5).tolist(),
+        "frames": np.column_stack([frames.t, frames.x, frames.y, frames.theta]).round(5).tolist(),
+        "taut": taut,
+    }
 
-    size = max(a, b, 0.02)
-    ax.set_xlim(min(-1.08, path.x.min() - 1.5 * size), max(1.08, path.x.max() + 1.5 * size))
-    ax.set_ylim(path.y.min() - 1.5 * size, h + b + 0.08)
+
+def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
+    """Draws what stands still, and returns what moves the rest to a picture."""
+    anchors, fairleads, outline, path, frames = (
+        np.array(scene[name]) for name in ("anchors", "fairleads", "outline", "path", "frames")
+    )
+    left, right, low, high = scene["box"]
+    ax.set_xlim(left, right)
+    ax.set_ylim(low, high)
     ax.set_aspect("equal")
     ax.set_xlabel("$x$ [L]")
     ax.set_ylabel("$y$ [L]")
     ax.plot(*anchors.T, "^", color="black", markersize=7)
-    ax.plot(path.x, path.y, color=GREY, linewidth=0.5, alpha=0.5)
-    lines = [ax.plot([], [], solid_capstyle="round")[0] for _ in range(2)]
-    (trail,) = ax.plot([], [], color="black", linewidth=0.9)
-    body = ax.add_patch(Polygon(outline if size > 0.02 else outline + 0.01, facecolor="0.85", edgecolor="black"))
-    (mark,) = ax.plot([], [], "o", color="black", markersize=3)
-    clock = ax.text(0.5, 0.97, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
+    ax.plot(*path[:, 1:].T, color=GREY, linewidth=0.5, alpha=0.6)
+    lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour, _ in CABLES.values()]
+    (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
+    body = Polygon(outline, facecolor="0.85", edgecolor="black")
+    ax.add_patch(body)
+    clock = ax.text(0.5, 0.95, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
 
-    def move(now: float) -> Iterable[Artist]:
-        at = run.at(now)
-        sine, cosine = np.sin(at.theta), np.cos(at.theta)
-        turn = np.array([[cosine, -sine], [sine, cosine]])
-        centre = np.array([at.x, at.y])
+    def move(k: int) -> list[Artist]:
+        now, x, y, theta = frames[k]
+        sine, cosine = np.sin(theta), np.cos(theta)
+        turn, centre = np.array([[cosine, -sine], [sine, cosine]]), np.array([x, y])
         body.set_xy(outline @ turn.T + centre)
-        mark.set_data([at.x], [at.y])
-        behind = path[path.t <= now]
-        trail.set_data(behind.x, behind.y)
-        for k, line in enumerate(lines):
-            end = turn @ fairleads[k] + centre
-            line.set_data(*np.column_stack([anchors[k], end]))
-            struck = bool(np.any((cables == k + 1) & (now - flash < t) & (t <= now)))
-            taut = at[f"T{k + 1}"] > 0
-            colour, _ = CABLES[k + 1]
-            line.set(color=colour, linewidth=2.4 if taut or struck else 0.9, linestyle="-" if taut or struck else "--")
+        behind = path[path[:, 0] <= now]
+        trail.set_data(behind[:, 1], behind[:, 2])
+        for cable, line in enumerate(lines):
+            line.set_data(*np.column_stack([anchors[cable], turn @ fairleads[cable] + centre]))
+            taut = scene["taut"][cable][k]
+            line.set(linewidth=2.4 if taut else 0.9, linestyle="-" if taut else "--")
         clock.set_text(f"$t$ = {now:.2f}")
-        return [*lines, trail, body, mark, clock]
+        return [*lines, trail, body, clock]
 
     return move

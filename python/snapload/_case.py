@@ -15,7 +15,9 @@ from ._run import Run
 from ._signature import with_keys
 
 if TYPE_CHECKING:
-    from typing_extensions import Self, Unpack
+    from typing import Self
+
+    from typing_extensions import Unpack
 
 #: Keys in which the built-in cases differ.
 _SHOWN = ("r", "e", "a", "b", "f_o", "nu", "omega")
@@ -248,78 +250,6 @@ class Cases(Mapping[str, Case]):
             "".join(f"<td style='text-align:left'>{escape(word)}</td>" for word in row) for row in self._table()
         )
         return f"<table><thead><tr>{head}</tr></thead><tbody><tr>{'</tr><tr>'.join(rows)}</tr></tbody></table>"
-
-
-Case.__doc__ = (Case.__doc__ or "").replace("{parameters}", PARAMETERS.strip())
-with_keys(Case, defaults=True)
-with_keys(Case.replace, defaults=False)
-
-
-def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
-    return cls._of(_engine.Case(name, given))
-
-
-class _UnknownCase(KeyError):
-    """No such code, told without the quotes that a KeyError puts about its words."""
-
-    def __str__(self) -> str:
-        return Exception.__str__(self)
-
-
-class Cases(Mapping[str, Case]):
-    """The built-in cases by code: those of Table 6.1 of the thesis, and the examples of its section 6.5.
-
-    Examples
-    --------
-    >>> import snapload
-    >>> snapload.cases["sliding-example"].f_o
-    0.27
-    """
-
-    @staticmethod
-    @cache
-    def _all() -> dict[str, tuple[str, Case]]:
-        return {code: (about, Case._of(case)) for code, about, case in _engine.named_cases()}
-
-    def __getitem__(self, code: str) -> Case:
-        try:
-            return Case._of(_engine.named_case(code))
-        except ValueError as error:
-            raise _UnknownCase(str(error)) from None
-
-    def __contains__(self, code: object) -> bool:
-        return code in self._all()
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._all())
-
-    def __len__(self) -> int:
-        return len(self._all())
-
-    def _table(self) -> list[list[str]]:
-        rows = [["code", *_SHOWN, "series"]]
-        for code, (about, case) in self._all().items():
-            keys = case.keys()
-            rows.append([code, *(f"{keys[key]:g}" for key in _SHOWN), about])
-        return rows
-
-    def __repr__(self) -> str:
-        return "\n".join(
-            f"{row[0]:<16}" + "".join(f"  {word:<5}" for word in row[1:-1]) + f"  {row[-1]}" for row in self._table()
-        )
-
-    def _repr_html_(self) -> str:
-        head, *rows = (
-            "".join(f"<td style='text-align:left'>{escape(word)}</td>" for word in row) for row in self._table()
-        )
-        return f"<table><thead><tr>{head}</tr></thead><tbody><tr>{'</tr><tr>'.join(rows)}</tr></tbody></table>"
-
-
-class _UnknownCase(ValueError, KeyError):
-    """No such code: a bad value for whoever asks for a case, a missing key for whoever looks one up."""
-
-    def __str__(self) -> str:
-        return Exception.__str__(self)
 
 
 #: The built-in cases by code.

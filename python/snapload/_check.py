@@ -26,4 +26,3 @@ def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
     if uncertainty is None or not isinstance(uncertainty, Mapping):
         return uncertainty
     return {str(key): float(size) for key, size in uncertainty.items()}
-

@@ -54,18 +54,18 @@ class CriticalForce:
         """Draws which amplitudes exceed, or how probably, into axes of Matplotlib, and returns them."""
         from matplotlib import pyplot
 
-        from ._plot import BLUE, ORANGE, VERMILION
+        from ._plot import BLUE, ORANGE, VERMILION, legend
 
         if ax is None:
             _, ax = pyplot.subplots(figsize=(3.5, 2.6), layout="constrained")
         half = self._step / 2
         for place, (start, stop) in enumerate(self.exceeding):
-            label = "the run exceeds" if place == 0 else None
+            label = "exceeds" if place == 0 else None
             ax.axvspan(start - half, stop + half, color=ORANGE, alpha=0.35, linewidth=0, label=label)
         if self.probability is not None:
             at = self.probability
             ax.fill_between(at.f_o, at.low, at.high, color=BLUE, alpha=0.25, linewidth=0)
-            ax.plot(at.f_o, at.part, color=BLUE, linewidth=1.0, label="its neighbours")
+            ax.plot(at.f_o, at.part, color=BLUE, linewidth=1.0, label="neighbours")
             ax.set_ylabel("probability of exceeding")
             ax.set_ylim(-0.02, 1.02)
         else:
@@ -74,10 +74,8 @@ class CriticalForce:
             ax.axvline(self.f_cr, color=VERMILION, linewidth=1.2, linestyle="--", label=f"$f_{{cr}}$ = {self.f_cr:g}")
         ax.set_xlim(0, self._max)
         ax.set_xlabel("$f_o$ [F]")
-        # Below the axes, as the picture may be full.
-        figure = ax.figure
-        ax.legend(frameon=False, fontsize="small", loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
-        figure.canvas.draw_idle()
+        if ax.get_legend_handles_labels()[0]:
+            legend(ax)
         return ax
 
     def _repr_html_(self) -> str:
@@ -153,9 +151,7 @@ def critical_force(
     curve, passes = None, {}
     if members > 0:
         with bar("force amplitudes", round(max / step), progress, 0) as tell:
-            answer = _engine.probability(
-                case._engine, step, max, plain(uncertainty), tolerance, members, seed, tell
-            )
+            answer = _engine.probability(case._engine, step, max, plain(uncertainty), tolerance, members, seed, tell)
         answered = json.loads(answer)
         passes = answered["passes"]
         kinds = [("f_o", "f8"), ("certain", "?"), ("count", "i8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]

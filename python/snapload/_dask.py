@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from . import _engine
 
@@ -36,19 +36,22 @@ def sweep_on(
     tell: Callable[[int], object] | None,
 ) -> None:
     """Has the workers compute what is missing, keeps each chunk as it comes, and completes the file."""
-    from distributed import as_completed
+    import distributed
 
-    threads = max(1, sum(client.nthreads().values()))
+    # It has no types of its own.
+    dask: Any = client
+    waiting: Any = cast(Any, distributed).as_completed()
+
+    threads = max(1, sum(dask.nthreads().values()))
     missing = sum(stop - start for start, stop in store.gaps())
     size = min(max(missing // (_CHUNKS_A_THREAD * threads), _LEAST), _MOST)
     ranges = _ranges(store.gaps(), size)
-    waiting = as_completed()
     places: dict[Any, tuple[int, int]] = {}
 
     def submit() -> None:
         place = next(ranges, None)
         if place is not None:
-            future = client.submit(chunk, case, axes, trust, *place, pure=False, retries=_DEATHS)
+            future = dask.submit(chunk, case, axes, trust, *place, pure=False, retries=_DEATHS)
             places[future] = place
             waiting.add(future)
 
@@ -63,7 +66,7 @@ def sweep_on(
                 tell(stop - start)
         store.finish()
     finally:
-        client.cancel(list(places), force=True)
+        dask.cancel(list(places), force=True)
         store.close()
 
 

@@ -6,6 +6,7 @@ from typing import Any, Literal, TypedDict
 
 from numpy.typing import ArrayLike
 
+
 class Keys(TypedDict, total=False):
     """The keys that a case takes."""
 

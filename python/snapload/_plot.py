@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -111,8 +112,9 @@ def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
     ax.set_ylim(min(ys) - margin, max(ys) + 2 * margin)
     ax.set_xlabel("$x$ [L]")
     ax.set_ylabel("$y$ [L]")
+    ax.xaxis.set_major_locator(MaxNLocator(5))
     if len(seen) > 1:
-        ax.legend(frameon=False, fontsize="small")
+        legend(ax)
 
 
 def _over_time(run: Run, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
@@ -147,7 +149,7 @@ def _velocities(run: Run, ax: Axes, style: dict[str, Any]) -> None:
     ax.set_ylim(bottom=0)
     _label_time(run, ax, "$v_n$ [L/T]")
     if (v > 0).any():
-        ax.legend(frameon=False, fontsize="small")
+        legend(ax)
 
 
 def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
@@ -159,8 +161,22 @@ def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
         # Impulses have no height here, and without them nothing is left to show.
         words = "no cable stays taut:\nonly impulses"
         ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", color="dimgrey", fontsize="small")
+    else:
+        legend(ax)
     _label_time(run, ax, "tension [F]")
-    ax.legend(frameon=False, fontsize="small")
+
+
+def legend(ax: Axes) -> None:
+    """Names of the lines, above the axes, where they hide nothing."""
+    ax.legend(
+        frameon=False,
+        fontsize="small",
+        loc="lower left",
+        bbox_to_anchor=(-0.02, 0.98),
+        ncols=3,
+        columnspacing=1.0,
+        handlelength=1.4,
+    )
 
 
 def _label_time(run: Run, ax: Axes, label: str) -> None:

@@ -179,8 +179,10 @@ class Run:
     @cached_property
     def trust(self) -> Trust:
         """How far the run can be trusted."""
-        lists = {"exponents", "grazes", "sensitivity"}
-        return Trust(**{key: tuple(v) if key in lists else v for key, v in self._head["trust"].items()})
+        told: dict[str, Any] = {
+            key: tuple(value) if isinstance(value, list) else value for key, value in self._head["trust"].items()
+        }
+        return Trust(**told)
 
     @cached_property
     def impacts(self) -> Table:
@@ -243,11 +245,11 @@ class Run:
         ValueError
             If a time is not a number.
         """
-        times = np.ascontiguousarray(t, dtype=np.float64)
+        times = np.asarray(t, dtype=np.float64)
         if np.isnan(times).any():
             raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are held to its span")
-        flat = _records(self._engine.motion_at(times.ravel()))
-        return flat.reshape(times.shape)
+        flat = _records(self._engine.motion_at(np.ascontiguousarray(times.ravel())))
+        return flat.reshape(times.shape).view(np.recarray)
 
     def to_json(self, dt: float | None = None) -> str:
         """The run as the line of JSON that ``snapload run --json -`` writes; with `dt` the motion, too."""

@@ -13,7 +13,9 @@ def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
     """Puts every key in the place of ``**keys``, as a keyword that may be left out, with what it is then or dots."""
     old = inspect.signature(function)
     keywords = [
-        inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(key["default"] if defaults else ""))
+        inspect.Parameter(
+            key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(key["default"] if defaults else "")
+        )
         for key in _engine.keys()
     ]
     kept = [p for p in old.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -170,5 +170,3 @@ def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.floa
     """
     words = [str(bound) if isinstance(bound, str) else repr(float(bound)) for bound in (first, last)]
     return np.array(_engine.evenly(words[0], words[1], whole("count", count, 1, 10**9)))
-
-

@@ -104,8 +104,7 @@ class Table:
 
         body = "".join(row(words, "td") for words in self._rows())
         return (
-            f"<table><thead>{row(list(self._types), 'th')}</thead><tbody>{body}</tbody></table>"
-            f"<p>{len(self)} rows</p>"
+            f"<table><thead>{row(list(self._types), 'th')}</thead><tbody>{body}</tbody></table><p>{len(self)} rows</p>"
         )
 
 
