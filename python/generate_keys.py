@@ -4,6 +4,7 @@ Run ``python python/generate_keys.py`` after a key was added; a test fails where
 """
 
 from pathlib import Path
+from textwrap import fill
 
 from snapload import _engine
 
@@ -16,6 +17,7 @@ from __future__ import annotations
 from typing import Any, Literal, TypedDict
 
 from numpy.typing import ArrayLike
+
 
 '''
 
@@ -53,10 +55,9 @@ def generate() -> str:
     text += '\n\n#: The keys as a section of a docstring.\nPARAMETERS = """'
     for key in keys:
         kind = "{" + ", ".join(f'"{word}"' for word in key["words"]) + "}" if key["words"] else key["kind"]
-        text += f"""
-    {key["name"]} : {kind}, optional
-        {key["meaning"][0].upper()}{key["meaning"][1:]}{unit_of(key)}; allowed: {key["allowed"]};
-        default {key["default"]}."""
+        told = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; allowed: ``{key['allowed']}``; "
+        told = fill(f"{told}default {key['default']}.", 112, initial_indent=" " * 8, subsequent_indent=" " * 8)
+        text += f"\n    {key['name']} : {kind}, optional\n{told}"
     return text + '\n"""\n'
 
 

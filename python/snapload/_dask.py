@@ -67,7 +67,6 @@ def sweep_on(
         store.finish()
     finally:
         dask.cancel(list(places), force=True)
-        store.close()
 
 
 def _ranges(gaps: list[tuple[int, int]], size: int) -> Iterator[tuple[int, int]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -26,7 +27,9 @@ def attributes() -> dict[str, dict[str, str]]:
     """Long name, units and symbol of every key and result, in the words of CF, from the one schema."""
     described = {}
     for entry in (*_engine.keys(), *_engine.columns()):
-        words = {"long_name": entry["meaning"], "units": entry["unit"]}
+        meaning = entry["meaning"]
+        name = meaning if meaning.startswith("start:") else re.split("[:;]", meaning)[0]
+        words = {"long_name": name, "units": entry["unit"], "comment": "" if name == meaning else meaning}
         described[entry["name"]] = {key: word for key, word in words.items() if word}
     described["error"] = {"long_name": "why there was no run"}
     return described

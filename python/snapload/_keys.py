@@ -187,63 +187,49 @@ class KeyValues:
 #: The keys as a section of a docstring.
 PARAMETERS = """
     r : float, optional
-        Length of the cables [L]; allowed: 0 < r <= 1000; and r > |1 - a|;
-        default 1.5.
+        Length of the cables [L]; allowed: ``0 < r <= 1000; and r > |1 - a|``; default 1.5.
     e : float, optional
-        Coefficient of restitution of a snap: v_n after = -e v_n before; allowed: 0 <= e <= 1;
-        default 0.9.
+        Coefficient of restitution of a snap: v_n after = -e v_n before; allowed: ``0 <= e <= 1``; default 0.9.
     a : float, optional
-        Half-width of the body [L]; allowed: 0 <= a <= 1000;
-        default 0.1; 0 for a point mass.
+        Half-width of the body [L]; allowed: ``0 <= a <= 1000``; default 0.1; 0 for a point mass.
     b : float, optional
-        Half-height of the body; 0 is the circle [L]; allowed: 0 <= b <= 1000;
-        default 0.
+        Half-height of the body; 0 is the circle [L]; allowed: ``0 <= b <= 1000``; default 0.
     inertia : float, optional
-        Moment of inertia [m L^2]; allowed: 1e-12 <= inertia <= 1e6; at least 1e-6 (a^2 + b^2); never given for a point mass;
-        default a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle).
+        Moment of inertia [m L^2]; allowed: ``1e-12 <= inertia <= 1e6; at least 1e-6 (a^2 + b^2); never given
+        for a point mass``; default a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle).
     f_o : float, optional
-        Force amplitude: f_x = f_o cos(omega t) [F]; allowed: -1000 <= f_o <= 1000;
-        default 0.3.
+        Force amplitude: f_x = f_o cos(omega t) [F]; allowed: ``-1000 <= f_o <= 1000``; default 0.3.
     nu : float, optional
-        Axis ratio of the forcing ellipse: f_y = nu f_o sin(omega t); allowed: -1000 <= nu <= 1000;
-        default 0.5.
+        Axis ratio of the forcing ellipse: f_y = nu f_o sin(omega t); allowed: ``-1000 <= nu <= 1000``; default
+        0.5.
     omega : float, optional
-        Frequency of the forcing [rad/T]; allowed: -1000 <= omega <= 1000;
-        default 0.9.
+        Frequency of the forcing [rad/T]; allowed: ``-1000 <= omega <= 1000``; default 0.9.
     x : float, optional
-        Start: horizontal position of the centre [L]; allowed: -1000 <= x <= 1000;
-        default 0.
+        Start: horizontal position of the centre [L]; allowed: ``-1000 <= x <= 1000``; default 0.
     y : float, optional
-        Start: vertical position, towards the anchors; 0 with both cables taut [L]; allowed: -1000 <= y <= 1000;
-        default 0.1.
+        Start: vertical position, towards the anchors; 0 with both cables taut [L]; allowed: ``-1000 <= y <=
+        1000``; default 0.1.
     theta : float, optional
-        Start: rotation [rad]; allowed: -1000 <= theta <= 1000; 0 for a point mass;
-        default 0.
+        Start: rotation [rad]; allowed: ``-1000 <= theta <= 1000; 0 for a point mass``; default 0.
     vx : float, optional
-        Start: horizontal velocity [L/T]; allowed: -1000 <= vx <= 1000;
-        default 0.
+        Start: horizontal velocity [L/T]; allowed: ``-1000 <= vx <= 1000``; default 0.
     vy : float, optional
-        Start: vertical velocity [L/T]; allowed: -1000 <= vy <= 1000;
-        default 0.
+        Start: vertical velocity [L/T]; allowed: ``-1000 <= vy <= 1000``; default 0.
     vtheta : float, optional
-        Start: angular velocity [rad/T]; allowed: -1000 <= vtheta <= 1000; 0 for a point mass;
-        default 0.
+        Start: angular velocity [rad/T]; allowed: ``-1000 <= vtheta <= 1000; 0 for a point mass``; default 0.
     t_end : float, optional
-        The run ends here at the latest [T]; allowed: 0 < t_end <= 1e6;
-        default 100.
+        The run ends here at the latest [T]; allowed: ``0 < t_end <= 1e6``; default 100.
     v_stick : float, optional
-        A slower snap makes the cable stay taut if its tension would be positive [L/T]; allowed: 1e-9 <= v_stick <= 0.01;
-        default 1e-6.
+        A slower snap makes the cable stay taut if its tension would be positive [L/T]; allowed: ``1e-9 <=
+        v_stick <= 0.01``; default 1e-6.
     stop_when_settled : bool, optional
-        Stop where a cable sticks, or both are taut, below y = 0.05; allowed: true or false;
-        default true.
+        Stop where a cable sticks, or both are taut, below y = 0.05; allowed: ``true or false``; default true.
     stop_when_sliding : bool, optional
-        Stop where a cable sticks at y = 0.05 or above; allowed: true or false;
-        default false.
+        Stop where a cable sticks at y = 0.05 or above; allowed: ``true or false``; default false.
     max_impacts : int, optional
-        The run ends at more impacts than this; allowed: a whole number, 1 <= max_impacts <= 1e7;
-        default 1000000.
+        The run ends at more impacts than this; allowed: ``a whole number, 1 <= max_impacts <= 1e7``; default
+        1000000.
     body : {"rigid", "point"}, optional
-        A rigid body that turns, or a point mass (a = b = 0) that does not; allowed: "rigid" or "point";
+        A rigid body that turns, or a point mass (a = b = 0) that does not; allowed: ``"rigid" or "point"``;
         default "rigid".
 """

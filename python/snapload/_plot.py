@@ -28,7 +28,7 @@ _MODES = {"slack": (BLUE, 0.9), "sliding": (ORANGE, 2.0), "rocking": (GREEN, 2.0
 #: The width of a column of a journal, and of a page [in].
 _COLUMN, _PAGE = 3.5, 7.2
 
-#: Samples of a curve.
+#: Samples of a whole curve.
 _SAMPLES = 2000
 
 
@@ -69,7 +69,8 @@ def times_of(run: Run, start: float, stop: float) -> NDArray[np.float64]:
     """Times at which a curve is drawn: evenly, and at every impact, where it has a corner."""
     impacts = run.impacts["t"]
     inside = impacts[(start < impacts) & (impacts < stop)]
-    return np.union1d(np.linspace(start, stop, _SAMPLES), inside)
+    count = max(50, round(_SAMPLES * (stop - start) / max(run.end.t, 1e-300)))
+    return np.union1d(np.linspace(start, stop, count), inside)
 
 
 def _stretches(run: Run) -> list[tuple[str, float, float, bool]]:
@@ -167,16 +168,8 @@ def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def legend(ax: Axes) -> None:
-    """Names of the lines, above the axes, where they hide nothing."""
-    ax.legend(
-        frameon=False,
-        fontsize="small",
-        loc="lower left",
-        bbox_to_anchor=(-0.02, 0.98),
-        ncols=3,
-        columnspacing=1.0,
-        handlelength=1.4,
-    )
+    """Names of the lines."""
+    ax.legend(fontsize="small", edgecolor="none", framealpha=0.85, handlelength=1.6, borderpad=0.2)
 
 
 def _label_time(run: Run, ax: Axes, label: str) -> None:

@@ -222,7 +222,7 @@ class Run:
         --------
         >>> import snapload
         >>> motion = snapload.Case(f_o=0.31).run().motion(0.01)
-        >>> motion.shape, motion.y[0]
+        >>> motion.shape, float(motion.y[0])
         ((347,), 0.1)
         """
         return _records(self._engine.motion(float(dt)))

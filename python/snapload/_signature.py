@@ -13,13 +13,16 @@ def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
     """Puts every key in the place of ``**keys``, as a keyword that may be left out, with what it is then or dots."""
     old = inspect.signature(function)
     keywords = [
-        inspect.Parameter(
-            key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(key["default"] if defaults else "")
-        )
+        inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(_default(key) if defaults else ""))
         for key in _engine.keys()
     ]
     kept = [p for p in old.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
     function.__signature__ = old.replace(parameters=[*kept, *keywords])  # type: ignore[attr-defined]
+
+
+def _default(key: dict[str, Any]) -> str:
+    """What a key is when it is left out, as Python writes it; words where that depends on other keys."""
+    return repr(key["standard"]) if key["kind"] == "bool" else str(key["default"])
 
 
 class _Left:

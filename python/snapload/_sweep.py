@@ -95,13 +95,17 @@ def sweep(
         path = Path(scratch) / "study.parquet" if out is None else Path(fspath(out))
         store = _engine.Store.open(study, path, resume)
         if store is not None:
-            with bar("sweep", len(study), progress, store.safe()) as tell:
-                if client is None:
-                    study.sweep(store, threads, tell)
-                else:
-                    from ._dask import sweep_on
+            try:
+                with bar("sweep", len(study), progress, store.safe()) as tell:
+                    if client is None:
+                        study.sweep(store, threads, tell)
+                    else:
+                        from ._dask import sweep_on
 
-                    sweep_on(client, case, spec, trust, store, tell)
+                        sweep_on(client, case, spec, trust, store, tell)
+            finally:
+                # Whoever looks at a traceback does not hold the file.
+                store.close()
         return open_study(path)
 
 

@@ -103,8 +103,10 @@ class Table:
             return "<tr>" + "".join(f"<{tag}>{escape(word)}</{tag}>" for word in words) + "</tr>"
 
         body = "".join(row(words, "td") for words in self._rows())
+        head = row(list(self._types), "th")
         return (
-            f"<table><thead>{row(list(self._types), 'th')}</thead><tbody>{body}</tbody></table><p>{len(self)} rows</p>"
+            "<div style='overflow-x:auto'><table style='white-space:nowrap'>"
+            f"<thead>{head}</thead><tbody>{body}</tbody></table></div><p>{len(self)} rows</p>"
         )
 
 

@@ -72,7 +72,7 @@ def test_signatures_name_the_keys():
     parameters = inspect.signature(snapload.Case).parameters
     names = [key["name"] for key in snapload._engine.keys()]
     assert list(parameters) == ["code", *names] and repr(parameters["f_o"].default) == "0.3"
-    assert "Frequency of the forcing [rad/T]; allowed: -1000 <= omega <= 1000;" in inspect.getdoc(snapload.Case)
+    assert "Frequency of the forcing [rad/T]; allowed: ``-1000 <= omega <= 1000``;" in inspect.getdoc(snapload.Case)
     assert set(names) < set(inspect.signature(snapload.sweep).parameters)
     assert list(inspect.signature(snapload.Case.replace).parameters) == ["self", *names]
 

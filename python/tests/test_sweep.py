@@ -81,6 +81,7 @@ def test_only_resume_goes_on(tmp_path: Path):
 
 INTERRUPTED = """
 import sys, time, snapload
+snapload.sweep(snapload.Case(t_end=0.1), e=[0.5])
 print("ready", flush=True)
 try:
     {call}
