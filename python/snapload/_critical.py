@@ -68,6 +68,7 @@ class CriticalForce:
             ax.plot(at.f_o, at.part, color=BLUE, linewidth=1.0, label="neighbours")
             ax.set_ylabel("probability of exceeding")
             ax.set_ylim(-0.02, 1.02)
+            ax.set_yticks([0, 0.25, 0.5, 0.75, 1])
         else:
             ax.set_yticks([])
         if self.f_cr is not None:

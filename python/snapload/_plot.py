@@ -168,8 +168,19 @@ def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def legend(ax: Axes) -> None:
-    """Names of the lines."""
-    ax.legend(fontsize="small", edgecolor="none", framealpha=0.85, handlelength=1.6, borderpad=0.2)
+    """Names of the lines, in a row over all that is drawn."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.15 * (high - low))
+    ax.legend(
+        fontsize="small",
+        framealpha=0.8,
+        edgecolor="none",
+        loc="upper center",
+        ncols=3,
+        handlelength=1.4,
+        columnspacing=1.0,
+        borderpad=0.1,
+    )
 
 
 def _label_time(run: Run, ax: Axes, label: str) -> None:
