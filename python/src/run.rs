@@ -59,11 +59,9 @@ impl Run {
 
     /// The line that `snapload run --json -` writes.
     #[pyo3(signature = (dt=None))]
-    fn to_json(&self, py: Python<'_>, dt: Option<f64>) -> PyResult<String> {
+    fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
         let report = Report::new(self.case.parameters(), &self.trusted, sampling, &|_| ());
-        // The report looks at its watch from one thread only, and stays on this one.
-        let _ = py;
         to_json(&report)
     }
 

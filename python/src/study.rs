@@ -178,12 +178,12 @@ fn on_threads<T: Send>(
     pool.install(work)
 }
 
-/// The rows of a Parquet file, and of which study they are: its text, version of the program, cases, first row.
+/// Of which study some rows are: its text, version of the program, cases, first row.
+type Origin = (String, String, u64, u64);
+
+/// The rows of a Parquet file, and of which study they are.
 #[pyfunction]
-pub(crate) fn read(
-    py: Python<'_>,
-    path: PathBuf,
-) -> PyResult<(Table, Option<(String, String, u64, u64)>)> {
+pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<(Table, Option<Origin>)> {
     let read = py.detach(|| read_all(&path).map(|read| (read, identity_of(&path))));
     let ((schema, batches), identity) = read.map_err(of_study)?;
     let identity = identity.map(|identity| {
