@@ -47,9 +47,11 @@ cargo build --workspace --lib --bins --tests --locked
 cargo test --workspace --locked
 
 wait "$installing"
-cp "$target/debug/lib_engine.so" python/snapload/_engine.abi3.so
+cp -f "$target/debug/lib_engine.so" python/snapload/_engine.abi3.so
 export PYTHONPATH=$PWD/python PYTHONDONTWRITEBYTECODE=1
 "$python" -m ruff check python docs/conf.py
 "$python" -m ruff format --check python docs/conf.py
+"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees" &
+manual=$!
 "$python" -m pytest
-"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees"
+wait "$manual"
