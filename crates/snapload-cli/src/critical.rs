@@ -1,15 +1,15 @@
 //! `snapload critical`: the smallest force amplitude at which the limits are exceeded, and all others.
 use crate::case_input::{CaseArgs, Input};
 use crate::doubt::DoubtArgs;
-use crate::exceedance::Probability;
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
 use crate::stage::Stage;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
-use snapload::analysis::{CriticalForce, ForceScan};
-use snapload::{Value, key_named};
+use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan};
+use snapload::{Parameters, Value, key_named};
+use snapload_report::{CriticalRow, Probability};
 use snapload_study::{Grid, reason};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -70,10 +70,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let answer = match &args.over {
         None => {
             let parameters = input.case.parameters();
-            let row = Row(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
-            let curve = args.ensemble.map(|members| {
-                Probability::compute(parameters, scan, &doubt, members, args.doubt.seed())
-            });
+            let row =
+                CriticalRow(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
+            let curve = args
+                .ensemble
+                .map(|members| probability(parameters, scan, &doubt, members, args.doubt.seed()));
             Answer::One(row, curve.transpose()?)
         }
         Some(over) => Answer::Many(Many::compute(&input, &Over::parse(over)?, scan)?),
@@ -129,14 +130,33 @@ impl Over {
     }
 }
 
+/// The probability of exceeding, under a progress bar.
+fn probability(
+    parameters: &Parameters,
+    scan: ForceScan,
+    doubt: &Doubt,
+    members: u32,
+    seed: u64,
+) -> Result<Probability, Failure> {
+    let mut progress = Progress::new("force amplitudes", scan.amplitudes().count() as f64);
+    let watch = |done: usize| progress.show(done as f64);
+    let curve = ExceedanceCurve::scan(parameters, scan, doubt, members, seed, watch)
+        .map_err(Failure::bad_input)?;
+    Ok(Probability {
+        curve,
+        members,
+        seed,
+    })
+}
+
 enum Answer {
-    One(Row, Option<Probability>),
+    One(CriticalRow, Option<Probability>),
     Many(Many),
 }
 
 struct Many {
     key: &'static str,
-    points: Vec<(f64, Row)>,
+    points: Vec<(f64, CriticalRow)>,
 }
 
 impl Many {
@@ -152,38 +172,13 @@ impl Many {
         for (value, parameters) in over.values.iter().zip(&cases) {
             let found = CriticalForce::scan(parameters, scan)
                 .map_err(|error| Failure::BadInput(format!("--over: {error}")))?;
-            points.push((*value, Row(found)));
+            points.push((*value, CriticalRow(found)));
             progress.show(points.len() as f64);
         }
         Ok(Self {
             key: over.key,
             points,
         })
-    }
-}
-
-/// The shape of one answer in JSON.
-struct Row(CriticalForce);
-
-impl Row {
-    fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
-        let first = self.0.first;
-        map.serialize_entry("f_cr", &first.map(|first| first.f_o))?;
-        map.serialize_entry("reason", &first.map(|first| reason(first.reason)))?;
-        map.serialize_entry("t", &first.map(|first| first.t))?;
-        map.serialize_entry("exceeding", &self.0.exceeding)
-    }
-
-    fn exceeding(&self) -> String {
-        let interval = |[from, to]: &[f64; 2]| {
-            if from == to {
-                format!("{from}")
-            } else {
-                format!("{from}-{to}")
-            }
-        };
-        let all: Vec<String> = self.0.exceeding.iter().map(interval).collect();
-        all.join(", ")
     }
 }
 
@@ -207,7 +202,7 @@ impl Serialize for Answer {
     }
 }
 
-struct Point<'a>(&'a (f64, Row));
+struct Point<'a>(&'a (f64, CriticalRow));
 
 impl Serialize for Point<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -1,7 +1,7 @@
 //! The pictures of a run, as the files they become.
-use crate::doubt::Trusted;
 use crate::failure::Failure;
 use snapload_figures::{FigureError, Plot, RunPlots, Width, draw};
+use snapload_report::Trusted;
 
 /// A picture, ready to be written.
 pub(crate) struct Picture {

@@ -1,13 +1,15 @@
 //! `snapload run`: one case, from its start to its end.
 use crate::case_input::{CaseArgs, Input};
-use crate::doubt::{DoubtArgs, EnsembleArgs, Trusted};
+use crate::doubt::{DoubtArgs, EnsembleArgs, trusted};
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory, to_line};
 use crate::pictures::pictures;
-use crate::report::{MOST_ROWS, Report, Sampling};
+use crate::progress::Progress;
 use crate::stage::{Room, Stage};
-use crate::{summary, tables};
+use crate::tables;
 use snapload::Trajectory;
+use snapload_report::{MOST_ROWS, Report, Sampling, Trusted, case_in_words, summary};
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -55,10 +57,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let input = args.case.read()?;
     let mut outputs = Outputs::open(args)?;
-    let trusted = Trusted::run(&input.case, &args.doubt, &args.ensemble)?;
+    let trusted = trusted(&input.case, &args.doubt, &args.ensemble)?;
     let trajectory = &trusted.run;
     let sampling = args.sample.map(|dt| sampling(dt, trajectory)).transpose()?;
-    let report = Report::new(input.case.parameters(), &trusted, sampling);
+    let progress = RefCell::new(Progress::new("writing the motion", trajectory.end().t));
+    let watch = |t: f64| progress.borrow_mut().at(t);
+    let report = Report::new(input.case.parameters(), &trusted, sampling, &watch);
 
     if let Some((room, directory)) = outputs.directory.take() {
         let stage = &mut outputs.stage;
@@ -68,7 +72,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         })?;
     }
     match outputs.json.write(outputs.stage, &report)? {
-        Some(written) => print(&summary::of(&input, &trusted, &written)),
+        Some(written) => print(&summary(
+            &input.name,
+            input.case.parameters(),
+            &trusted,
+            &written,
+        )),
         None => Ok(()),
     }
 }
@@ -145,7 +154,10 @@ fn write_directory(
     stage.write(room, place("motion.csv"), |out| {
         tables::motion(trajectory, sampling, out)
     })?;
-    for picture in pictures(&summary::case(input), trusted)? {
+    for picture in pictures(
+        &case_in_words(&input.name, input.case.parameters()),
+        trusted,
+    )? {
         stage.write(room, place(&picture.name), |out| {
             out.write_all(&picture.bytes)
         })?;

@@ -2,7 +2,7 @@
 use crate::case_input::{CaseArgs, Given, from_toml, parse_value};
 use crate::failure::Failure;
 use snapload::{Value, key_named};
-use snapload_study::{Axis, Grid, List, Plan, Side, Study};
+use snapload_study::{Axis, List, Plan, Side, Study};
 use std::path::{Path, PathBuf};
 
 /// What a study file says beside the keys of a case.
@@ -240,46 +240,19 @@ fn of_toml(key: &str, value: toml::Value) -> Result<Varied, Failure> {
     }
 }
 
-/// What a key may vary over, for whoever wrote something else.
-fn wrong_range(key: &str, text: &str, what: &str) -> Failure {
-    Failure::BadInput(format!(
-        "{key} = {text:?}: {what}; write first:last:n for n evenly spaced values, such as 0.01:0.6:60"
-    ))
-}
-
 fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {
-    let text = match varied {
-        Varied::Listed(values) => return Ok(Axis::listed(key, values)?),
-        Varied::Range(text) => text,
-    };
-    key_named(key).map_err(Failure::bad_input)?;
-    let wrong = |what: &str| wrong_range(key, &text, what);
-    let parts: Vec<&str> = text.split(':').map(str::trim).collect();
-    let [first, last, count] = parts[..] else {
-        return Err(wrong("three numbers are needed"));
-    };
-    let count = count.parse().ok().filter(|n| *n >= 1);
-    let count = count.ok_or_else(|| wrong("n must be a whole number, 1 or more"))?;
-    let grid = Grid::new(first, last, count);
-    let grid = grid.ok_or_else(|| wrong("first and last must be numbers"))?;
-    Ok(Axis::even(key, grid)?)
+    Ok(match varied {
+        Varied::Listed(values) => Axis::listed(key, values)?,
+        Varied::Range(text) => Axis::written(key, &text)?,
+    })
 }
 
-/// A side of a box; how many values a grid would have does not matter there.
 fn side(key: &str, varied: Varied) -> Result<Side, Failure> {
     key_named(key).map_err(Failure::bad_input)?;
-    let Varied::Range(text) = varied else {
-        return Err(Failure::BadInput(format!(
+    match varied {
+        Varied::Range(text) => Ok(Side::written(key, &text)?),
+        Varied::Listed(_) => Err(Failure::BadInput(format!(
             "{key}: random points are drawn from a range; write {key}=low:high"
-        )));
-    };
-    let ends: Vec<&str> = text.split(':').map(str::trim).collect();
-    let number = |text: &str| {
-        let number = text.parse().ok().filter(|n: &f64| n.is_finite());
-        number.ok_or_else(|| wrong_range(key, text, "not a number"))
-    };
-    match ends[..] {
-        [low, high] | [low, high, _] => Ok(Side::new(key, number(low)?, number(high)?)?),
-        _ => Err(wrong_range(key, &text, "two numbers are needed, low:high")),
+        ))),
     }
 }

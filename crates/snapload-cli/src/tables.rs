@@ -1,8 +1,7 @@
 //! The tables of a run as CSV: the columns carry the names of the JSON.
-use crate::doubt::Trusted;
-use crate::report::{MotionRow, Sampling, components};
 use serde::Serialize;
 use snapload::{Playback, Trajectory};
+use snapload_report::{MotionRow, Sampling, Trusted, components};
 use std::io::{self, Write};
 
 const IMPACTS: [&str; 18] = [

@@ -1,14 +1,11 @@
 //! `snapload verify`: the same run with many digits, to see where the ordinary one goes wrong.
 use crate::case_input::CaseArgs;
-use crate::doubt::{TrustRow, Trusted, trust_in_words};
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
 use crate::stage::Stage;
-use crate::summary;
-use serde::Serialize;
-use snapload::analysis::{Doubt, MOST_DIGITS, Verification, sensitivity, verify};
-use snapload_study::reason;
+use snapload::analysis::{MOST_DIGITS, verify};
+use snapload_report::{Verified, case_in_words};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -63,145 +60,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     })
     .map_err(Failure::bad_input)?;
     drop(progress);
-    let answer = Answer::new(&input.case, found, args.tolerance);
+    let answer = Verified::new(&input.case, found, args.tolerance);
     if let Some(written) = json.write(stage, &answer.row())? {
-        let mut text = answer.told(&summary::case(&input));
+        let mut text = answer.told(&case_in_words(&input.name, input.case.parameters()));
         for path in written {
             let _ = writeln!(text, "Written   {}", path.display());
         }
         print(&text)?;
     }
     Ok(())
-}
-
-struct Answer {
-    trusted: Trusted,
-    found: Verification,
-}
-
-#[derive(Serialize)]
-struct Row<'a> {
-    digits: u32,
-    digits_left: f64,
-    proven: Option<usize>,
-    predicted: Option<usize>,
-    compared: usize,
-    end: Option<&'static str>,
-    t: f64,
-    impacts: usize,
-    ordinary: Ordinary,
-    differences: &'a [f64],
-    trust: TrustRow<'a>,
-}
-
-#[derive(Serialize)]
-struct Ordinary {
-    end: &'static str,
-    t: f64,
-    impacts: usize,
-}
-
-impl Answer {
-    fn new(case: &snapload::Case, found: Verification, tolerance: f64) -> Self {
-        let trusted = Trusted {
-            run: found.run.clone(),
-            trust: found.trust.clone(),
-            doubt: Doubt {
-                tolerance,
-                ..Doubt::default()
-            },
-            seed: 0,
-            tally: None,
-            sensitivity: sensitivity(case, 0),
-        };
-        Self { trusted, found }
-    }
-
-    fn row(&self) -> Row<'_> {
-        let Verification {
-            digits,
-            digits_left,
-            run,
-            trust,
-            differences,
-            proven,
-            end,
-            t,
-            impacts,
-        } = &self.found;
-        Row {
-            digits: *digits,
-            digits_left: *digits_left,
-            proven: *proven,
-            predicted: trust.horizon.map(|horizon| horizon.impact),
-            compared: differences.len(),
-            end: end.map(reason),
-            t: *t,
-            impacts: *impacts,
-            ordinary: Ordinary {
-                end: reason(run.end().reason),
-                t: run.end().t,
-                impacts: run.impacts().len(),
-            },
-            differences,
-            trust: TrustRow::new(&self.trusted),
-        }
-    }
-
-    fn told(&self, name: &str) -> String {
-        let found = &self.found;
-        let mut text = format!("Case      {name}\n");
-        let words = |reason: &str| reason.replace('_', " ");
-        let _ = writeln!(
-            text,
-            "Ordinary  {} at t = {:.6}, {} impacts",
-            words(reason(found.run.end().reason)),
-            found.run.end().t,
-            found.run.impacts().len()
-        );
-        let end = found.end.map_or_else(
-            || "a cable stays taut, where the proof ends,".to_owned(),
-            |end| words(reason(end)),
-        );
-        let _ = writeln!(
-            text,
-            "{:<9} {end} at t = {:.6}, {} impacts",
-            format!("{} dig.", found.digits),
-            found.t,
-            found.impacts
-        );
-        let tolerance = self.trusted.doubt.tolerance;
-        let _ = match found.proven {
-            Some(impact) => writeln!(
-                text,
-                "Proven    wrong by more than {tolerance:e} from impact {impact} on"
-            ),
-            None => writeln!(
-                text,
-                "Proven    right to {tolerance:e} at all {} impacts",
-                found.differences.len()
-            ),
-        };
-        let _ = writeln!(
-            text,
-            "Predicted {}",
-            summary::indented(&trust_in_words(&self.trusted))
-        );
-        let left = found.digits_left;
-        let _ = if left >= 1.0 {
-            writeln!(
-                text,
-                "          {left:.0} of the {} digits are left at the end",
-                found.digits
-            )
-        } else {
-            let more = f64::from(found.digits) - left + 10.0;
-            writeln!(
-                text,
-                "          the {} digits are used up before the end; --digits {more:.0} would do",
-                found.digits
-            )
-        };
-        text
-    }
 }

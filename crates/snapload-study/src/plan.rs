@@ -35,6 +35,24 @@ impl Axis {
         Ok(Self { key, values })
     }
 
+    /// Evenly spaced, as one writes it: `first:last:n`.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if the text is no range, and as for [`Axis::even`].
+    pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
+        key_named(key)?;
+        let wrong = |what: &str| wrong_range(key, text, what);
+        let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+        let [first, last, count] = parts[..] else {
+            return Err(wrong("three numbers are needed"));
+        };
+        let count = count.parse().ok().filter(|n| *n >= 1);
+        let count = count.ok_or_else(|| wrong("n must be a whole number, 1 or more"))?;
+        let grid = Grid::new(first, last, count);
+        let grid = grid.ok_or_else(|| wrong("first and last must be numbers"))?;
+        Self::even(key, grid)
+    }
+
     /// One after the other.
     ///
     /// # Errors
@@ -89,6 +107,13 @@ impl fmt::Display for Axis {
     }
 }
 
+/// What a key may vary over, for whoever wrote something else.
+fn wrong_range(key: &str, text: &str, what: &str) -> StudyError {
+    StudyError::Input(format!(
+        "{key} = {text:?}: {what}; write first:last:n for n evenly spaced values, such as 0.01:0.6:60"
+    ))
+}
+
 /// One side of a box of random points.
 #[derive(Clone, Debug)]
 pub struct Side {
@@ -115,6 +140,23 @@ impl Side {
         }
         let key = key.name;
         Ok(Self { key, low, high })
+    }
+
+    /// As one writes it: `low:high`. How many values a grid would have, after another colon, does not matter here.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if the text is no range, and as for [`Side::new`].
+    pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
+        key_named(key)?;
+        let ends: Vec<&str> = text.split(':').map(str::trim).collect();
+        let number = |end: &str| {
+            let number = end.parse().ok().filter(|n: &f64| n.is_finite());
+            number.ok_or_else(|| wrong_range(key, end, "not a number"))
+        };
+        match ends[..] {
+            [low, high] | [low, high, _] => Self::new(key, number(low)?, number(high)?),
+            _ => Err(wrong_range(key, text, "two numbers are needed, low:high")),
+        }
     }
 
     /// The key that varies.

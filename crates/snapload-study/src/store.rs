@@ -6,7 +6,7 @@
 //! whichever point the power fails, what was renamed is still there, and all else is done again.
 
 use crate::whole::{identity_of, join, to_bytes};
-use crate::{Identity, Row, StudyError};
+use crate::{Identity, Row, Study, StudyError, rows};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -103,14 +103,17 @@ impl Store {
 
     /// The first rows that are missing, up to the next ones that are there.
     pub fn gap(&self) -> Option<Range<u64>> {
-        let Range { mut start, end } = self.identity.rows;
-        for (first, next) in &self.chunks {
-            if *first > start {
-                return Some(start..*first);
-            }
-            start = *next;
-        }
-        (start < end).then_some(start..end)
+        self.gaps().next()
+    }
+
+    /// Every stretch of rows that are missing.
+    pub fn gaps(&self) -> impl Iterator<Item = Range<u64>> + '_ {
+        let Range { start, end } = self.identity.rows;
+        let ends = std::iter::once(start).chain(self.chunks.values().copied());
+        let starts = self.chunks.keys().copied().chain(std::iter::once(end));
+        ends.zip(starts)
+            .map(|(from, to)| from..to)
+            .filter(|gap| !gap.is_empty())
     }
 
     /// Keeps rows, whole or not at all.
@@ -118,15 +121,34 @@ impl Store {
     /// # Errors
     /// [`StudyError::Failed`] if the disk is full, for instance.
     pub fn save(&mut self, range: Range<u64>, rows: &[Row]) -> Result<(), StudyError> {
-        let identity = Identity {
-            rows: range.clone(),
-            ..self.identity.clone()
-        };
-        let bytes = to_bytes(&identity, rows);
+        let bytes = encode(&self.identity, range.clone(), rows);
         let bytes = bytes.map_err(|error| StudyError::write(&self.directory, error))?;
         self.put(&chunk_name(&range), &bytes)?;
         self.chunks.insert(range.start, range.end);
         Ok(())
+    }
+
+    /// Keeps rows that [`chunk`] made, perhaps on another machine.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if they are not those rows of this study, computed by this version of the program;
+    /// [`StudyError::Failed`] if they can not be written.
+    pub fn keep(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
+        let name = chunk_name(&range);
+        self.put(&name, bytes)?;
+        let path = self.directory.join(name);
+        let found = identity_of(&path);
+        if found.is_some_and(|found| found.goes_with(&self.identity) && found.rows == range) {
+            self.chunks.insert(range.start, range.end);
+            return Ok(());
+        }
+        let _ = fs::remove_file(&path);
+        Err(StudyError::Input(format!(
+            "rows {} to {} came from another study or another version of snapload; every machine needs version {}",
+            range.start,
+            range.end - 1,
+            self.identity.version
+        )))
     }
 
     /// Joins all rows into the file and puts it in its place.
@@ -188,6 +210,29 @@ impl Store {
         }
         Ok(())
     }
+}
+
+/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`] takes. `done` is
+/// called after each case.
+///
+/// # Errors
+/// [`StudyError::Failed`] if the list of cases can not be read.
+pub fn chunk(
+    study: &Study,
+    range: Range<u64>,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<u8>, StudyError> {
+    let rows = rows(study.draw(range.clone())?, study.trust(), done);
+    let bytes = encode(&Identity::new(study, None), range, &rows);
+    bytes.map_err(|error| StudyError::Failed(error.to_string()))
+}
+
+fn encode(whole: &Identity, rows: Range<u64>, made: &[Row]) -> io::Result<Vec<u8>> {
+    let identity = Identity {
+        rows,
+        ..whole.clone()
+    };
+    to_bytes(&identity, made)
 }
 
 /// A finished file where one is to be made.
@@ -284,7 +329,7 @@ fn parse_chunk_name(name: &str) -> Option<Range<u64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Axis, Finished, Grid, Plan, Study, Watch, rows, sweep};
+    use crate::{Axis, Finished, Grid, Plan, Watch, sweep};
 
     fn study(count: u64) -> Study {
         let grid = Grid::new("0.1", "0.6", count).unwrap();
@@ -301,6 +346,33 @@ mod tests {
             Opened::Work(store) => store,
             Opened::Complete => panic!("complete"),
         }
+    }
+
+    /// Rows that were computed elsewhere make the same file; those of another study are refused.
+    #[test]
+    fn rows_come_from_elsewhere() {
+        let (study, other) = (study(5), study(6));
+        let directory = tempfile::tempdir().unwrap();
+        let (here, there) = (directory.path().join("a"), directory.path().join("b"));
+        let mut store = work(&here, &study);
+        assert!(
+            store
+                .keep(0..2, &chunk(&other, 0..2, &|| ()).unwrap())
+                .is_err()
+        );
+        for range in [3..5, 0..3] {
+            store
+                .keep(range.clone(), &chunk(&study, range, &|| ()).unwrap())
+                .unwrap();
+        }
+        assert_eq!(store.gap(), None);
+        store.finish().unwrap();
+        let watch = Watch {
+            done: &|| (),
+            stop: &|| false,
+        };
+        sweep(&study, work(&there, &study), &watch).unwrap();
+        assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
     }
 
     fn save(store: &mut Store, study: &Study, range: Range<u64>) {

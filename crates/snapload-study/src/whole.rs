@@ -5,8 +5,8 @@ use crate::table::{batch, schema};
 use crate::{Column, Row, StudyError};
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, ArrayRef};
-use arrow_schema::DataType;
+use arrow_array::{Array, ArrayRef, RecordBatch};
+use arrow_schema::{DataType, SchemaRef};
 use arrow_select::coalesce::BatchCoalescer;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::arrow::{ArrowWriter, ProjectionMask};
@@ -239,6 +239,23 @@ pub fn read_shown(
             row += 1;
         }
     })
+}
+
+/// All columns of a file, as it is: a file of a study, or any other.
+///
+/// # Errors
+/// [`StudyError::Failed`] if the file can not be read.
+pub fn read_all(path: &Path) -> Result<(SchemaRef, Vec<RecordBatch>), StudyError> {
+    let reader = open(path)?;
+    let schema = reader.schema().clone();
+    let batches = reader
+        .build()
+        .map_err(|error| StudyError::read(path, error))?;
+    let batches: Result<Vec<RecordBatch>, _> = batches.collect();
+    Ok((
+        schema,
+        batches.map_err(|error| StudyError::read(path, error))?,
+    ))
 }
 
 fn read_columns(

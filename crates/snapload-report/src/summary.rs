@@ -1,6 +1,5 @@
 //! A run in a few lines, for a person.
-use crate::case_input::Input;
-use crate::doubt::{Trusted, outcome_in_words, trust_in_words};
+use crate::{Trusted, outcome_in_words, trust_in_words};
 use snapload::{Impact, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -8,12 +7,17 @@ use std::path::PathBuf;
 /// More intervals than this are summed up only.
 const FEW_MODES: usize = 6;
 
-/// The summary, with the files that were written.
-pub(crate) fn of(input: &Input, trusted: &Trusted, written: &[PathBuf]) -> String {
+/// The summary of a run of the case of this name, with the files that were written.
+pub fn summary(
+    name: &str,
+    parameters: &Parameters,
+    trusted: &Trusted,
+    written: &[PathBuf],
+) -> String {
     let trajectory = &trusted.run;
     let mut lines = Lines(String::new());
-    lines.add("Case", &case(input));
-    lines.add("End", &end(trajectory, input.case.parameters()));
+    lines.add("Case", &case_in_words(name, parameters));
+    lines.add("End", &end(trajectory, parameters));
     if let Some(limit) = trajectory.end().t_limit {
         lines.add(
             "",
@@ -45,7 +49,7 @@ pub(crate) fn of(input: &Input, trusted: &Trusted, written: &[PathBuf]) -> Strin
 }
 
 /// A text of several lines, of which the later ones stand below the first.
-pub(crate) fn indented(text: &str) -> String {
+pub fn indented(text: &str) -> String {
     text.replace('\n', "\n          ")
 }
 
@@ -60,25 +64,24 @@ impl Lines {
 }
 
 /// The name of the case, and where it differs from the standard one.
-pub(crate) fn case(input: &Input) -> String {
-    let parameters = input.case.parameters();
+pub fn case_in_words(name: &str, parameters: &Parameters) -> String {
     let differing: Vec<String> = parameters
         .entries()
         .filter(|(key, value)| *value != Parameters::STANDARD.get(key))
         .filter_map(|(key, value)| Some(format!("{key} = {}", rounded(&value?))))
         .collect();
     if differing.is_empty() {
-        return match input.name.as_str() {
+        return match name {
             "standard case" => "the standard case (1910001000-359)".to_owned(),
             name => format!("{name}: the standard case"),
         };
     }
-    let join = if input.name == "standard case" {
+    let join = if name == "standard case" {
         " with"
     } else {
         ":"
     };
-    format!("{}{join} {}", input.name, differing.join(", "))
+    format!("{name}{join} {}", differing.join(", "))
 }
 
 /// A value as its author wrote it; one with many digits was computed, and is cut.

@@ -1,45 +1,61 @@
-//! `snapload critical --ensemble`: the probability of exceeding the limits against the force amplitude.
-use crate::doubt::{neighbours, percent};
-use crate::failure::Failure;
-use crate::progress::Progress;
+//! The critical force, and the probability of exceeding the limits against the force amplitude: in JSON and
+//! in words.
+use crate::trusted::{neighbours, percent};
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
-use snapload::Parameters;
-use snapload::analysis::{Doubt, ExceedanceCurve, Exceeding, ForceScan};
+use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding};
+use snapload_study::reason;
 use std::fmt::Write;
+
+/// The shape of one answer in JSON.
+pub struct CriticalRow(pub CriticalForce);
+
+impl CriticalRow {
+    /// The entries of the JSON.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        let first = self.0.first;
+        map.serialize_entry("f_cr", &first.map(|first| first.f_o))?;
+        map.serialize_entry("reason", &first.map(|first| reason(first.reason)))?;
+        map.serialize_entry("t", &first.map(|first| first.t))?;
+        map.serialize_entry("exceeding", &self.0.exceeding)
+    }
+
+    /// The amplitudes that exceed, as one writes them.
+    pub fn exceeding(&self) -> String {
+        let interval = |[from, to]: &[f64; 2]| {
+            if from == to {
+                format!("{from}")
+            } else {
+                format!("{from}-{to}")
+            }
+        };
+        let all: Vec<String> = self.0.exceeding.iter().map(interval).collect();
+        all.join(", ")
+    }
+}
 
 /// The parts of the neighbours at which it is told which amplitude they exceed at.
 const LEVELS: [f64; 3] = [0.05, 0.5, 0.95];
 
 /// A curve with what it was computed from.
-pub(crate) struct Probability {
-    curve: ExceedanceCurve,
-    members: u32,
-    seed: u64,
+pub struct Probability {
+    /// The curve.
+    pub curve: ExceedanceCurve,
+    /// How many neighbours at each amplitude.
+    pub members: u32,
+    /// Which.
+    pub seed: u64,
 }
 
 impl Probability {
-    pub(crate) fn compute(
-        parameters: &Parameters,
-        scan: ForceScan,
-        doubt: &Doubt,
-        members: u32,
-        seed: u64,
-    ) -> Result<Self, Failure> {
-        let amplitudes = scan.amplitudes().count();
-        let mut progress = Progress::new("force amplitudes", amplitudes as f64);
-        let watch = |done: usize| progress.show(done as f64);
-        let curve = ExceedanceCurve::scan(parameters, scan, doubt, members, seed, watch)
-            .map_err(Failure::bad_input)?;
-        Ok(Self {
-            curve,
-            members,
-            seed,
-        })
-    }
-
     /// The entries of the JSON.
-    pub(crate) fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+    ///
+    /// # Errors
+    /// Those of the writer.
+    pub fn entries<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         map.serialize_entry("members", &self.members)?;
         map.serialize_entry("seed", &self.seed)?;
         map.serialize_entry("passes", &Passes(&self.curve))?;
@@ -48,7 +64,7 @@ impl Probability {
     }
 
     /// A line for every amplitude at which it is neither none nor all, or not for certain.
-    pub(crate) fn told(&self, text: &mut String) {
+    pub fn told(&self, text: &mut String) {
         let passes: Vec<String> = LEVELS
             .iter()
             .map(|level| {
@@ -91,6 +107,22 @@ impl Probability {
             points.len() - split.len(),
             points.len()
         );
+    }
+}
+
+impl Serialize for CriticalRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.entries(&mut map)?;
+        map.end()
+    }
+}
+
+impl Serialize for Probability {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.entries(&mut map)?;
+        map.end()
     }
 }
 

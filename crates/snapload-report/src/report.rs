@@ -1,16 +1,15 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
-use crate::doubt::{OutcomeRow, TrustRow, Trusted};
-use crate::progress::Progress;
+use crate::{OutcomeRow, TrustRow, Trusted};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use snapload::{
-    Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
+    End, Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
 };
 use snapload_study::reason;
 
 /// Everything there is to say about a run.
 #[derive(Serialize)]
-pub(crate) struct Report<'a> {
+pub struct Report<'a> {
     case: CaseEcho<'a>,
     end: EndRow,
     outcome: OutcomeRow,
@@ -23,21 +22,19 @@ pub(crate) struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The report of a run, with the motion sampled if asked for.
-    pub(crate) fn new(
+    /// The report of a run, with the motion sampled if asked for. `watch` is told the time that the motion is
+    /// written up to.
+    pub fn new(
         parameters: &'a Parameters,
         trusted: &'a Trusted,
         sampling: Option<Sampling>,
+        watch: &'a dyn Fn(f64),
     ) -> Self {
         let trajectory = &trusted.run;
         let end = trajectory.end();
         Self {
             case: CaseEcho(parameters),
-            end: EndRow {
-                reason: reason(end.reason),
-                t: end.t,
-                t_limit: end.t_limit,
-            },
+            end: EndRow::new(end),
             outcome: OutcomeRow::new(trusted),
             trust: TrustRow::new(trusted),
             impacts: ImpactRows(trusted),
@@ -46,13 +43,14 @@ impl<'a> Report<'a> {
             motion: sampling.map(|sampling| MotionRows {
                 trajectory,
                 sampling,
+                watch,
             }),
         }
     }
 }
 
 /// Every key in effect, in the order of the schema.
-struct CaseEcho<'a>(&'a Parameters);
+pub struct CaseEcho<'a>(pub &'a Parameters);
 
 impl Serialize for CaseEcho<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -70,11 +68,23 @@ impl Serialize for CaseEcho<'_> {
     }
 }
 
+/// `"end"` in the JSON of a run.
 #[derive(Serialize)]
-struct EndRow {
+pub struct EndRow {
     reason: &'static str,
     t: f64,
     t_limit: Option<f64>,
+}
+
+impl EndRow {
+    /// Of an end.
+    pub fn new(end: &End) -> Self {
+        Self {
+            reason: reason(end.reason),
+            t: end.t,
+            t_limit: end.t_limit,
+        }
+    }
 }
 
 /// A list whose rows are shaped one at a time, while they are written.
@@ -125,7 +135,7 @@ impl ImpactRow {
 }
 
 /// x, y, theta, vx, vy, vtheta.
-pub(crate) fn components(state: &State) -> [f64; 6] {
+pub fn components(state: &State) -> [f64; 6] {
     state.components()
 }
 
@@ -148,8 +158,9 @@ impl ModeRow {
     }
 }
 
+/// `"norms"` in the JSON of a run.
 #[derive(Serialize)]
-struct NormsRow {
+pub struct NormsRow {
     rho1: f64,
     rho2: f64,
     rho3: f64,
@@ -158,7 +169,8 @@ struct NormsRow {
 }
 
 impl NormsRow {
-    fn new(norms: &Norms) -> Self {
+    /// Of a run's norms.
+    pub fn new(norms: &Norms) -> Self {
         let Norms {
             rho1,
             rho2,
@@ -179,25 +191,25 @@ impl NormsRow {
 /// The times at which a motion is written down: every multiple of a step before the end, and the
 /// end itself once.
 #[derive(Clone, Copy)]
-pub(crate) struct Sampling {
+pub struct Sampling {
     dt: f64,
     most: u64,
     end: f64,
 }
 
 /// The most rows of a sampled motion.
-pub(crate) const MOST_ROWS: u64 = 10_000_000;
+pub const MOST_ROWS: u64 = 10_000_000;
 
 impl Sampling {
     /// Steps of `dt`; none if they would give too many rows.
-    pub(crate) fn every(dt: f64, end: f64) -> Option<Self> {
+    pub fn every(dt: f64, end: f64) -> Option<Self> {
         let most = MOST_ROWS - 1;
         // Rounding may keep the last multiple below the end, so what is counted is the exact test.
         ((most as f64) * dt >= end).then_some(Self { dt, most, end })
     }
 
     /// A thousand equal steps.
-    pub(crate) fn thousand(end: f64) -> Self {
+    pub fn thousand(end: f64) -> Self {
         Self {
             dt: end / 1000.0,
             most: 1000,
@@ -206,7 +218,7 @@ impl Sampling {
     }
 
     /// The times.
-    pub(crate) fn times(self) -> impl Iterator<Item = f64> {
+    pub fn times(self) -> impl Iterator<Item = f64> {
         let multiples = (0..self.most).map(move |k| k as f64 * self.dt);
         multiples
             .take_while(move |t| *t < self.end)
@@ -216,7 +228,7 @@ impl Sampling {
 
 /// One line of the sampled motion.
 #[derive(Serialize)]
-pub(crate) struct MotionRow {
+pub struct MotionRow {
     t: f64,
     x: f64,
     y: f64,
@@ -232,7 +244,8 @@ pub(crate) struct MotionRow {
 }
 
 impl MotionRow {
-    pub(crate) fn new(motion: &Motion) -> Self {
+    /// Of a motion.
+    pub fn new(motion: &Motion) -> Self {
         let State {
             x,
             y,
@@ -256,17 +269,35 @@ impl MotionRow {
     }
 }
 
+impl MotionRow {
+    /// Its numbers in their order.
+    pub fn numbers(&self) -> [f64; 10] {
+        [
+            self.t,
+            self.x,
+            self.y,
+            self.theta,
+            self.vx,
+            self.vy,
+            self.vtheta,
+            self.tension_1,
+            self.tension_2,
+            self.energy,
+        ]
+    }
+}
+
 struct MotionRows<'a> {
     trajectory: &'a Trajectory,
     sampling: Sampling,
+    watch: &'a dyn Fn(f64),
 }
 
 impl Serialize for MotionRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut playback = Playback::new(self.trajectory);
-        let mut progress = Progress::new("writing the motion", self.trajectory.end().t);
         let rows = self.sampling.times().map(|t| {
-            progress.at(t);
+            (self.watch)(t);
             MotionRow::new(&playback.at(t))
         });
         serializer.collect_seq(rows)

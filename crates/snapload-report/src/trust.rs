@@ -1,0 +1,155 @@
+//! The shape of trust and outcome in JSON.
+use crate::Trusted;
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use snapload::Stop;
+use snapload::analysis::{Doubt, Loss, START_KEYS, Sensitivity, Share, Trust};
+use snapload_study::reason;
+
+/// The name of a loss of trust.
+fn because(loss: Loss) -> &'static str {
+    match loss {
+        Loss::Tolerance => "tolerance",
+        Loss::Graze { .. } => "graze",
+        Loss::NearMiss { .. } => "near_miss",
+        Loss::Simultaneous => "simultaneous",
+        Loss::Start { .. } => "start",
+        Loss::StopRule => "stop_rule",
+    }
+}
+
+/// `"trust"` in the JSON of a run.
+#[derive(Serialize)]
+pub struct TrustRow<'a> {
+    t: Option<f64>,
+    impact: Option<usize>,
+    because: Option<&'static str>,
+    tolerance: f64,
+    uncertainty: Uncertainty<'a>,
+    end_error: Option<f64>,
+    exponents: [f64; 6],
+    grazes: Vec<GrazeRow>,
+    sensitivity: Vec<SensitivityRow<'a>>,
+}
+
+impl<'a> TrustRow<'a> {
+    /// Of a run.
+    pub fn new(trusted: &'a Trusted) -> Self {
+        let Trust {
+            horizon,
+            end_error,
+            grazes,
+            exponents,
+            ..
+        } = &trusted.trust;
+        Self {
+            t: horizon.map(|horizon| horizon.t),
+            impact: horizon.map(|horizon| horizon.impact),
+            because: horizon.map(|horizon| because(horizon.loss)),
+            tolerance: trusted.doubt.tolerance,
+            uncertainty: Uncertainty(&trusted.doubt),
+            end_error: Some(*end_error).filter(|error| error.is_finite()),
+            exponents: *exponents,
+            grazes: grazes
+                .iter()
+                .map(|graze| GrazeRow {
+                    impact: graze.impact,
+                    v_n: graze.v_n,
+                    factor: graze.factor,
+                })
+                .collect(),
+            sensitivity: trusted.sensitivity.iter().map(SensitivityRow).collect(),
+        }
+    }
+}
+
+/// The uncertainty of each key that has one.
+struct Uncertainty<'a>(&'a Doubt);
+
+impl Serialize for Uncertainty<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let start = START_KEYS.into_iter().zip(self.0.start);
+        let all = start.chain(self.0.keys.iter().copied());
+        serializer.collect_map(all.filter(|(_, size)| *size > 0.0))
+    }
+}
+
+#[derive(Serialize)]
+struct GrazeRow {
+    impact: usize,
+    v_n: f64,
+    factor: f64,
+}
+
+/// The derivatives of one impact: by quantity, then by key.
+struct SensitivityRow<'a>(&'a Sensitivity);
+
+impl Serialize for SensitivityRow<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Sensitivity { impact, slopes } = self.0;
+        let mut map = serializer.serialize_map(Some(4))?;
+        map.serialize_entry("impact", impact)?;
+        let by_key = |of: fn(&snapload::analysis::Slope) -> f64| -> serde_json::Map<_, _> {
+            slopes
+                .iter()
+                .map(|slope| (slope.key.to_owned(), of(slope).into()))
+                .collect()
+        };
+        map.serialize_entry("t", &by_key(|slope| slope.t))?;
+        map.serialize_entry("v_n", &by_key(|slope| slope.v_n))?;
+        map.serialize_entry("impulse", &by_key(|slope| slope.impulse))?;
+        map.end()
+    }
+}
+
+/// `"outcome"` in the JSON of a run.
+#[derive(Serialize)]
+pub struct OutcomeRow {
+    certain: bool,
+    ensemble: Option<EnsembleRow>,
+}
+
+#[derive(Serialize)]
+struct EnsembleRow {
+    members: usize,
+    seed: u64,
+    ends: Vec<ShareRow>,
+}
+
+/// The part of an ensemble that ends in one way, with its interval.
+#[derive(Serialize)]
+pub struct ShareRow {
+    reason: &'static str,
+    count: usize,
+    part: f64,
+    low: f64,
+    high: f64,
+}
+
+impl OutcomeRow {
+    /// Of a run.
+    pub fn new(trusted: &Trusted) -> Self {
+        Self {
+            certain: trusted.trust.decides_the_end(),
+            ensemble: trusted.tally.as_ref().map(|tally| EnsembleRow {
+                members: tally.members(),
+                seed: trusted.seed,
+                ends: tally.shares().into_iter().map(ShareRow::new).collect(),
+            }),
+        }
+    }
+}
+
+impl ShareRow {
+    /// Of a way to end, and those that do.
+    pub fn new((stop, share): (Stop, Share)) -> Self {
+        let [low, high] = share.interval();
+        Self {
+            reason: reason(stop),
+            count: share.count,
+            part: share.part(),
+            low,
+            high,
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The answer of a verification, in JSON and in words.
+use crate::summary::indented;
+use crate::{TrustRow, Trusted, trust_in_words};
+use serde::Serialize;
+use snapload::analysis::{Doubt, Verification, sensitivity};
+use snapload_study::reason;
+use std::fmt::Write;
+
+/// An ordinary run beside the same run with many digits.
+pub struct Verified {
+    /// The ordinary run.
+    pub trusted: Trusted,
+    /// What came of the other.
+    pub found: Verification,
+}
+
+/// Its shape in JSON.
+#[derive(Serialize)]
+pub struct VerifiedRow<'a> {
+    digits: u32,
+    digits_left: f64,
+    proven: Option<usize>,
+    predicted: Option<usize>,
+    compared: usize,
+    end: Option<&'static str>,
+    t: f64,
+    impacts: usize,
+    ordinary: Ordinary,
+    differences: &'a [f64],
+    trust: TrustRow<'a>,
+}
+
+#[derive(Serialize)]
+struct Ordinary {
+    end: &'static str,
+    t: f64,
+    impacts: usize,
+}
+
+impl Verified {
+    /// Of a case, and what was found of it to a tolerance.
+    pub fn new(case: &snapload::Case, found: Verification, tolerance: f64) -> Self {
+        let trusted = Trusted {
+            run: found.run.clone(),
+            trust: found.trust.clone(),
+            doubt: Doubt {
+                tolerance,
+                ..Doubt::default()
+            },
+            seed: 0,
+            tally: None,
+            sensitivity: sensitivity(case, 0),
+        };
+        Self { trusted, found }
+    }
+
+    /// For JSON.
+    pub fn row(&self) -> VerifiedRow<'_> {
+        let Verification {
+            digits,
+            digits_left,
+            run,
+            trust,
+            differences,
+            proven,
+            end,
+            t,
+            impacts,
+        } = &self.found;
+        VerifiedRow {
+            digits: *digits,
+            digits_left: *digits_left,
+            proven: *proven,
+            predicted: trust.horizon.map(|horizon| horizon.impact),
+            compared: differences.len(),
+            end: end.map(reason),
+            t: *t,
+            impacts: *impacts,
+            ordinary: Ordinary {
+                end: reason(run.end().reason),
+                t: run.end().t,
+                impacts: run.impacts().len(),
+            },
+            differences,
+            trust: TrustRow::new(&self.trusted),
+        }
+    }
+
+    /// In a few lines.
+    pub fn told(&self, name: &str) -> String {
+        let found = &self.found;
+        let mut text = format!("Case      {name}\n");
+        let words = |reason: &str| reason.replace('_', " ");
+        let _ = writeln!(
+            text,
+            "Ordinary  {} at t = {:.6}, {} impacts",
+            words(reason(found.run.end().reason)),
+            found.run.end().t,
+            found.run.impacts().len()
+        );
+        let end = found.end.map_or_else(
+            || "a cable stays taut, where the proof ends,".to_owned(),
+            |end| words(reason(end)),
+        );
+        let _ = writeln!(
+            text,
+            "{:<9} {end} at t = {:.6}, {} impacts",
+            format!("{} dig.", found.digits),
+            found.t,
+            found.impacts
+        );
+        let tolerance = self.trusted.doubt.tolerance;
+        let _ = match found.proven {
+            Some(impact) => writeln!(
+                text,
+                "Proven    wrong by more than {tolerance:e} from impact {impact} on"
+            ),
+            None => writeln!(
+                text,
+                "Proven    right to {tolerance:e} at all {} impacts",
+                found.differences.len()
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "Predicted {}",
+            indented(&trust_in_words(&self.trusted))
+        );
+        let left = found.digits_left;
+        let _ = if left >= 1.0 {
+            writeln!(
+                text,
+                "          {left:.0} of the {} digits are left at the end",
+                found.digits
+            )
+        } else {
+            let more = f64::from(found.digits) - left + 10.0;
+            writeln!(
+                text,
+                "          the {} digits are used up before the end; --digits {more:.0} would do",
+                found.digits
+            )
+        };
+        text
+    }
+}

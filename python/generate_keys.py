@@ -1,0 +1,65 @@
+"""Writes ``snapload/_keys.py``: the keys of a case as Python's types, from the one schema of the engine.
+
+Run ``python python/generate_keys.py`` after a key was added; a test fails where that was forgotten.
+"""
+
+from pathlib import Path
+from textwrap import fill
+
+from snapload import _engine
+
+TARGET = Path(__file__).parent / "snapload" / "_keys.py"
+
+HEAD = '''"""The keys of a case. Written by ``generate_keys.py`` from the schema of the engine; do not edit."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, TypedDict
+
+from numpy.typing import ArrayLike
+
+
+'''
+
+
+def type_of(key: dict) -> str:
+    if key["words"]:
+        return f"Literal[{', '.join(repr(word) for word in key['words'])}]".replace("'", '"')
+    return key["kind"]
+
+
+def unit_of(key: dict) -> str:
+    return f" [{key['unit']}]" if key["unit"] not in ("", "1") else ""
+
+
+def generate() -> str:
+    keys = _engine.keys()
+    text = HEAD
+    text += 'class Keys(TypedDict, total=False):\n    """The keys that a case takes."""\n\n'
+    text += "".join(f"    {key['name']}: {type_of(key)}\n" for key in keys)
+    text += '\n\nclass Axes(TypedDict, total=False):\n    """The keys that a study varies."""\n\n'
+    text += "".join(f"    {key['name']}: ArrayLike\n" for key in keys)
+    text += '\n\nclass KeyValues:\n    """The keys of a case as properties."""\n\n'
+    text += "    def keys(self) -> dict[str, Any]:\n        raise NotImplementedError\n"
+    for key in keys:
+        kind = type_of(key)
+        if key["name"] == "inertia":
+            kind = "float | None"
+        text += f"""
+    @property
+    def {key["name"]}(self) -> {kind}:
+        \"\"\"{key["meaning"][0].upper()}{key["meaning"][1:]}{unit_of(key)}.\"\"\"
+        value: {kind} = self.keys()["{key["name"]}"]
+        return value
+"""
+    text += '\n\n#: The keys as a section of a docstring.\nPARAMETERS = """'
+    for key in keys:
+        kind = "{" + ", ".join(f'"{word}"' for word in key["words"]) + "}" if key["words"] else key["kind"]
+        told = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; allowed: ``{key['allowed']}``; "
+        told = fill(f"{told}default {key['default']}.", 112, initial_indent=" " * 8, subsequent_indent=" " * 8)
+        text += f"\n    {key['name']} : {kind}, optional\n{told}"
+    return text + '\n"""\n'
+
+
+if __name__ == "__main__":
+    TARGET.write_text(generate(), encoding="utf-8")

@@ -1,0 +1,46 @@
+"""Dynamics of bodies on cables that go slack and snap taut.
+
+A floating breakwater moored by two cables rides in waves; the cables go slack, snap taut, and each snap is an
+impact. The same engine as the command ``snapload``, with the same bits.
+
+>>> import snapload
+>>> run = snapload.Case(f_o=0.31).run()
+>>> run.end.reason, len(run.impacts)
+('rotation_limit', 12)
+
+All quantities are nondimensional: lengths in L, half the distance of the anchors; masses in m, the body's; forces
+in F, its net buoyancy; times in T = sqrt(m L / F).
+"""
+
+from __future__ import annotations
+
+from ._case import Case, cases
+from ._critical import CriticalForce, critical_force
+from ._engine import __version__
+from ._neighbours import Ensemble, Share, ensemble
+from ._run import End, Norms, Outcome, Run, Trust
+from ._sweep import evenly, open_study, sweep
+from ._table import Table
+from ._verify import Verification, verify
+
+__all__ = [
+    "Case",
+    "CriticalForce",
+    "End",
+    "Ensemble",
+    "Norms",
+    "Outcome",
+    "Run",
+    "Share",
+    "Table",
+    "Trust",
+    "Verification",
+    "__version__",
+    "cases",
+    "critical_force",
+    "ensemble",
+    "evenly",
+    "open_study",
+    "sweep",
+    "verify",
+]

@@ -1,0 +1,167 @@
+"""A run as a moving picture."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from importlib import resources
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from uuid import uuid4
+
+import numpy as np
+from matplotlib import animation, pyplot
+from matplotlib.patches import Polygon
+
+from ._check import whole
+from ._plot import CABLES, GREY, geometry, times_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._run import Run
+
+#: The longest animation, in pictures.
+_MOST_FRAMES = 5000
+
+#: What can be written, by ending, and by which writer of Matplotlib.
+_WRITERS = {".gif": "pillow", ".mp4": "ffmpeg", ".html": "html"}
+
+
+class Animation:
+    """A moving picture of a run; made by :meth:`snapload.Run.animate`.
+
+    The last value of a notebook's cell shows it, with buttons.
+    """
+
+    def __init__(self, run: Run, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
+        end = run.end.t
+        stop = end if stop is None else float(stop)
+        if not 0 <= start < stop <= end:
+            raise ValueError(
+                f"start = {start!r}, stop = {stop!r} is not allowed; allowed: 0 <= start < stop <= {end!r}, the end"
+            )
+        fps = whole("fps", fps, 1, 120)
+        if not 0 < seconds * fps <= _MOST_FRAMES:
+            raise ValueError(
+                f"seconds = {seconds!r} is not allowed; allowed: 0 < seconds <= {_MOST_FRAMES / fps:g} at {fps} "
+                "pictures a second"
+            )
+        self._run, self._span, self._fps = run, (float(start), stop), fps
+        self._count = max(2, round(seconds * fps))
+
+    @cached_property
+    def _html(self) -> str:
+        scene = _scene_data(self._run, *self._span, self._count)
+        page = resources.files(__package__).joinpath("animation.html").read_text(encoding="utf-8")
+        words = {
+            "scene": scene,
+            "seconds": self._count / self._fps,
+            "colours": [colour for colour, _ in CABLES.values()],
+        }
+        return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(words))
+
+    def _repr_html_(self) -> str:
+        return self._html
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Writes the animation as GIF, MP4 (which takes ffmpeg) or HTML, by the ending of the file.
+
+        Raises
+        ------
+        ValueError
+            If the ending is another one, or ffmpeg is asked for and not there.
+        """
+        target = Path(fspath(path))
+        writer = _WRITERS.get(target.suffix.lower())
+        if writer is None:
+            raise ValueError(f"path = {str(target)!r} is not allowed; allowed: a name that ends in .gif, .mp4 or .html")
+        if writer == "html":
+            target.write_text(self._html, encoding="utf-8")
+            return target
+        if not animation.writers.is_available(writer):
+            raise ValueError(f"{target}: there is no {writer} on this machine; install it, or write a .gif or .html")
+        figure, artist = self._animation()
+        try:
+            artist.save(target, writer=writer, fps=self._fps, dpi=110)
+        finally:
+            pyplot.close(figure)
+        return target
+
+    def _animation(self) -> tuple[Figure, animation.FuncAnimation]:
+        figure, ax = pyplot.subplots(figsize=(5.0, 3.6), layout="constrained", dpi=80)
+        update = _scene(ax, _scene_data(self._run, *self._span, self._count))
+        # Laid out once and not for every picture.
+        figure.canvas.draw()
+        figure.set_layout_engine("none")
+        return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
+
+
+def _scene_data(run: Run, start: float, stop: float, count: int) -> dict[str, Any]:
+    """What there is to see: what stands still, and at every time where the body is and which cables are taut."""
+    _, a, b, h = geometry(run)
+    angles = np.linspace(0, 2 * np.pi, 60)
+    size = max(a, b, 0.012)
+    ring = size * np.column_stack([np.cos(angles), np.sin(angles)])
+    outline = ring if b == 0 else np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
+    path, times = run.at(times_of(run, start, stop)), np.linspace(start, stop, count)
+    frames = run.at(times)
+    t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
+    # A snap takes no time; it is shown for as long as an eye needs.
+    flash = 0.03 * (stop - start)
+    taut = []
+    for cable in (1, 2):
+        snaps = t[(cables == cable) & (v_n > 0)]
+        struck = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
+        taut.append(((frames[f"T{cable}"] > 0) | struck).astype(int).tolist())
+    left, right = min(-1.0, path.x.min() - size), max(1.0, path.x.max() + size)
+    return {
+        "anchors": [[1.0, h + b], [-1.0, h + b]],
+        "fairleads": [[a, b], [-a, b]],
+        "outline": outline.round(6).tolist(),
+        "box": [left - 0.06, right + 0.06, path.y.min() - 1.3 * size, h + b + 0.08],
+        "path": np.column_stack([path.t, path.x, path.y]).round(5).tolist(),
+        "frames": np.column_stack([frames.t, frames.x, frames.y, frames.theta]).round(5).tolist(),
+        "taut": taut,
+    }
+
+
+def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
+    """Draws what stands still, and returns what moves the rest to a picture."""
+    anchors, fairleads, outline, path, frames = (
+        np.array(scene[name]) for name in ("anchors", "fairleads", "outline", "path", "frames")
+    )
+    left, right, low, high = scene["box"]
+    ax.set_xlim(left, right)
+    ax.set_ylim(low, high)
+    ax.set_aspect("equal")
+    ax.set_xlabel("$x$ [L]")
+    ax.set_ylabel("$y$ [L]")
+    ax.plot(*anchors.T, "^", color="black", markersize=7)
+    ax.plot(*path[:, 1:].T, color=GREY, linewidth=0.5, alpha=0.6)
+    lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour, _ in CABLES.values()]
+    (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
+    body = Polygon(outline, facecolor="0.85", edgecolor="black")
+    ax.add_patch(body)
+    clock = ax.text(0.5, 0.95, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
+
+    def move(k: int) -> list[Artist]:
+        now, x, y, theta = frames[k]
+        sine, cosine = np.sin(theta), np.cos(theta)
+        turn, centre = np.array([[cosine, -sine], [sine, cosine]]), np.array([x, y])
+        body.set_xy(outline @ turn.T + centre)
+        behind = path[path[:, 0] <= now]
+        trail.set_data(behind[:, 1], behind[:, 2])
+        for cable, line in enumerate(lines):
+            line.set_data(*np.column_stack([anchors[cable], turn @ fairleads[cable] + centre]))
+            taut = scene["taut"][cable][k]
+            line.set(linewidth=2.4 if taut else 0.9, linestyle="-" if taut else "--")
+        clock.set_text(f"$t$ = {now:.2f}")
+        return [*lines, trail, body, clock]
+
+    return move

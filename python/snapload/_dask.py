@@ -1,0 +1,75 @@
+"""The rows of a study on the workers of Dask."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, cast
+
+from . import _engine
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from ._case import Case
+
+#: So many chunks there are for each thread, so that none waits long for the last one.
+_CHUNKS_A_THREAD = 16
+#: The least and the most rows of a chunk.
+_LEAST, _MOST = 16, 4096
+#: So many chunks wait at each thread while one is computed.
+_QUEUED = 2
+#: So many workers may die of one chunk.
+_DEATHS = 10
+
+
+def chunk(case: Case, axes: list[tuple[str, Any]], trust: bool, start: int, stop: int) -> bytes:
+    """Some rows of a study as a Parquet file; what a worker computes, on the one thread it gives to a task."""
+    return _engine.Study(case._engine, axes, trust).chunk(start, stop, 1)
+
+
+def sweep_on(
+    client: Client,
+    case: Case,
+    axes: list[tuple[str, Any]],
+    trust: bool,
+    store: _engine.Store,
+    tell: Callable[[int], object] | None,
+) -> None:
+    """Has the workers compute what is missing, keeps each chunk as it comes, and completes the file."""
+    import distributed
+
+    # It has no types of its own.
+    dask: Any = client
+    waiting: Any = cast(Any, distributed).as_completed()
+
+    threads = max(1, sum(dask.nthreads().values()))
+    missing = sum(stop - start for start, stop in store.gaps())
+    size = min(max(missing // (_CHUNKS_A_THREAD * threads), _LEAST), _MOST)
+    ranges = _ranges(store.gaps(), size)
+    places: dict[Any, tuple[int, int]] = {}
+
+    def submit() -> None:
+        place = next(ranges, None)
+        if place is not None:
+            future = dask.submit(chunk, case, axes, trust, *place, pure=False, retries=_DEATHS)
+            places[future] = place
+            waiting.add(future)
+
+    try:
+        for _ in range((1 + _QUEUED) * threads):
+            submit()
+        for future in waiting:
+            start, stop = places.pop(future)
+            store.keep(start, stop, future.result())
+            submit()
+            if tell is not None:
+                tell(stop - start)
+        store.finish()
+    finally:
+        dask.cancel(list(places), force=True)
+
+
+def _ranges(gaps: list[tuple[int, int]], size: int) -> Iterator[tuple[int, int]]:
+    for start, stop in gaps:
+        for first in range(start, stop, size):
+            yield first, min(first + size, stop)

@@ -1,0 +1,109 @@
+"""Neighbours of a case: how they end."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from . import _engine
+from ._check import Uncertainty, plain, whole
+from ._progress import bar
+
+if TYPE_CHECKING:
+    from ._case import Case
+
+
+@dataclass(frozen=True)
+class Share:
+    """A part of an ensemble.
+
+    Attributes
+    ----------
+    count : int
+        So many members.
+    part : float
+        The part, from 0 to 1.
+    low, high : float
+        The interval that holds the probability with 95 % confidence (Wilson 1927).
+    """
+
+    count: int
+    part: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """How the neighbours of a case end.
+
+    Attributes
+    ----------
+    members : int
+        How many were run.
+    seed : int
+        Which.
+    ends : dict of str to Share
+        By reason, the most frequent first.
+    """
+
+    members: int
+    seed: int
+    ends: dict[str, Share]
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{end.replace('_', ' ')}</td><td>{share.count}</td><td>{100 * share.part:.1f} %</td>"
+            f"<td>{100 * share.low:.1f} to {100 * share.high:.1f} %</td></tr>"
+            for end, share in self.ends.items()
+        )
+        head = "<tr><th>end</th><th>members</th><th>part</th><th>95 %</th></tr>"
+        return f"<table><thead>{head}</thead><tbody>{rows}</tbody></table>"
+
+
+def ensemble(
+    case: Case,
+    members: int = 1000,
+    *,
+    uncertainty: Uncertainty = None,
+    seed: int = 1,
+    progress: bool = True,
+) -> Ensemble:
+    """Runs neighbours of a case, drawn evenly from what its uncertainty allows, and counts how they end.
+
+    Parameters
+    ----------
+    case : Case
+        The case in their middle.
+    members : int
+        How many.
+    uncertainty : float or dict of str to float, optional
+        How far the start may be off, either way: one size for every start value, or a size for each key; 1e-12 in
+        every start value if left out.
+    seed : int
+        Which neighbours; the first hundred of a thousand are the same as a hundred.
+    progress : bool
+        Whether to show a bar if it takes long.
+
+    Returns
+    -------
+    Ensemble
+        How many end in which way.
+
+    Raises
+    ------
+    ValueError
+        If an option is out of its range, or a key can not be in doubt.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.ensemble(snapload.Case(f_o=0.31), 50).ends["rotation_limit"].count
+    50
+    """
+    members, seed = whole("members", members, 1, 10**9), whole("seed", seed, 0, 2**64 - 1)
+    with bar("neighbours", members, progress) as tell:
+        rows = json.loads(_engine.ensemble(case._engine, plain(uncertainty), members, seed, tell))
+    ends = {row.pop("reason"): Share(**row) for row in rows}
+    return Ensemble(members, seed, ends)

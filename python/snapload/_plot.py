@@ -1,0 +1,189 @@
+"""Pictures of a run with Matplotlib, in colours that everybody can tell apart (Okabe & Ito 2008)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._run import Run
+
+BLUE, VERMILION, GREEN, ORANGE, GREY = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#999999"
+
+#: Of the cables, by number.
+CABLES = {1: (BLUE, "x"), 2: (VERMILION, "o")}
+
+#: Colour and width of the path in each mode.
+_MODES = {"slack": (BLUE, 0.9), "sliding": (ORANGE, 2.0), "rocking": (GREEN, 2.0)}
+
+#: The width of a column of a journal, and of a page [in].
+_COLUMN, _PAGE = 3.5, 7.2
+
+#: Samples of a whole curve.
+_SAMPLES = 2000
+
+
+def draw(run: Run, what: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
+    """Draws one picture."""
+    pictures: dict[str, Callable[[Run, Axes, dict[str, Any]], None]] = {
+        "trajectory": _trajectory,
+        "rotation": _rotation,
+        "velocities": _velocities,
+        "tensions": _tensions,
+    }
+    if what not in pictures:
+        raise ValueError(f"what = {what!r} is not allowed; allowed: {', '.join(map(repr, pictures))}")
+    if ax is None:
+        _, ax = pyplot.subplots(figsize=(_COLUMN, 0.75 * _COLUMN), layout="constrained")
+    pictures[what](run, ax, style)
+    return ax
+
+
+def overview(run: Run, figure: Figure | None) -> Figure:
+    """All four pictures."""
+    if figure is None:
+        figure = pyplot.figure(figsize=(_PAGE, 0.72 * _PAGE), layout="constrained")
+    axes = figure.subplots(2, 2)
+    for what, ax in zip(("trajectory", "rotation", "velocities", "tensions"), axes.flat, strict=True):
+        draw(run, what, ax, {})
+    return figure
+
+
+def geometry(run: Run) -> tuple[float, float, float, float]:
+    """Length of the cables, half-width and half-height of the body, height of the anchors above y = b."""
+    keys = run.case.keys()
+    r, a, b = keys["r"], keys["a"], keys["b"]
+    return r, a, b, float(np.sqrt(r**2 - (1 - a) ** 2))
+
+
+def times_of(run: Run, start: float, stop: float) -> NDArray[np.float64]:
+    """Times at which a curve is drawn: evenly, and at every impact, where it has a corner."""
+    impacts = run.impacts["t"]
+    inside = impacts[(start < impacts) & (impacts < stop)]
+    count = max(50, round(_SAMPLES * (stop - start) / max(run.end.t, 1e-300)))
+    return np.union1d(np.linspace(start, stop, count), inside)
+
+
+def _stretches(run: Run) -> list[tuple[str, float, float, bool]]:
+    """Mode intervals, cut where trust ends: mode, from, to, whether it is past the horizon."""
+    horizon = run.trust.t if run.trust.t is not None else np.inf
+    stretches = []
+    for mode, start, stop in zip(run.modes["mode"], run.modes["t_start"], run.modes["t_end"], strict=True):
+        cuts = [start, *([horizon] if start < horizon < stop else []), stop]
+        stretches += [(mode, a, b, a >= horizon) for a, b in pairwise(cuts)]
+    return stretches
+
+
+def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+    r, a, _, h = geometry(run)
+    seen = set()
+    xs, ys = [0.0], [0.0]
+    for mode, start, stop, doubtful in _stretches(run):
+        motion = run.at(times_of(run, start, stop))
+        colour, width = _MODES[mode]
+        label = "past the horizon" if doubtful else mode
+        look = {"color": GREY if doubtful else colour, "linewidth": width, "zorder": 2 if doubtful else 3}
+        ax.plot(motion.x, motion.y, **{"label": None if label in seen else label, **look, **style})
+        seen.add(label)
+        xs += [motion.x.min(), motion.x.max()]
+        ys += [motion.y.min(), motion.y.max()]
+    first, last = run.at(0.0), run.at(run.end.t)
+    ax.plot(first.x, first.y, "o", color="black", markersize=4, zorder=4)
+    ax.plot(last.x, last.y, "s", color="black", markersize=4, zorder=4)
+    for place, name in ((first, "start"), (last, "end")):
+        ax.annotate(name, (float(place.x), float(place.y)), (4, 3), textcoords="offset points", fontsize="small")
+    # Where a cable is taut with the body upright.
+    half = 0.6 * max(max(xs) - min(xs), max(ys) - min(ys))
+    x = np.linspace(-half, half, 400)
+    for side in (-1.0, 1.0):
+        inside = r**2 - (x - side * (1 - a)) ** 2
+        y = h - np.sqrt(np.where(inside >= 0, inside, np.nan))
+        ax.plot(x, y, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
+    margin = 0.06 * half
+    ax.set_xlim(min(xs) - 3 * margin, max(xs) + 3 * margin)
+    ax.set_ylim(min(ys) - margin, max(ys) + 2 * margin)
+    ax.set_xlabel("$x$ [L]")
+    ax.set_ylabel("$y$ [L]")
+    ax.xaxis.set_major_locator(MaxNLocator(5))
+    if len(seen) > 1:
+        legend(ax)
+
+
+def _over_time(run: Run, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
+    """A quantity over time, grey past the horizon. Breaks where a tension jumps are left open."""
+    for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
+        times = times_of(run, start, stop)
+        # At the end of a stretch the next one has begun.
+        times[-1] = np.nextafter(stop, start) if stop < run.end.t else stop
+        colour = {"color": GREY} if doubtful else {}
+        ax.plot(times, run.at(times)[of], **{"label": label if place == 0 else None, **look, **colour})
+
+
+def _rotation(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+    _over_time(run, ax, "theta", None, {"color": BLUE, "linewidth": 1.0, **style})
+    top = 1.05 * max(run.norms.theta_max, 1e-3)
+    ax.set_ylim(-top, top)
+    for limit in (-np.pi / 2, np.pi / 2):
+        ax.axhline(limit, color=GREY, linewidth=0.8, linestyle=":", zorder=1)
+    _label_time(run, ax, "$\\theta$ [rad]")
+
+
+def _velocities(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+    t, v, cable = (run.impacts[name] for name in ("t", "v_n", "cable"))
+    horizon = run.trust.t if run.trust.t is not None else np.inf
+    for number, (colour, marker) in CABLES.items():
+        of_cable = (cable == number) & (v > 0)
+        look = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
+        for doubtful in (True, False):
+            shown = of_cable & ((t >= horizon) == doubtful)
+            label = f"cable {number}" if not doubtful and of_cable.any() else None
+            ax.plot(t[shown], v[shown], **{"label": label, "color": GREY if doubtful else colour, **look})
+    ax.set_ylim(bottom=0)
+    _label_time(run, ax, "$v_n$ [L/T]")
+    if (v > 0).any():
+        legend(ax)
+
+
+def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+    for number, (colour, _) in CABLES.items():
+        look = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number == 1 else "--", **style}
+        _over_time(run, ax, f"T{number}", f"cable {number}", look)
+    ax.set_ylim(bottom=0)
+    if not any(run.modes["mode"] != "slack"):
+        # Impulses have no height here, and without them nothing is left to show.
+        words = "no cable stays taut:\nonly impulses"
+        ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", color="dimgrey", fontsize="small")
+    else:
+        legend(ax)
+    _label_time(run, ax, "tension [F]")
+
+
+def legend(ax: Axes) -> None:
+    """Names of the lines, in a row over all that is drawn."""
+    low, high = ax.get_ylim()
+    ax.set_ylim(low, high + 0.15 * (high - low))
+    ax.legend(
+        fontsize="small",
+        framealpha=0.8,
+        edgecolor="none",
+        loc="upper center",
+        ncols=3,
+        handlelength=1.4,
+        columnspacing=1.0,
+        borderpad=0.1,
+    )
+
+
+def _label_time(run: Run, ax: Axes, label: str) -> None:
+    ax.set_xlim(0, run.end.t or 1.0)
+    ax.set_xlabel("$t$ [T]")
+    ax.set_ylabel(label)

@@ -1,0 +1,22 @@
+"""A bar of progress, in terminals and notebooks."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+
+@contextmanager
+def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable[[int], object] | None]:
+    """A bar that appears after half a second; gives what is told how many more are done."""
+    if not shown:
+        yield None
+        return
+    with warnings.catch_warnings():
+        # Where a notebook has no widgets the bar is one of text, and that is fine.
+        warnings.simplefilter("ignore")
+        from tqdm.auto import tqdm
+    # Without `disable` there would be a bar in log files, too.
+    with tqdm(total=whole, initial=begun, desc=what, delay=0.5, leave=False, disable=None) as shown_bar:
+        yield shown_bar.update

@@ -1,0 +1,345 @@
+"""A finished run."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from typing import TYPE_CHECKING, Any, Literal, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._table import Table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from ._animate import Animation
+    from ._case import Case
+
+#: What a motion holds, in its order.
+MOTION = ("t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy")
+
+#: Why a run ends.
+Reason = Literal["settled", "rotation_limit", "upper_bound", "sliding_start", "end_time", "impact_limit"]
+
+#: What can be drawn of a run.
+Picture = Literal["trajectory", "rotation", "velocities", "tensions"]
+
+
+@dataclass(frozen=True)
+class End:
+    """How a run ended.
+
+    Attributes
+    ----------
+    reason : str
+        ``settled``, ``rotation_limit``, ``upper_bound``, ``sliding_start``, ``end_time`` or ``impact_limit``.
+    t : float
+        When [T].
+    t_limit : float or None
+        Where the impacts that end the run converge, if they do [T].
+    state : tuple of float
+        The last x, y, theta, vx, vy, vtheta [L, rad, L/T, rad/T].
+    """
+
+    reason: Reason
+    t: float
+    t_limit: float | None
+    state: tuple[float, float, float, float, float, float]
+
+    @property
+    def exceeds(self) -> bool:
+        """Whether the run left the range of the mooring: it reached the rotation limit or the upper bound."""
+        return self.reason in ("rotation_limit", "upper_bound")
+
+
+@dataclass(frozen=True)
+class Norms:
+    """Norms of a run, after eqs 6.2 to 6.4 of the thesis.
+
+    Attributes
+    ----------
+    rho1 : float
+        Largest normal velocity of a snap [L/T].
+    rho2 : float
+        Sum of the normal velocities up to t = 10 [L/T].
+    rho3 : float
+        Sum of all normal velocities [L/T].
+    y_max : float
+        Highest y of the centre [L].
+    theta_max : float
+        Largest rotation, either way [rad].
+    """
+
+    rho1: float
+    rho2: float
+    rho3: float
+    y_max: float
+    theta_max: float
+
+
+@dataclass(frozen=True)
+class Trust:
+    """How far a run can be trusted, and why no further.
+
+    Attributes
+    ----------
+    t : float or None
+        The horizon: where trust ends [T]; None if nowhere.
+    impact : int or None
+        The number of the impact there, from 1.
+    because : str or None
+        ``tolerance``, ``graze``, ``near_miss``, ``simultaneous``, ``start`` or ``stop_rule``.
+    tolerance : float
+        Standard deviation of time or state above which a result counts as not known.
+    uncertainty : dict of str to float
+        What was taken to be in doubt, beside rounding.
+    end_error : float or None
+        Standard deviation of the time of the end [T]; None past the horizon.
+    exponents : tuple of float or None
+        Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
+    grazes : tuple of dict
+        Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
+    sensitivity : tuple of dict
+        Derivatives of ``t``, ``v_n`` and ``impulse`` of the first impacts by every key.
+    """
+
+    t: float | None
+    impact: int | None
+    because: str | None
+    tolerance: float
+    uncertainty: dict[str, float]
+    end_error: float | None
+    exponents: tuple[float | None, ...]
+    grazes: tuple[dict[str, Any], ...]
+    sensitivity: tuple[dict[str, Any], ...]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Whether the end of a run is certain, and how its neighbours end where it is not.
+
+    Attributes
+    ----------
+    certain : bool
+        Whether every neighbour within the doubt ends alike.
+    ensemble : dict or None
+        ``members``, ``seed`` and ``ends`` with ``reason``, ``count``, ``part`` and the 95 % interval from ``low``
+        to ``high`` (Wilson 1927); None where the end is certain.
+    """
+
+    certain: bool
+    ensemble: dict[str, Any] | None
+
+
+class Run:
+    """A finished run: how it ended, its impacts and modes, its norms, and how far it can be trusted.
+
+    Made by :meth:`snapload.Case.run`.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> run = snapload.Case(f_o=0.31).run()
+    >>> run.end.reason, round(run.end.t, 4)
+    ('rotation_limit', 3.4522)
+    >>> run.outcome.certain
+    True
+    """
+
+    def __init__(self, engine: _engine.Run, case: Case) -> None:
+        self._engine = engine
+        #: The case that was run.
+        self.case = case
+
+    @cached_property
+    def _head(self) -> dict[str, Any]:
+        return cast(dict[str, Any], json.loads(self._engine.head()))
+
+    @cached_property
+    def end(self) -> End:
+        """How it ended."""
+        return End(**self._head["end"], state=tuple(self._head["state"]))
+
+    @cached_property
+    def norms(self) -> Norms:
+        """The norms."""
+        return Norms(**self._head["norms"])
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """Whether the end is certain, and how the neighbours end if not."""
+        return Outcome(**self._head["outcome"])
+
+    @cached_property
+    def trust(self) -> Trust:
+        """How far the run can be trusted."""
+        told: dict[str, Any] = {
+            key: tuple(value) if isinstance(value, list) else value for key, value in self._head["trust"].items()
+        }
+        return Trust(**told)
+
+    @cached_property
+    def impacts(self) -> Table:
+        """The impacts, a row an impact and cable.
+
+        Columns ``t`` [T], ``cable`` (1 or 2), ``v_n`` [L/T], ``impulse`` [m L/T], ``energy_lost`` [F L],
+        ``before_x`` to ``before_vtheta`` and ``after_x`` to ``after_vtheta``, and ``digits``, the decimal digits
+        that are expected to be right. A row with ``v_n = 0`` is an impulse passed into a taut cable.
+        """
+        return Table(self._engine.impacts())
+
+    @cached_property
+    def modes(self) -> Table:
+        """The mode intervals: ``mode`` (slack, sliding, rocking), ``taut`` cables, ``t_start``, ``t_end`` [T]."""
+        return Table(self._engine.modes())
+
+    def motion(self, dt: float) -> np.recarray[Any, Any]:
+        """The motion at 0, dt, 2 dt, ... and at the end.
+
+        Parameters
+        ----------
+        dt : float
+            Step [T].
+
+        Returns
+        -------
+        numpy.recarray, shape (n,)
+            Fields ``t`` [T], ``x``, ``y`` [L], ``theta`` [rad], ``vx``, ``vy`` [L/T], ``vtheta`` [rad/T], the
+            tensions ``T1``, ``T2`` [F] and ``energy`` [F L]; also as attributes.
+
+        Raises
+        ------
+        ValueError
+            If dt is not above 0, or gives more than ten million rows.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> motion = snapload.Case(f_o=0.31).run().motion(0.01)
+        >>> motion.shape, float(motion.y[0])
+        ((347,), 0.1)
+        """
+        return _records(self._engine.motion(float(dt)))
+
+    def at(self, t: ArrayLike) -> np.recarray[Any, Any]:
+        """The motion at any times, held to the span of the run; at the instant of an event, just after it.
+
+        Parameters
+        ----------
+        t : array_like
+            Times [T].
+
+        Returns
+        -------
+        numpy.recarray, shape of `t`
+            As :meth:`motion`.
+
+        Raises
+        ------
+        ValueError
+            If a time is not a number.
+        """
+        times = np.asarray(t, dtype=np.float64)
+        if np.isnan(times).any():
+            raise ValueError("t = nan is not allowed; allowed: numbers; those outside the run are held to its span")
+        flat = _records(self._engine.motion_at(np.ascontiguousarray(times.ravel())))
+        return flat.reshape(times.shape).view(np.recarray)
+
+    def to_json(self, dt: float | None = None) -> str:
+        """The run as the line of JSON that ``snapload run --json -`` writes; with `dt` the motion, too."""
+        return self._engine.to_json(dt)
+
+    def plot(self, what: Picture = "trajectory", ax: Axes | None = None, **style: Any) -> Axes:
+        """Draws the run into axes of Matplotlib, and returns them.
+
+        Parameters
+        ----------
+        what : {"trajectory", "rotation", "velocities", "tensions"}
+            The path of the centre; the rotation over time; the normal velocity of each snap, a cross for cable 1 and
+            a circle for cable 2; the tensions over time.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; new ones, of the width of a column, if left out.
+        **style
+            Passed on to the lines, such as ``color`` or ``linewidth``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, to compose further. What lies past the horizon of trust is grey.
+
+        Raises
+        ------
+        ValueError
+            If there is no such picture.
+        """
+        from ._plot import draw
+
+        return draw(self, what, ax, style)
+
+    def overview(self, figure: Figure | None = None) -> Figure:
+        """All four pictures in one figure of the width of a page.
+
+        Parameters
+        ----------
+        figure : matplotlib.figure.Figure, optional
+            An empty one to draw into.
+        """
+        from ._plot import overview
+
+        return overview(self, figure)
+
+    def animate(
+        self, *, start: float = 0.0, stop: float | None = None, seconds: float = 8.0, fps: int = 25
+    ) -> Animation:
+        """The run as a moving picture: body, cables, path.
+
+        Parameters
+        ----------
+        start, stop : float, optional
+            From and to [T]; all of the run if left out.
+        seconds : float
+            How long it plays.
+        fps : int
+            Pictures a second.
+
+        Returns
+        -------
+        Animation
+            Shows itself in a notebook, as HTML5 with buttons; ``save("run.gif")``, ``"run.mp4"`` or
+            ``"run.html"`` writes a file.
+
+        Raises
+        ------
+        ValueError
+            If a value is out of its range.
+        """
+        from ._animate import Animation
+
+        return Animation(self, start=start, stop=stop, seconds=seconds, fps=fps)
+
+    def __str__(self) -> str:
+        return self._engine.summary().rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Run of {self.case!r}: {self.end.reason} at t = {self.end.t:.4f}, {len(self.impacts)} impacts>"
+
+    def _repr_html_(self) -> str:
+        rows, label = [], ""
+        for line in str(self).splitlines():
+            label, text = line[:10].strip(), line[10:].strip()
+            rows.append(
+                f"<tr><th style='text-align:left;vertical-align:top'>{escape(label)}</th>"
+                f"<td style='text-align:left'>{escape(text)}</td></tr>"
+            )
+        return f"<table>{''.join(rows)}</table>"
+
+
+def _records(data: bytearray) -> np.recarray[Any, Any]:
+    records: NDArray[np.void] = np.frombuffer(data, dtype=[(name, np.float64) for name in MOTION])
+    return records.view(np.recarray)

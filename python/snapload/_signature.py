@@ -1,0 +1,35 @@
+"""Signatures that name the keys, for ``help()`` and for the tooltips of notebooks."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from . import _engine
+
+
+def with_keys(function: Callable[..., Any], *, defaults: bool) -> None:
+    """Puts every key in the place of ``**keys``, as a keyword that may be left out, with what it is then or dots."""
+    old = inspect.signature(function)
+    keywords = [
+        inspect.Parameter(key["name"], inspect.Parameter.KEYWORD_ONLY, default=_Left(_default(key) if defaults else ""))
+        for key in _engine.keys()
+    ]
+    kept = [p for p in old.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
+    function.__signature__ = old.replace(parameters=[*kept, *keywords])  # type: ignore[attr-defined]
+
+
+def _default(key: dict[str, Any]) -> str:
+    """What a key is when it is left out, as Python writes it; words where that depends on other keys."""
+    return repr(key["standard"]) if key["kind"] == "bool" else str(key["default"])
+
+
+class _Left:
+    """What a key is when it is left out, as shown in a signature."""
+
+    def __init__(self, words: str) -> None:
+        self._words = words
+
+    def __repr__(self) -> str:
+        return self._words if self._words and " " not in self._words else "..."

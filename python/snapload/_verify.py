@@ -1,0 +1,134 @@
+"""A run beside the same with many digits."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _engine
+from ._check import whole
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._case import Case
+
+
+@dataclass(frozen=True, repr=False)
+class Verification:
+    """An ordinary run beside the same run with many digits.
+
+    Attributes
+    ----------
+    digits : int
+        Decimal digits of the second run.
+    digits_left : float
+        Those that are still right at its end.
+    proven : int or None
+        The first impact, from 1, at which the ordinary run is wrong; None if it is right at all of them.
+    predicted : int or None
+        Where the ordinary run said that trust in it ends.
+    compared : int
+        Impacts that both have.
+    end : str or None
+        How the run with many digits ends; None if a cable stayed taut first, where the proof ends.
+    t : float
+        When it ends [T].
+    impacts : int
+        How many impacts it has.
+    differences : numpy.ndarray, shape (compared,)
+        The largest difference of time and states at each impact, relative where a value is above 1.
+    tolerance : float
+        The difference that counts as wrong.
+    """
+
+    digits: int
+    digits_left: float
+    proven: int | None
+    predicted: int | None
+    compared: int
+    end: str | None
+    t: float
+    impacts: int
+    differences: NDArray[np.float64]
+    tolerance: float
+    _told: str
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draws the difference at each impact into axes of Matplotlib, and returns them."""
+        from matplotlib import pyplot
+
+        from ._plot import BLUE, GREY, VERMILION
+
+        if ax is None:
+            _, ax = pyplot.subplots(figsize=(3.5, 2.6), layout="constrained")
+        impacts = np.arange(1, self.compared + 1)
+        shown = np.maximum(self.differences, 1e-18)
+        ax.semilogy(impacts, shown, color=BLUE, linewidth=1.0)
+        ax.axhline(self.tolerance, color=GREY, linewidth=0.8, linestyle=":")
+        for impact, name, style in ((self.predicted, "predicted", "--"), (self.proven, "proven", "-")):
+            if impact is not None:
+                ax.axvline(impact, color=VERMILION, linewidth=1.0, linestyle=style, label=name)
+        ax.set_xlabel("impact")
+        ax.set_ylabel("difference")
+        if self.proven is not None or self.predicted is not None:
+            ax.legend(frameon=False, fontsize="small", title="wrong from", title_fontsize="small")
+        return ax
+
+    def __str__(self) -> str:
+        return self._told.rstrip("\n")
+
+    def __repr__(self) -> str:
+        return f"<Verification with {self.digits} digits: proven {self.proven}, predicted {self.predicted}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verification:
+    """Runs a case again with many digits, and says from which impact on the ordinary run is wrong.
+
+    The proof covers slack flight, impacts and the stop rules; where a cable stays taut it ends. Numbers count as
+    written: 0.1 is a tenth.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    digits : int
+        Decimal digits to compute with, at least.
+    tolerance : float
+        Error of state and time above which the ordinary run counts as wrong.
+
+    Returns
+    -------
+    Verification
+        Both runs, compared impact by impact.
+
+    Raises
+    ------
+    ValueError
+        If an option is out of its range.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> proof = snapload.verify(snapload.Case(f_o=0.31))
+    >>> proof.proven is None, proof.compared
+    (True, 12)
+    """
+    digits = whole("digits", digits, 1, _engine.MOST_DIGITS)
+    answer, told = _engine.verify(case._engine, digits, tolerance, None)
+    found = json.loads(answer)
+    return Verification(
+        **{key: found[key] for key in ("digits", "digits_left", "proven", "predicted", "compared")},
+        **{key: found[key] for key in ("end", "t", "impacts")},
+        differences=np.array(found["differences"], dtype=np.float64),
+        tolerance=tolerance,
+        _told=told,
+    )

@@ -1,0 +1,167 @@
+//! A case, from keys and values of Python.
+
+use crate::errors::of_case;
+use crate::interrupt::interruptible;
+use crate::run::{Run, doubt};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyInt, PyString};
+use pyo3::{IntoPyObjectExt, intern};
+use snapload::{CaseError, Parameters, Value, check_entry, key_named};
+use snapload_report::{Trusted, case_in_words};
+use std::sync::Arc;
+
+/// A case that was checked.
+#[pyclass(frozen, from_py_object, module = "snapload._engine")]
+#[derive(Clone)]
+pub(crate) struct Case {
+    pub(crate) name: String,
+    /// What was given; what follows from it, such as the inertia, follows anew where one of it changes.
+    pub(crate) given: Vec<(&'static str, Value)>,
+    pub(crate) case: Arc<snapload::Case>,
+}
+
+impl Case {
+    pub(crate) fn new(
+        name: String,
+        entries: impl IntoIterator<Item = (&'static str, Value)>,
+    ) -> Result<Self, CaseError> {
+        let mut given: Vec<(&'static str, Value)> = Vec::new();
+        for (key, value) in entries {
+            given.retain(|(known, _)| *known != key);
+            given.push((key, value));
+        }
+        let parameters = Parameters::from_entries(given.iter().cloned())?;
+        let case = Arc::new(snapload::Case::new(parameters)?);
+        Ok(Self { name, given, case })
+    }
+
+    pub(crate) fn parameters(&self) -> &Parameters {
+        self.case.parameters()
+    }
+}
+
+#[pymethods]
+impl Case {
+    /// A case of keys and values, under the name that is shown for it.
+    #[new]
+    fn of(name: String, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
+        Self::new(name, read_entries(entries)?).map_err(of_case)
+    }
+
+    /// The same case with some keys changed.
+    fn replace(&self, entries: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let given = self.given.iter().cloned().chain(read_entries(entries)?);
+        Self::new(self.name.clone(), given).map_err(of_case)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The keys that were given.
+    fn given<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let given = self
+            .given
+            .iter()
+            .map(|(key, value)| (*key, Some(value.clone())));
+        to_dict(py, given)
+    }
+
+    /// Every key in effect.
+    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        to_dict(py, self.parameters().entries())
+    }
+
+    /// Name, and where the case differs from the standard one.
+    pub(crate) fn told(&self) -> String {
+        case_in_words(&self.name, self.parameters())
+    }
+
+    /// Runs it; see `snapload.Case.run`.
+    fn run(
+        &self,
+        py: Python<'_>,
+        uncertainty: Option<&Bound<'_, PyAny>>,
+        tolerance: f64,
+        members: u32,
+        seed: u64,
+    ) -> PyResult<Run> {
+        let doubt = doubt(&self.case, uncertainty, tolerance)?;
+        let case = Arc::clone(&self.case);
+        let trusted = interruptible(py, None, move |pulse| {
+            Trusted::run(
+                &case,
+                doubt,
+                members,
+                seed,
+                |_| pulse.beat(),
+                || pulse.beat(),
+            )
+        })?;
+        Ok(Run {
+            case: self.clone(),
+            trusted: Arc::new(trusted.map_err(of_case)?),
+        })
+    }
+}
+
+/// Keys and values, in order.
+pub(crate) fn read_entries(entries: &Bound<'_, PyDict>) -> PyResult<Vec<(&'static str, Value)>> {
+    let read = entries.iter().map(|(name, value)| {
+        let name: String = name.extract()?;
+        let value = to_value(&name, &value)?;
+        let key = check_entry(&name, &value).map_err(of_case)?;
+        Ok((key.name, value))
+    });
+    read.collect()
+}
+
+/// A value of Python or NumPy as one of the engine; what is none is refused in the words of the key.
+pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    // NumPy's scalars, and its arrays without dimensions, give Python's own.
+    let plain = value.call_method0(intern!(value.py(), "item")).ok();
+    let value = plain.as_ref().unwrap_or(value);
+    let read = if value.is_instance_of::<PyBool>() {
+        value.extract().ok().map(Value::Bool)
+    } else if value.is_instance_of::<PyInt>() {
+        value.extract().ok().map(Value::Integer)
+    } else if value.is_instance_of::<PyString>() {
+        value.extract().ok().map(Value::Text)
+    } else {
+        value.extract().ok().map(Value::Number)
+    };
+    match read {
+        Some(value) => Ok(value),
+        None => {
+            let shown = match value.is_instance_of::<PyInt>() {
+                true => value.to_string(),
+                false => format!("(a {})", value.get_type().name()?),
+            };
+            let key = key_named(name).map_err(of_case)?;
+            Err(of_case(key.refuse_text(&shown)))
+        }
+    }
+}
+
+/// A value as Python's own.
+pub(crate) fn to_python(py: Python<'_>, value: Option<Value>) -> PyResult<Bound<'_, PyAny>> {
+    match value {
+        None => Ok(py.None().into_bound(py)),
+        Some(Value::Number(number)) => number.into_bound_py_any(py),
+        Some(Value::Integer(number)) => number.into_bound_py_any(py),
+        Some(Value::Bool(flag)) => flag.into_bound_py_any(py),
+        Some(Value::Text(text)) => text.into_bound_py_any(py),
+    }
+}
+
+fn to_dict<'py>(
+    py: Python<'py>,
+    entries: impl Iterator<Item = (&'static str, Option<Value>)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (key, value) in entries {
+        dict.set_item(key, to_python(py, value)?)?;
+    }
+    Ok(dict)
+}

@@ -1,0 +1,38 @@
+//! The engine as a Python module, `snapload._engine`: plain functions and classes over the library crates. What
+//! makes it pleasant to use is the typed Python around it, in `python/snapload`.
+
+mod case;
+mod critical;
+mod errors;
+mod interrupt;
+mod run;
+mod schema;
+mod study;
+mod table;
+
+use pyo3::prelude::*;
+
+/// The engine of snapload.
+#[pymodule]
+mod _engine {
+    use super::*;
+
+    #[pymodule_export]
+    use super::case::Case;
+    #[pymodule_export]
+    use super::critical::{critical_force, probability};
+    #[pymodule_export]
+    use super::run::{Run, ensemble, verify};
+    #[pymodule_export]
+    use super::schema::{columns, keys, named_case, named_cases};
+    #[pymodule_export]
+    use super::study::{Store, Study, evenly, read};
+    #[pymodule_export]
+    use super::table::Table;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("MOST_DIGITS", snapload::analysis::MOST_DIGITS)
+    }
+}

@@ -1,0 +1,75 @@
+//! The keys of a case, the columns of a study and the built-in cases, as Python's own lists.
+
+use crate::case::Case;
+use crate::errors::of_case;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use snapload::{KEYS, Kind, Parameters};
+use snapload::{named_cases as all_named_cases, series_of};
+
+/// Every key of a case, in its order: name, symbol, unit, meaning, type, what is allowed, default.
+#[pyfunction]
+pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let entries = KEYS.iter().map(|key| {
+        let entry = PyDict::new(py);
+        entry.set_item("name", key.name)?;
+        entry.set_item("symbol", key.symbol)?;
+        entry.set_item("unit", key.unit)?;
+        entry.set_item("meaning", key.meaning)?;
+        let (kind, words): (_, &[&str]) = match key.kind {
+            Kind::Number { .. } => ("float", &[]),
+            Kind::Count { .. } => ("int", &[]),
+            Kind::Flag => ("bool", &[]),
+            Kind::Choice(words) => ("str", words),
+        };
+        entry.set_item("kind", kind)?;
+        entry.set_item("words", words.to_vec())?;
+        entry.set_item("allowed", key.allowed())?;
+        entry.set_item("default", key.default_words())?;
+        entry.set_item(
+            "standard",
+            crate::case::to_python(py, key.get(&Parameters::STANDARD))?,
+        )?;
+        Ok(entry)
+    });
+    entries.collect()
+}
+
+/// The columns that tell what the runs of a study come to.
+#[pyfunction]
+pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let entries = snapload_study::columns().iter().map(|column| {
+        let entry = PyDict::new(py);
+        entry.set_item("name", column.name)?;
+        entry.set_item("symbol", column.symbol)?;
+        entry.set_item("unit", column.unit)?;
+        entry.set_item("meaning", column.meaning)?;
+        entry.set_item("words", column.words())?;
+        Ok(entry)
+    });
+    entries.collect()
+}
+
+/// The built-in case of a code.
+#[pyfunction]
+pub(crate) fn named_case(code: &str) -> PyResult<Case> {
+    let hint = "print(snapload.cases) lists them all";
+    let named = snapload::named_case(code).map_err(|error| of_case(error.with_hint(hint)))?;
+    Case::new(named.code.to_owned(), named.entries()).map_err(of_case)
+}
+
+/// The built-in cases: code, what there is to say of it, case.
+#[pyfunction]
+pub(crate) fn named_cases() -> PyResult<Vec<(&'static str, String, Case)>> {
+    let cases = all_named_cases().map(|named| {
+        let series: Vec<&str> = series_of(named.code).collect();
+        let about = if series.is_empty() {
+            named.about.to_owned()
+        } else {
+            series.join(", ")
+        };
+        let case = Case::new(named.code.to_owned(), named.entries()).map_err(of_case)?;
+        Ok((named.code, about, case))
+    });
+    cases.collect()
+}

@@ -1,0 +1,85 @@
+"""Pictures go into axes and come out of them."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+import snapload
+from matplotlib import pyplot
+from PIL import Image
+
+PICTURES = ["trajectory", "rotation", "velocities", "tensions"]
+
+
+@pytest.fixture(scope="module")
+def run():
+    return snapload.cases["sliding-example"].replace(t_end=12).run(members=0)
+
+
+@pytest.mark.parametrize("what", PICTURES)
+def test_a_picture_is_drawn_into_the_axes_given(run, what):
+    figure, (left, right) = pyplot.subplots(1, 2)
+    assert run.plot(what, ax=right) is right and not left.lines and right.lines
+    assert "[" in right.get_xlabel() and "[" in right.get_ylabel()
+    assert run.plot(what).figure is not figure
+
+
+def test_a_picture_shows_the_run(run):
+    ax = run.plot("velocities")
+    drawn = np.concatenate([line.get_xydata() for line in ax.lines])
+    snaps = run.impacts["v_n"] > 0
+    expected = np.column_stack([run.impacts["t"], run.impacts["v_n"]])[snaps]
+    assert sorted(map(tuple, drawn)) == sorted(map(tuple, expected))
+    path = np.concatenate([line.get_xydata() for line in run.plot().lines[:-4]])
+    assert path[:, 1].max() == pytest.approx(run.norms.y_max, abs=1e-4)
+    early = run.plot("tensions", color="black")
+    assert {line.get_color() for line in early.lines} <= {"black", "#999999"}
+
+
+def test_an_overview_has_all_four(run):
+    assert len(run.overview().axes) == 4
+    with pytest.raises(ValueError, match="what = 'energy' is not allowed; allowed: 'trajectory', 'rotation'"):
+        run.plot("energy")
+
+
+def test_answers_draw_themselves():
+    critical = snapload.critical_force(snapload.Case(), step=0.1, members=10)
+    assert critical.plot().get_xlabel() == "$f_o$ [F]"
+    proof = snapload.verify(snapload.Case(f_o=0.31))
+    assert proof.plot().lines[0].get_ydata().tolist() == np.maximum(proof.differences, 1e-18).tolist()
+
+
+def test_a_notebook_gets_html5(run):
+    html = run.animate(seconds=2)._repr_html_()
+    assert "<canvas" in html and "requestAnimationFrame" in html and "{" + "data}" not in html
+
+
+def test_files_move(run, tmp_path: Path):
+    moving = run.animate(stop=3.0, seconds=0.4, fps=10)
+    with Image.open(moving.save(tmp_path / "run.gif")) as picture:
+        assert picture.n_frames == 4
+    assert "<canvas" in moving.save(tmp_path / "run.html").read_text(encoding="utf-8")
+    if shutil.which("ffmpeg"):
+        assert moving.save(tmp_path / "run.mp4").stat().st_size > 1000
+    else:
+        with pytest.raises(ValueError, match="there is no ffmpeg on this machine"):
+            moving.save(tmp_path / "run.mp4")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (dict(start=5, stop=4), "0 <= start < stop"),
+        (dict(fps=0), "fps = 0 is not allowed"),
+        (dict(seconds=0), "seconds = 0 is not allowed"),
+        (dict(seconds=1e9), "seconds = .* is not allowed"),
+    ],
+)
+def test_slips_are_refused_in_words(run, options, words):
+    with pytest.raises(ValueError, match=words):
+        run.animate(**options)
+    with pytest.raises(ValueError, match="ends in .gif, .mp4 or .html"):
+        run.animate().save("run.avi")

@@ -1,0 +1,158 @@
+"""The numbers, files and words are those of the command line, to the bit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import snapload
+
+CODES = ["1910001000-359", "1922001000-559", "1920001000-359", "sliding-example", "rocking-example"]
+STATE = ["x", "y", "theta", "vx", "vy", "vtheta"]
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_run_is_the_same(command_json, code):
+    told = command_json("run", "--case", code, "--sample", "0.25", "--ensemble", "30")
+    run = snapload.cases[code].run(members=30)
+
+    assert (run.end.reason, run.end.t, run.end.t_limit) == tuple(told["end"][k] for k in ("reason", "t", "t_limit"))
+    assert {k: getattr(run.norms, k) for k in told["norms"]} == told["norms"]
+    assert (run.trust.t, run.trust.impact, run.trust.because) == tuple(
+        told["trust"][k] for k in ("t", "impact", "because")
+    )
+    assert list(run.trust.exponents) == told["trust"]["exponents"]
+    assert run.outcome.ensemble == told["outcome"]["ensemble"]
+    assert run.case.keys() == told["case"]
+
+    impacts = run.impacts
+    for column in ("t", "cable", "v_n", "impulse", "energy_lost", "digits"):
+        assert impacts[column].tolist() == [row[column] for row in told["impacts"]]
+    for side in ("before", "after"):
+        states = np.column_stack([impacts[f"{side}_{name}"] for name in STATE])
+        assert states.tolist() == [row[side] for row in told["impacts"]]
+    modes = run.modes
+    assert [list(taut) for taut in modes["taut"]] == [row["taut"] for row in told["modes"]]
+    for column in ("mode", "t_start", "t_end"):
+        assert modes[column].tolist() == [row[column] for row in told["modes"]]
+
+    motion = run.motion(0.25)
+    for name in motion.dtype.names:
+        assert motion[name].tolist() == [row[name] for row in told["motion"]]
+    assert run.at(motion.t).tolist() == motion.tolist()
+    assert tuple(run.at(run.end.t).item())[1:7] == run.end.state
+
+
+def test_the_words_and_the_json_are_the_same(command):
+    run = snapload.cases["sliding-example"].run(members=20)
+    line = command("run", "--case", "sliding-example", "--ensemble", "20", "--sample", "1", "--json", "-")
+    assert run.to_json(1.0) == line.rstrip("\n")
+    assert str(run) == command("run", "--case", "sliding-example", "--ensemble", "20").rstrip("\n")
+    assert repr(snapload.cases["1910001000-359"].run(members=0)).startswith("<Run of Case('1910001000-359'): settled")
+
+
+def test_doubt_is_the_same(command_json):
+    told = command_json("run", "--uncertainty", "1e-3", "--uncertainty", "f_o=0.01", "--seed", "7", "--ensemble", "40")
+    sizes = dict.fromkeys(STATE, 1e-3) | {"f_o": 0.01}
+    run = snapload.Case().run(uncertainty=sizes, seed=7, members=40)
+    assert run.outcome.ensemble == told["outcome"]["ensemble"]
+    assert run.trust.uncertainty == told["trust"]["uncertainty"]
+    assert run.trust.impact == told["trust"]["impact"]
+    counted = snapload.ensemble(snapload.Case(), 40, uncertainty=sizes, seed=7)
+    assert {end: share.count for end, share in counted.ends.items()} == {
+        row["reason"]: row["count"] for row in told["outcome"]["ensemble"]["ends"]
+    }
+
+
+def test_the_critical_force_is_the_same(command_json):
+    told = command_json("critical", "--max", "0.5", "--ensemble", "10")
+    found = snapload.critical_force(snapload.Case(), max=0.5, members=10)
+    assert (found.f_cr, found.reason, found.t) == (told["f_cr"], told["reason"], told["t"])
+    assert found.exceeding.tolist() == told["exceeding"]
+    assert found.passes == told["passes"]
+    for name in ("f_o", "certain", "count", "part", "low", "high"):
+        assert found.probability[name].tolist() == [point[name] for point in told["probability"]]
+
+
+def test_the_proof_is_the_same(command_json, command):
+    args = ["verify", "--case", "1710001000-359", "--tolerance", "1e-15"]
+    told = command_json(*args)
+    proof = snapload.verify(snapload.cases["1710001000-359"], tolerance=1e-15)
+    assert proof.proven is not None
+    for name in ("digits", "digits_left", "proven", "predicted", "compared", "end", "t", "impacts"):
+        assert getattr(proof, name) == told[name]
+    assert proof.differences.tolist() == told["differences"]
+    assert str(proof) == command(*args).rstrip("\n")
+
+
+def test_the_file_of_a_study_is_the_same_to_the_byte(command, tmp_path: Path):
+    ours, theirs = tmp_path / "ours.parquet", tmp_path / "theirs.parquet"
+    axes = ["--vary", "f_o=0.2:0.5:4", "--vary", "e=0.5,0.9,1.0", "--vary", "body=rigid,point"]
+    command("sweep", "--set", "t_end=5", *axes, "--out", str(theirs))
+    case = snapload.Case(t_end=5)
+    there = snapload.sweep(case, out=ours, f_o="0.2:0.5:4", e=[0.5, 0.9, 1.0], body=["rigid", "point"])
+    assert ours.read_bytes() == theirs.read_bytes()
+    assert snapload.open_study(theirs).identical(there)
+    # A row is the run of its case.
+    run = case.replace(f_o=0.4, e=0.9).run(members=0)
+    row = there.sel(f_o=0.4, e=0.9, body="rigid")
+    assert (row.t, row.rho3, row.y_max) == (run.end.t, run.norms.rho3, run.norms.y_max)
+    assert row.impacts_1 + row.impacts_2 == (run.impacts["v_n"] > 0).sum()
+
+
+def test_parts_lists_and_random_points_open(command, tmp_path: Path):
+    part, box, cases = (tmp_path / name for name in ("part.parquet", "box.parquet", "cases.parquet"))
+    command("sweep", "--vary", "e=0.5:0.9:5", "--shard", "2/2", "--out", str(part))
+    opened = snapload.open_study(part)
+    assert opened.e.values.tolist() == [0.7, 0.8, 0.9] and opened.attrs["first_row"] == 2
+    command("sweep", "--vary", "e=0.5:0.9", "--random", "4", "--out", str(box))
+    assert snapload.open_study(box).sizes == {"row": 4}
+    (tmp_path / "cases.csv").write_text("e,f_o\n0.5,0.3\n2,0.3\n")
+    command("sweep", "--list", str(tmp_path / "cases.csv"), "--out", str(cases))
+    listed = snapload.open_study(cases)
+    assert listed.end.values.tolist() == ["settled", ""] and "e = 2 is not allowed" in listed.error.values[1]
+    (tmp_path / "other.parquet").write_bytes(b"no")
+    with pytest.raises(OSError, match="other.parquet"):
+        snapload.open_study(tmp_path / "other.parquet")
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"e": 1.5},
+        {"r": 0.5},
+        {"y": -3.0},
+        {"omgea": 1.0},
+        {"h": 1.0},
+        {"max_impacts": 0},
+        {"body": "ball"},
+        {"inertia": 1e-20},
+        {"theta": 2.0},
+        {"stop_when_settled": 3},
+    ],
+)
+def test_errors_have_the_same_words(command, keys):
+    sets = [f"--set={key}={json.dumps(value)}" for key, value in keys.items()]
+    told = command("run", *sets, fails=True)
+    with pytest.raises(ValueError) as error:
+        snapload.Case(**keys)
+    words = str(error.value)
+    assert words in told.replace("--set ", ""), (words, told)
+    with pytest.raises(ValueError) as again:
+        snapload.Case(f_o=0.2).replace(**keys)
+    assert str(again.value) == words
+
+
+def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
+    path = tmp_path / "mooring.toml"
+    path.write_text("a = 0.2\nb = 0.1\nf_o = 0.25\nt_end = 5\n")
+    case = snapload.Case.from_file(path)
+    assert case.keys() == command_json("run", str(path))["case"] and case.name == str(path)
+    path.write_text("a = 0.2\ne = 7\n")
+    with pytest.raises(ValueError, match="mooring.toml: e = 7 is not allowed"):
+        snapload.Case.from_file(path)
+    path.write_text("a == 2")
+    with pytest.raises(ValueError, match="mooring.toml"):
+        snapload.Case.from_file(path)

@@ -1,0 +1,196 @@
+"""Studies: labelled, interruptible, resumable, without Python's lock, on one machine and on several."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import snapload
+import xarray
+
+LARGE = dict(f_o="0.1:0.6:400", omega="0.5:1.5:400")
+
+
+def test_a_dataset_is_labelled(tmp_path: Path):
+    f_o, e = snapload.evenly(0.1, 0.5, 3), [0.5, 0.9]
+    study = snapload.sweep(snapload.Case(), f_o=f_o, e=e)
+    assert study.rho1.dims == ("f_o", "e") and study.f_o.values.tolist() == [0.1, 0.3, 0.5]
+    assert study.rho1.attrs == {"long_name": "largest v_n of a snap", "units": "L/T"}
+    assert study.f_o.attrs["units"] == "F" and study.e.attrs["units"] == "1"
+    assert study.end.sel(f_o=0.3, e=0.9) == "settled"
+    flags = dict(zip(study.end_code.flag_values, study.end_code.flag_meanings.split(), strict=True))
+    assert [flags[code] for code in study.end_code.values.ravel()] == study.end.values.ravel().tolist()
+    path = tmp_path / "study.nc"
+    study.to_netcdf(path, engine="h5netcdf")
+    with xarray.open_dataset(path, engine="h5netcdf") as again:
+        xarray.testing.assert_identical(again.load(), study)
+    study.rho1.plot(x="f_o", hue="e")
+
+
+def test_values_are_the_decimals_that_one_would_write():
+    assert snapload.evenly(0.01, 0.6, 60).tolist() == [k / 100 for k in range(1, 61)]
+    with pytest.raises(ValueError, match="count = 0 is not allowed"):
+        snapload.evenly(0, 1, 0)
+    with pytest.raises(ValueError, match="is no range"):
+        snapload.evenly("a", 1, 3)
+
+
+def test_without_trust_nothing_is_said_of_it():
+    plain = snapload.sweep(snapload.Case(), trust=False, e=[0.5])
+    assert "certain" not in plain and "horizon_t" not in plain and plain.sizes == {"e": 1}
+    assert snapload.sweep(snapload.Case(t_end=1)).sizes == {}
+
+
+def test_what_is_no_case_is_told():
+    study = snapload.sweep(snapload.Case(), a=[0.1, 0.2], r=[0.5, 1.5])
+    assert np.isnan(study.t.sel(r=0.5)).all() and np.isfinite(study.t.sel(r=1.5)).all()
+    assert "r > |1 - a| = 0.9" in study.error.sel(a=0.1, r=0.5).item()
+    assert study.end_code.sel(a=0.1, r=0.5) == -1
+
+
+@pytest.mark.parametrize(
+    ("axes", "words"),
+    [
+        ({"e": [0.5, 1.5]}, "e = 1.5 is not allowed; allowed: a number, 0 <= e <= 1"),
+        ({"omgea": [1]}, "did you mean omega"),
+        ({"e": "0:1"}, "write first:last:n"),
+        ({"e": []}, "give one value at the least"),
+    ],
+)
+def test_slips_are_refused_in_words(axes, words):
+    with pytest.raises(ValueError, match=words):
+        snapload.sweep(snapload.Case(), **axes)
+
+
+def test_only_resume_goes_on(tmp_path: Path):
+    out = tmp_path / "e.parquet"
+    first = snapload.sweep(snapload.Case(), out=out, e=[0.5, 0.6])
+    assert snapload.sweep(snapload.Case(), out=out, resume=True, e=[0.5, 0.6]).identical(first)
+    with pytest.raises(ValueError, match="is there already"):
+        snapload.sweep(snapload.Case(), out=out, e=[0.5, 0.6])
+    with pytest.raises(ValueError, match="holds something else"):
+        snapload.sweep(snapload.Case(), out=out, resume=True, e=[0.5, 0.7])
+
+
+INTERRUPTED = """
+import sys, time, snapload
+snapload.sweep(snapload.Case(t_end=0.1), e=[0.5])
+print("ready", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print(time.monotonic(), flush=True)
+    {after}
+"""
+
+
+def interrupt(call: str, after: str = "", wait: float = 0.7) -> tuple[float, str]:
+    """Sends Ctrl-C to a Python at work; gives how long it took to answer, and what it says after that."""
+    code = INTERRUPTED.format(call=call, after=after)
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None and process.stdout.readline() == "ready\n"
+        time.sleep(wait)
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        answered = float(process.stdout.readline())
+        rest = process.stdout.read()
+    assert process.returncode == 0
+    return answered - sent, rest
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        "snapload.sweep(snapload.Case(), f_o='0.1:0.6:1000', omega='0.5:1.5:1000')",
+        "snapload.Case('rocking-example', t_end=1e6).run()",
+        "snapload.ensemble(snapload.Case(), 10**7)",
+        "snapload.critical_force(snapload.Case(t_end=1e4, stop_when_settled=False), members=10**6)",
+    ],
+)
+def test_ctrl_c_is_answered_within_a_second(call):
+    took, _ = interrupt(call)
+    assert took < 1.0
+
+
+def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
+    out = tmp_path / "map.parquet"
+    call = f"snapload.sweep(snapload.Case(t_end=1), out={str(out)!r}, trust=False, f_o='0.1:0.6:200', e='0.5:0.9:200')"
+    # What was being brought to the disk holds the file until it is there; the error says so.
+    again = f"""
+    while True:
+        try:
+            {call.replace("trust", "resume=True, trust")}
+            break
+        except ValueError as error:
+            assert "another snapload is at work" in str(error)
+            time.sleep(0.05)
+    print('whole')"""
+    took, said = interrupt(call, again, wait=0.4)
+    assert took < 1.0
+    assert said == "whole\n"
+    assert snapload.open_study(out).sizes == {"f_o": 200, "e": 200}
+
+
+def test_other_threads_run_meanwhile():
+    work = threading.Thread(target=snapload.sweep, args=[snapload.Case()], kwargs=dict(e="0.5:0.9:600"))
+    begun = time.monotonic()
+    work.start()
+    turns = 0
+    while work.is_alive():
+        time.sleep(0.002)
+        turns += 1
+    took = time.monotonic() - begun
+    # With the lock held there would be none while it computes.
+    assert took > 0.05 and turns > 0.1 * took / 0.002
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_dask_computes_the_same_bits_though_a_worker_is_killed(tmp_path: Path):
+    from distributed import Client, LocalCluster
+
+    case, axes = snapload.Case(), dict(f_o="0.1:0.6:60", e="0.5:0.95:40")
+    here, there = tmp_path / "here.parquet", tmp_path / "there.parquet"
+    local = snapload.sweep(case, out=here, **axes)
+    killed = []
+
+    def kill(pid: int) -> None:
+        while not any((tmp_path / "there.parquet.parts").glob("rows-*")):
+            time.sleep(0.005)
+        os.kill(pid, signal.SIGKILL)
+        killed.append(not there.exists())
+
+    with (
+        LocalCluster(n_workers=3, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
+        Client(cluster) as client,
+    ):
+        killer = threading.Thread(target=kill, args=[min(client.run(os.getpid).values())])
+        killer.start()
+        far = snapload.sweep(case, out=there, client=client, **axes)
+        killer.join()
+        assert killed == [True], "the worker was to die in the middle"
+        # What a dead driver left is taken up, and only the rest is computed.
+        again = tmp_path / "again.parquet"
+        store = snapload._engine.Store.open(
+            snapload._engine.Study(case._engine, list(axes.items()), True), again, False
+        )
+        data = snapload._engine.Study(case._engine, list(axes.items()), True).chunk(100, 300)
+        store.keep(100, 300, data)
+        store.close()
+        snapload.sweep(case, out=again, resume=True, client=client, **axes)
+    assert far.identical(local)
+    assert here.read_bytes() == there.read_bytes() == again.read_bytes()
+
+
+def test_rows_of_another_study_are_refused(tmp_path: Path):
+    engine = snapload._engine
+    ours, other = (engine.Study(snapload.Case()._engine, [("e", values)], True) for values in ([0.5], [0.6]))
+    store = engine.Store.open(ours, tmp_path / "e.parquet", False)
+    with pytest.raises(ValueError, match="came from another study or another version of snapload"):
+        store.keep(0, 1, other.chunk(0, 1))

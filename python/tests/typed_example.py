@@ -1,0 +1,19 @@
+"""A piece of a user's program, which the type checker reads."""
+
+import numpy as np
+import snapload
+from numpy.typing import NDArray
+
+case = snapload.Case(f_o=0.31, body="rigid")
+run: snapload.Run = case.replace(e=0.7).run(uncertainty={"f_o": 0.01}, members=10)
+ends_well: bool = not run.end.exceeds
+velocities: NDArray[np.float64] = run.impacts["v_n"]
+amplitude: float = snapload.cases["sliding-example"].f_o
+axes = run.plot("rotation")
+axes.set_title(run.end.reason)
+study = snapload.sweep(case, f_o=np.linspace(0.1, 0.5, 3), omega=[0.9, 1.0], out="study.parquet", resume=True)
+largest: float = float(study.rho1.max())
+critical = snapload.critical_force(case, members=10).f_cr
+if critical is not None:
+    print(critical + 0.01)
+print(snapload.verify(case).differences.max(), snapload.ensemble(case).ends["settled"].part)
