@@ -3,11 +3,15 @@
 //! The engine's picture is upside down: x_e = (x − x_0)/L, y_e = −(z − z_0)/L, and, a reflection being one, θ_e = −θ.
 //! The centre (x_0, z_0) of the engine's picture is where the body rests in still water.
 
+use crate::equilibrium::Equilibrium;
 use crate::sea::components;
 use crate::structure::{LineSi, Outline, Structure, Water};
 use crate::wave::LinearWave;
 use snapload::{Body, Cable, Forcing, Harmonic, Shape, State, StopRules, System};
 use std::f64::consts::FRAC_PI_2;
+
+/// A body that is turned by less than this at rest is upright: its gaps are then off by rounding only \[rad\].
+const UPRIGHT: f64 = 1e-12;
 
 /// The units of the engine in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,6 +126,14 @@ pub struct Model {
 }
 
 impl Model {
+    /// Of a structure, about where it rests.
+    pub fn resting(structure: &Structure, rest: &Equilibrium) -> Self {
+        // A turned body's lines are as long as their gaps say; an upright one's are exactly taut.
+        let upright = rest.theta_rad.abs() < UPRIGHT;
+        let taut: &[usize] = if upright { &rest.taut } else { &[] };
+        Self::about(structure, rest.place_m, taut)
+    }
+
     /// Of a structure about the place `[x, z]` with which the engine's picture is centred. Lines of `taut` are taut
     /// by construction where the body's centre is there and the body is upright.
     pub fn about(structure: &Structure, origin_m: [f64; 2], taut: &[usize]) -> Self {

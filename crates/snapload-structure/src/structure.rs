@@ -133,6 +133,8 @@ pub struct Structure {
     pub restitution: f64,
     /// Time that is computed \[s\].
     pub duration_s: f64,
+    /// Snaps before this are not judged \[s\].
+    pub transient_s: f64,
     /// Centre at the start `[x, z]`; none: where it rests \[m\].
     pub start_m: Option<[f64; 2]>,
     /// The run ends at more snaps than this.
@@ -143,6 +145,8 @@ pub struct Structure {
 pub const THREE_HOURS_S: f64 = 10_800.0;
 /// So many periods of a regular wave are computed by default.
 const PERIODS: f64 = 100.0;
+/// So many periods the motion is given to forget its start.
+const TRANSIENT: f64 = 10.0;
 /// Time that is computed in still water by default \[s\].
 const STILL_S: f64 = 60.0;
 
@@ -180,10 +184,10 @@ impl Structure {
             .collect::<Result<Vec<_>, _>>()?;
         let (water, heading) = read_water(entries)?;
         let run = entries.table("run", 0);
-        let duration = match water {
-            Water::Still => STILL_S,
-            Water::Wave(wave) => PERIODS * wave.period_s,
-            Water::Sea(_) => THREE_HOURS_S,
+        let (duration, transient) = match water {
+            Water::Still => (STILL_S, 0.0),
+            Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
+            Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
         };
         let structure = Self {
             body,
@@ -193,6 +197,7 @@ impl Structure {
             heading,
             restitution: run.number("restitution")?,
             duration_s: run.maybe_number("duration")?.unwrap_or(duration),
+            transient_s: run.maybe_number("transient")?.unwrap_or(transient),
             start_m: run.maybe_pair("start")?,
             max_snaps: run.count("max_snaps")?,
         };
