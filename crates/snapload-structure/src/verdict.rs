@@ -87,7 +87,31 @@ impl Assessment {
         };
         Verdict {
             standing,
-            words: format!("{begins} {says}"),
+            words: format!("{begins} {says}{}", self.transient_words()),
+        }
+    }
+
+    /// What the verdict leaves out, where that is harder than what it judges.
+    fn transient_words(&self) -> String {
+        let structure = &self.prepared.structure;
+        let early = self
+            .snaps
+            .iter()
+            .filter(|snap| snap.t_s < structure.transient_s);
+        let hardest = early.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
+        match hardest {
+            Some(snap) if snap.speed_m_s > self.outcome.speed_m_s() && snap.counts() => {
+                let about = snap.peak_n().map_or(String::new(), |peak| {
+                    format!(", about {:.0} kN", peak / 1e3)
+                });
+                format!(
+                    " Not judged: in the first {:.0} s, as the waves begin at once on a body at rest, line {} snaps at {:.2} m/s{about}.",
+                    structure.transient_s,
+                    snap.line + 1,
+                    snap.speed_m_s
+                )
+            }
+            _ => String::new(),
         }
     }
 

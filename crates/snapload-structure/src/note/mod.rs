@@ -148,22 +148,22 @@ fn warnings(assessment: &Assessment) -> Markup {
 }
 
 fn snaps(assessment: &Assessment) -> Markup {
+    let transient = assessment.prepared.structure.transient_s;
     let mut hardest: Vec<&Snap> = assessment
         .snaps
         .iter()
-        .filter(|snap| snap.counts())
+        .filter(|snap| snap.counts() && snap.t_s >= transient)
         .collect();
     hardest.sort_by(|a, b| b.speed_m_s.total_cmp(&a.speed_m_s));
     let all = hardest.len();
     hardest.truncate(LISTED);
     hardest.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-    let transient = assessment.prepared.structure.transient_s;
     let horizon = assessment.horizon_s();
     html! {
         @if hardest.is_empty() {
-            p { "No line snaps at 1 cm/s or more." }
+            p { "No line snaps at 1 cm/s or more after the start." }
         } @else {
-            h3 { "The hardest " (hardest.len()) " of " (all) " snaps" }
+            h3 { "The hardest " (hardest.len()) " of " (all) " snaps that are judged" }
             div.wide { table {
                 thead { tr {
                     th { "t" br; "s" } th { "line" } th { "speed" br; "m/s" } th { "impulse" br; "kN s" } th { "energy lost" br; "kJ" }
@@ -176,8 +176,7 @@ fn snaps(assessment: &Assessment) -> Markup {
                     td { (maybe_kilo(snap.front_n)) }
                     td { (snap.utilisation.map_or("not known".to_owned(), |u| format!("{u:.2}"))) }
                     td {
-                        @if snap.t_s < transient { "not judged" }
-                        @else if horizon.is_some_and(|horizon| snap.t_s > horizon) { "past the horizon" }
+                        @if horizon.is_some_and(|horizon| snap.t_s > horizon) { "past the horizon" }
                     }
                 } } }
             } }
@@ -235,7 +234,7 @@ fn inputs_of(structure: &Structure) -> Markup {
     for line in &structure.lines {
         let own = |label: &str, value: Option<f64>, unit: &str, scale: f64| {
             value.map_or(format!("{label} not known"), |value| {
-                format!("{label} {:.4} {unit}", value / scale)
+                format!("{label} {:.1} {unit}", value / scale)
             })
         };
         rows.push((
