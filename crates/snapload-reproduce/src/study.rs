@@ -1,9 +1,9 @@
 //! Every run that the report needs, each computed once.
 
 use rayon::prelude::*;
-use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan, Outcome};
+use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan};
 use snapload::{
-    Case, CaseError, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
+    Case, CaseError, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
 };
 
 /// How a run that begins to slide is read.

@@ -2,8 +2,8 @@
 
 use crate::Drawn;
 use rayon::prelude::*;
-use snapload::analysis::Account;
-use snapload::{Case, CaseError, KEYS, Parameters, Value};
+use snapload::analysis::{Certainty, share};
+use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 
 /// A row of a study: the keys of a case and what its run comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,33 +14,46 @@ pub struct Row {
     /// defaults of the others.
     pub keys: Vec<Option<Value>>,
     /// What the run comes to, or why there is none.
-    pub account: Result<Account, CaseError>,
+    pub outcome: Result<Outcome, CaseError>,
+    /// How far the run can be trusted, if that was asked for.
+    pub certainty: Option<Certainty>,
 }
 
-/// Runs cases, on the threads that there are, and returns their rows in order. `done` is called after each.
+/// Runs cases, on the threads that there are, and returns their rows in order. `done` is told how many are done,
+/// every few of them.
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
-pub fn rows(drawn: Vec<Drawn>, trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> {
+pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
     drawn
-        .into_par_iter()
-        .map(|drawn| {
-            let row = row(drawn, trust);
-            done();
-            row
+        .par_chunks(share(drawn.len()))
+        .flat_map_iter(|drawn| {
+            let rows = side_by_side(drawn, trust);
+            done(drawn.len() as u64);
+            rows
         })
         .collect()
 }
 
-fn row(drawn: Drawn, trust: bool) -> Row {
-    let case = drawn.parameters.clone().and_then(Case::new);
-    Row {
-        index: drawn.index,
-        keys: match &drawn.parameters {
-            Ok(parameters) => parameters.entries().map(|(_, value)| value).collect(),
-            Err(_) => given(&drawn),
-        },
-        account: case.map(|case| Account::of(&case, trust)),
-    }
+fn side_by_side(drawn: &[Drawn], trust: bool) -> Vec<Row> {
+    let made = |drawn: &Drawn| drawn.parameters.clone().and_then(Case::new);
+    let cases: Vec<Result<Case, CaseError>> = drawn.iter().map(made).collect();
+    let legal: Vec<Case> = cases.iter().flatten().cloned().collect();
+    let mut outcomes = Lanes::best().outcomes(&legal).0.into_iter();
+    let row = |(drawn, case): (&Drawn, Result<Case, CaseError>)| {
+        Some(Row {
+            index: drawn.index,
+            keys: match &drawn.parameters {
+                Ok(parameters) => parameters.entries().map(|(_, value)| value).collect(),
+                Err(_) => given(drawn),
+            },
+            certainty: case.as_ref().ok().filter(|_| trust).map(Certainty::of),
+            outcome: match case {
+                Ok(_) => Ok(outcomes.next()?),
+                Err(error) => Err(error),
+            },
+        })
+    };
+    drawn.iter().zip(cases).filter_map(row).collect()
 }
 
 /// The keys of a case that is none, as far as they were given.

@@ -305,12 +305,12 @@ mod tests {
 
     fn save(store: &mut Store, study: &Study, range: Range<u64>) {
         let drawn = study.draw(range.clone()).unwrap();
-        store.save(range, &rows(drawn, false, &|| ())).unwrap();
+        store.save(range, &rows(&drawn, false, &|_| ())).unwrap();
     }
 
     fn complete(target: &Path, study: &Study) -> Vec<u8> {
         let watch = Watch {
-            done: &|| (),
+            done: &|_| (),
             stop: &|| false,
         };
         let finished = sweep(study, work(target, study), &watch).unwrap();

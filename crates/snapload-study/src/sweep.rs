@@ -14,8 +14,8 @@ const MOST: u64 = 1 << 14;
 
 /// Who looks on.
 pub struct Watch<'a> {
-    /// Called after each case, on any thread.
-    pub done: &'a (dyn Fn() + Sync),
+    /// Told after every few cases how many they were, on any thread.
+    pub done: &'a (dyn Fn(u64) + Sync),
     /// Asked between chunks whether to end here.
     pub stop: &'a dyn Fn() -> bool,
 }
@@ -41,7 +41,7 @@ pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished,
         }
         let range = gap.start..gap.end.min(gap.start.saturating_add(size));
         let began = Instant::now();
-        let rows = rows(study.draw(range.clone())?, study.trust(), watch.done);
+        let rows = rows(&study.draw(range.clone())?, study.trust(), watch.done);
         store.save(range, &rows)?;
         size = next_size(size, began.elapsed());
     }

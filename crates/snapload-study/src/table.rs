@@ -3,17 +3,24 @@
 use crate::Row;
 use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{ArrowError, DataType, Field, Schema, SchemaRef};
-use snapload::analysis::{Account, Certainty, FirstImpact};
-use snapload::{KEYS, Kind, Stop, Value};
+use snapload::analysis::{Certainty, Horizon};
+use snapload::{FirstImpact, KEYS, Kind, Outcome, Stop, Value};
 use std::sync::Arc;
 
-/// How a column's values are taken from an account.
+/// How a column's values are taken from a run.
 #[derive(Clone, Copy)]
 enum Take {
-    Number(fn(&Account) -> Option<f64>),
-    Count(fn(&Account) -> Option<u64>),
-    Flag(fn(&Account) -> Option<bool>),
-    Word(fn(&Account) -> &'static str),
+    Number(fn(&Run) -> Option<f64>),
+    Count(fn(&Run) -> Option<u64>),
+    Flag(fn(&Run) -> Option<bool>),
+    Word(fn(&Run) -> &'static str),
+}
+
+/// What there is to tell of a row that could be run.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    outcome: &'a Outcome,
+    certainty: Option<Certainty>,
 }
 
 /// A column that tells what a run comes to.
@@ -61,29 +68,29 @@ const fn column(
     }
 }
 
-fn first<T>(account: &Account, of: fn(FirstImpact) -> T) -> Option<T> {
-    account.first.map(of)
+fn first<T>(run: &Run, of: fn(FirstImpact) -> T) -> Option<T> {
+    run.outcome.first.map(of)
 }
 
-fn horizon(account: &Account) -> Option<(f64, u64)> {
-    account.certainty.and_then(|certainty| certainty.horizon)
+fn horizon<T>(run: &Run, of: fn(Horizon) -> T) -> Option<T> {
+    run.certainty?.horizon.map(of)
 }
 
 /// The columns beside the row's number, the keys and the error, in their order.
 #[rustfmt::skip] // one row a column
 static COLUMNS: [Column; 18] = [
-    column("end", "end", "", Take::Word(|a| reason(a.end.reason)),
+    column("end", "end", "", Take::Word(|a| reason(a.outcome.end.reason)),
         "why the run ended, in the words of run --json"),
-    column("t", "t", "T", Take::Number(|a| Some(a.end.t)), "when"),
-    column("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.impacts[0])),
+    column("t", "t", "T", Take::Number(|a| Some(a.outcome.end.t)), "when"),
+    column("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.outcome.impacts[0])),
         "impacts of cable 1"),
-    column("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.impacts[1])),
+    column("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.outcome.impacts[1])),
         "impacts of cable 2"),
-    column("rho1", "ρ₁", "L/T", Take::Number(|a| Some(a.norms.rho1)), "largest v_n of a snap"),
-    column("rho2", "ρ₂", "L/T", Take::Number(|a| Some(a.norms.rho2)), "sum of v_n up to t = 10"),
-    column("rho3", "ρ₃", "L/T", Take::Number(|a| Some(a.norms.rho3)), "sum of v_n"),
-    column("y_max", "*y*ₘₐₓ", "L", Take::Number(|a| Some(a.norms.y_max)), "highest y of the centre"),
-    column("theta_max", "|*θ*|ₘₐₓ", "rad", Take::Number(|a| Some(a.norms.theta_max)),
+    column("rho1", "ρ₁", "L/T", Take::Number(|a| Some(a.outcome.norms.rho1)), "largest v_n of a snap"),
+    column("rho2", "ρ₂", "L/T", Take::Number(|a| Some(a.outcome.norms.rho2)), "sum of v_n up to t = 10"),
+    column("rho3", "ρ₃", "L/T", Take::Number(|a| Some(a.outcome.norms.rho3)), "sum of v_n"),
+    column("y_max", "*y*ₘₐₓ", "L", Take::Number(|a| Some(a.outcome.norms.y_max)), "highest y of the centre"),
+    column("theta_max", "|*θ*|ₘₐₓ", "rad", Take::Number(|a| Some(a.outcome.norms.theta_max)),
         "largest rotation"),
     column("first_t", "time of the first impact", "T", Take::Number(|a| first(a, |f| f.t)),
         "time of the first impact"),
@@ -91,15 +98,15 @@ static COLUMNS: [Column; 18] = [
         "its cable, 1 or 2"),
     column("first_v_n", "*v*ₙ of the first impact", "L/T", Take::Number(|a| first(a, |f| f.v_n)),
         "its normal velocity"),
-    column("t_slack", "time slack", "T", Take::Number(|a| Some(a.slack)), "time without a taut cable"),
-    column("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.sliding)),
+    column("t_slack", "time slack", "T", Take::Number(|a| Some(a.outcome.slack())), "time without a taut cable"),
+    column("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.outcome.sliding)),
         "time with one taut cable"),
-    column("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.rocking)), "time with both"),
-    column("horizon_t", "horizon", "T", Take::Number(|a| horizon(a).map(|(t, _)| t)),
+    column("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.outcome.rocking)), "time with both"),
+    column("horizon_t", "horizon", "T", Take::Number(|a| horizon(a, |h| h.t)),
         "time up to which the run can be trusted; null if to its end"),
-    column("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a).map(|(_, n)| n)),
+    column("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a, |h| h.impact as u64)),
         "the number of the impact there"),
-    column("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c: Certainty| c.certain)),
+    column("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
         "whether the way it ends is certain; null without trust"),
 ];
 
@@ -169,11 +176,11 @@ pub(crate) fn batch(rows: &[Row]) -> Result<RecordBatch, ArrowError> {
         ));
     }
     for column in &COLUMNS {
-        arrays.push(account_array(column.take, rows));
+        arrays.push(run_array(column.take, rows));
     }
     let errors = rows
         .iter()
-        .map(|row| row.account.as_ref().err().map(ToString::to_string));
+        .map(|row| row.outcome.as_ref().err().map(ToString::to_string));
     arrays.push(Arc::new(StringArray::from_iter(errors)));
     RecordBatch::try_new(schema(), arrays)
 }
@@ -201,13 +208,16 @@ fn key_array<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -
     }
 }
 
-fn account_array(take: Take, rows: &[Row]) -> ArrayRef {
-    let accounts = rows.iter().map(|row| row.account.as_ref().ok());
+fn run_array(take: Take, rows: &[Row]) -> ArrayRef {
+    let runs = rows.iter().map(|row| {
+        let (outcome, certainty) = (row.outcome.as_ref().ok()?, row.certainty);
+        Some(Run { outcome, certainty })
+    });
     match take {
-        Take::Number(of) => Arc::new(Float64Array::from_iter(accounts.map(|a| of(a?)))),
-        Take::Count(of) => Arc::new(Int64Array::from_iter(accounts.map(|a| of(a?).map(signed)))),
-        Take::Flag(of) => Arc::new(BooleanArray::from_iter(accounts.map(|a| of(a?)))),
-        Take::Word(of) => Arc::new(StringArray::from_iter(accounts.map(|a| a.map(of)))),
+        Take::Number(of) => Arc::new(Float64Array::from_iter(runs.map(|run| of(&run?)))),
+        Take::Count(of) => Arc::new(Int64Array::from_iter(runs.map(|r| of(&r?).map(signed)))),
+        Take::Flag(of) => Arc::new(BooleanArray::from_iter(runs.map(|run| of(&run?)))),
+        Take::Word(of) => Arc::new(StringArray::from_iter(runs.map(|run| Some(of(&run?))))),
     }
 }
 

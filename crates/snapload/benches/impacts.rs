@@ -5,15 +5,14 @@
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
-use snapload::analysis::{Doubt, trusted_run};
-use snapload::{Case, Parameters, Trajectory, named_case};
+use snapload::analysis::{Certainty, Doubt, outcomes, trusted_run};
+use snapload::{Case, Lanes, Parameters, Trajectory, named_case};
 use std::hint::black_box;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
 /// The standard sweep: force amplitudes 0.01 to 0.31, as many as here.
-const SWEEP: u32 = 64;
+const SWEEP: u32 = 1024;
 
 fn case(parameters: Parameters) -> Case {
     Case::new(parameters).expect("the cases of the benchmark are legal")
@@ -72,28 +71,33 @@ fn one_run(c: &mut Criterion) {
     group.finish();
 }
 
-/// Runs many cases on the threads of the present pool; says how many impacts they have together.
-type Way = fn(&[Case]) -> usize;
-
-/// Ways to run many cases; another one (several cases in the lanes of one register, say) is another line.
-const WAYS: [(&str, Way); 1] = [("scalar", |cases| cases.par_iter().map(impacts_of).sum())];
-
+/// Cases a second, by lanes on one thread, and by the best lanes on all.
 fn many_runs(c: &mut Criterion) {
     let cases = sweep();
-    let all = available_parallelism().map_or(1, usize::from);
-    let mut threads = vec![1, all];
-    threads.dedup();
     let mut group = c.benchmark_group("sweep");
     group.throughput(Throughput::Elements(u64::from(SWEEP)));
-    for (name, way) in WAYS {
-        for &threads in &threads {
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build();
-            let pool = pool.expect("threads can be started");
-            group.bench_function(format!("{name}/threads-{threads}"), |b| {
-                b.iter(|| pool.install(|| way(black_box(&cases))));
-            });
-        }
+    for lanes in Lanes::available() {
+        group.bench_function(format!("{lanes:?}"), |b| {
+            b.iter(|| lanes.outcomes(black_box(&cases)));
+        });
     }
+    let all = available_parallelism().map_or(1, usize::from);
+    for threads in [1, all] {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        let pool = pool.expect("threads can be started");
+        group.bench_function(format!("{:?}/threads-{threads}", Lanes::best()), |b| {
+            b.iter(|| pool.install(|| outcomes(black_box(&cases))));
+        });
+    }
+    group.bench_function("certainty", |b| {
+        b.iter(|| {
+            cases
+                .iter()
+                .map(Certainty::of)
+                .filter(Certainty::decides_the_end)
+                .count()
+        });
+    });
     group.finish();
 }
 

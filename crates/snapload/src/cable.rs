@@ -1,7 +1,8 @@
 //! A cable: its gap, its normal and its lever arm.
 
 use crate::State;
-use crate::real::{Real, dot, length, quarter_turn};
+use crate::lane::{Lane, Turn, combined, dot, length, quarter_turn, select2, sum};
+use crate::real::Real;
 
 /// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
 ///
@@ -27,29 +28,33 @@ pub struct Normal<T = f64> {
     pub arm: T,
 }
 
-impl<T: Real> Normal<T> {
+impl<L: Lane> Normal<L> {
     /// Normal velocity v_n, positive while the gap closes.
-    pub fn velocity(&self, state: &State<T>) -> T {
+    #[inline(always)]
+    pub fn velocity(&self, state: &State<L>) -> L {
         dot(self.n, [state.vx, state.vy]) + self.arm * state.vtheta
     }
 
     /// W_ij = G_i M⁻¹ G_jᵀ; with itself the inverse effective mass w = 1 + s²/I.
-    pub fn coupling(&self, other: &Self, inverse_inertia: T) -> T {
+    #[inline(always)]
+    pub fn coupling(&self, other: &Self, inverse_inertia: L) -> L {
         dot(self.n, other.n) + self.arm * other.arm * inverse_inertia
     }
 
     /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section 5).
-    pub fn kick(&self, state: &mut State<T>, impulse: T, inverse_inertia: T) {
-        state.vx -= impulse * self.n[0];
-        state.vy -= impulse * self.n[1];
-        state.vtheta -= impulse * self.arm * inverse_inertia;
+    #[inline(always)]
+    pub fn kick(&self, state: &mut State<L>, impulse: L, inverse_inertia: L) {
+        state.vx = state.vx - impulse * self.n[0];
+        state.vy = state.vy - impulse * self.n[1];
+        state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
     }
 
     /// The same for the position: moves the body against the normal by `distance` in the mass metric.
-    pub fn shift(&self, state: &mut State<T>, distance: T, inverse_inertia: T) {
-        state.x -= distance * self.n[0];
-        state.y -= distance * self.n[1];
-        state.theta -= distance * self.arm * inverse_inertia;
+    #[inline(always)]
+    pub fn shift(&self, state: &mut State<L>, distance: L, inverse_inertia: L) {
+        state.x = state.x - distance * self.n[0];
+        state.y = state.y - distance * self.n[1];
+        state.theta = state.theta - distance * self.arm * inverse_inertia;
     }
 }
 
@@ -89,41 +94,14 @@ impl<T: Real> Cable<T> {
         }
     }
 
-    /// Length r \[L\].
-    pub fn length(&self) -> T {
-        self.length
-    }
-
-    /// Attachment to the body, in the body's frame \[L\].
-    pub fn fairlead(&self) -> [T; 2] {
-        self.fairlead
-    }
-
     /// Anchor A \[L\].
     pub fn anchor(&self) -> [T; 2] {
         [0, 1].map(|i| self.fairlead[i] - self.rest_span[i])
     }
 
-    /// Lever ρ = R(θ) · fairlead, from the centre to the attachment.
-    pub fn lever(&self, sine: T, cosine: T) -> [T; 2] {
-        let [a, b] = self.fairlead;
-        [a * cosine - b * sine, a * sine + b * cosine]
-    }
-
     /// Span d = P − A from the anchor to the attachment.
     pub fn span(&self, state: &State<T>) -> [T; 2] {
-        let moved = self.moved(state);
-        [0, 1].map(|i| self.rest_span[i] + moved[i])
-    }
-
-    /// How far the attachment is from where it is at rest.
-    fn moved(&self, state: &State<T>) -> [T; 2] {
-        let theta = state.theta;
-        let (even, odd) = theta.versines();
-        let (chord, sine) = (theta * theta * even, theta - theta * theta * odd);
-        let turn = quarter_turn(self.fairlead);
-        let centre = [state.x, state.y];
-        [0, 1].map(|i| centre[i] + (turn[i] * sine - self.fairlead[i] * chord))
+        self.span_moved(self.moved(state, &Turn::by(state.theta)))
     }
 
     /// Gap g = |P − A|² − r²: negative while slack, zero while taut.
@@ -133,14 +111,9 @@ impl<T: Real> Cable<T> {
 
     /// The gap and a bound on its rounding error.
     pub(crate) fn gap_and_error(&self, state: &State<T>) -> (T, T) {
-        let moved = self.moved(state);
-        let linear = dot(self.rest_span, moved) * 2.0;
-        let size = (length(moved) + state.theta.abs() * length(self.fairlead)) * self.length;
-        let square = dot(moved, moved);
-        (
-            self.rest_gap + (linear + square),
-            self.rest_gap_error + (self.rest_gap.abs() + size * 2.0 + square) * T::EPSILON * 4.0,
-        )
+        let moved = self.moved(state, &Turn::by(state.theta));
+        let error = self.gap_error(moved, state.theta, length(self.fairlead));
+        (self.gap_moved(moved), error)
     }
 
     /// The constraint's direction, and how its entries n_x, n_y and s change with x, y and θ:
@@ -167,13 +140,98 @@ impl<T: Real> Cable<T> {
 
     /// The constraint's direction; meant where the gap is closed, so that n has unit length.
     pub fn normal(&self, state: &State<T>) -> Normal<T> {
-        let (sine, cosine) = state.theta.sin_cos();
-        let lever = self.lever(sine, cosine);
-        let span = self.span(state);
+        let turn = Turn::by(state.theta);
+        let span = self.span_moved(self.moved(state, &turn));
+        self.normal_along(span, self.lever(turn.sine, turn.cosine))
+    }
+}
+
+impl<L: Copy> Cable<L> {
+    /// All its numbers.
+    pub(crate) fn numbers(&self) -> [L; 7] {
+        let ([a, b], [u, v]) = (self.fairlead, self.rest_span);
+        [a, b, self.length, u, v, self.rest_gap, self.rest_gap_error]
+    }
+
+    /// From its numbers, in the same order.
+    pub(crate) fn from_numbers([a, b, length, u, v, rest_gap, rest_gap_error]: [L; 7]) -> Self {
+        Self {
+            fairlead: [a, b],
+            length,
+            rest_span: [u, v],
+            rest_gap,
+            rest_gap_error,
+        }
+    }
+}
+
+impl<L: Lane> Cable<L> {
+    /// Length r \[L\].
+    #[inline(always)]
+    pub fn length(&self) -> L {
+        self.length
+    }
+
+    /// Attachment to the body, in the body's frame \[L\].
+    #[inline(always)]
+    pub fn fairlead(&self) -> [L; 2] {
+        self.fairlead
+    }
+
+    /// Lever ρ = R(θ) · fairlead, from the centre to the attachment.
+    #[inline(always)]
+    pub fn lever(&self, sine: L, cosine: L) -> [L; 2] {
+        combined(cosine, self.fairlead, sine, quarter_turn(self.fairlead))
+    }
+
+    /// How far the attachment is from where it is at rest, the body being turned by θ.
+    #[inline(always)]
+    pub(crate) fn moved(&self, state: &State<L>, turn: &Turn<L>) -> [L; 2] {
+        let quarter = quarter_turn(self.fairlead);
+        let swing = combined(turn.sine, quarter, -turn.chord, self.fairlead);
+        sum([state.x, state.y], swing)
+    }
+
+    /// The span of an attachment that has moved so far.
+    #[inline(always)]
+    pub(crate) fn span_moved(&self, moved: [L; 2]) -> [L; 2] {
+        sum(self.rest_span, moved)
+    }
+
+    /// The gap of an attachment that has moved so far.
+    #[inline(always)]
+    pub(crate) fn gap_moved(&self, moved: [L; 2]) -> L {
+        let linear = dot(self.rest_span, moved) * 2.0;
+        self.rest_gap + (linear + dot(moved, moved))
+    }
+
+    /// Bound on the rounding error of [`Cable::gap_moved`]; `reach` is the length of the fairlead.
+    #[inline(always)]
+    pub(crate) fn gap_error(&self, moved: [L; 2], theta: L, reach: L) -> L {
+        let square = dot(moved, moved);
+        let size = (square.sqrt() + theta.abs() * reach) * self.length;
+        self.rest_gap_error + (self.rest_gap.abs() + size * 2.0 + square) * L::EPSILON * 4.0
+    }
+
+    /// n = d/r and s = ρ_x n_y − ρ_y n_x.
+    #[inline(always)]
+    pub(crate) fn normal_along(&self, span: [L; 2], lever: [L; 2]) -> Normal<L> {
         let n = [span[0] / self.length, span[1] / self.length];
         Normal {
             n,
             arm: lever[0] * n[1] - lever[1] * n[0],
+        }
+    }
+
+    /// One of two cables, lane by lane.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        Self {
+            fairlead: select2(mask, yes.fairlead, no.fairlead),
+            length: L::select(mask, yes.length, no.length),
+            rest_span: select2(mask, yes.rest_span, no.rest_span),
+            rest_gap: L::select(mask, yes.rest_gap, no.rest_gap),
+            rest_gap_error: L::select(mask, yes.rest_gap_error, no.rest_gap_error),
         }
     }
 }

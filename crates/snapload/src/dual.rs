@@ -173,6 +173,7 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         slope: [T::ZERO; N],
     };
     const NEWTON_STEPS: usize = T::NEWTON_STEPS;
+    const CARRIES_SLOPES: bool = true;
 
     fn from_f64(value: f64) -> Self {
         Self::constant(T::from_f64(value))

@@ -59,8 +59,8 @@ pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T)
 }
 
 /// The larger of `record` and the maximum over \[0, s\] of a function given with its derivative, by
-/// halving the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be beaten.
-fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {
+/// dividing the intervals on which, with f̈ ≤ `up` and |f̈| ≤ `bend`, the record could be beaten.
+pub(crate) fn highest<T: Real>(f: &impl Fn(T) -> (T, T), s: T, up: T, bend: T, record: T) -> T {
     let (first, last) = (f(T::ZERO), f(s));
     let mut record = record.max(first.0).max(last.0);
     search(f, (T::ZERO, first), (s, last), up, bend, &mut record);
@@ -82,11 +82,25 @@ fn search<T: Real>(
     {
         return;
     }
+    // Above its ends by at most the bend over the width, or by the rate at one end and what that may gain.
     let bulge = bend * width * width * 0.125;
-    if left.1.0.max(right.1.0) + bulge <= *record + RESOLUTION {
+    let gain = up.max(T::ZERO) * width * 0.5;
+    let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);
+    let from_right = right.1.0 + ((gain - right.1.1) * width).max(T::ZERO);
+    let most = left.1.0.max(right.1.0) + bulge;
+    if most.min(from_left).min(from_right) <= *record + RESOLUTION {
         return;
     }
-    let middle = left.0 + width * 0.5;
+    // On a concave function where the rate falls through zero, as far as that is a straight line.
+    let secant = left.0 + width * (left.1.1 / (left.1.1 - right.1.1));
+    let middle = if up <= T::ZERO && left.0 < secant && secant < right.0 {
+        secant
+    } else {
+        left.0 + width * 0.5
+    };
+    if !(left.0 < middle && middle < right.0) {
+        return;
+    }
     let centre = (middle, f(middle));
     *record = record.max(centre.1.0);
     search(f, left, centre, up, bend, record);

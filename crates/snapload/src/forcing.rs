@@ -1,6 +1,8 @@
 //! Forces that depend on time alone: a constant one and a sum of sinusoids.
 
-use crate::real::{Real, length};
+use crate::lane::{Lane, combined, length, scaled, sum};
+use crate::polynomial::{ORDER, Polynomial};
+use crate::real::Real;
 
 /// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
 /// amplitudes and phases in x and y are covered.
@@ -14,6 +16,19 @@ pub struct Harmonic<T = f64> {
     pub sine: [T; 2],
 }
 
+impl<L: Lane> Harmonic<L> {
+    /// The same force seen from t0: f(t0 + s) = c' cos Ωs + d' sin Ωs.
+    #[inline(always)]
+    pub fn shifted(&self, t0: L) -> Self {
+        let (s, c) = (self.omega * t0).sin_cos();
+        Self {
+            omega: self.omega,
+            cosine: combined(c, self.cosine, s, self.sine),
+            sine: combined(c, self.sine, -s, self.cosine),
+        }
+    }
+}
+
 /// The forces on the body but for those in the cables.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Forcing<T = f64> {
@@ -24,6 +39,28 @@ pub struct Forcing<T = f64> {
 }
 
 impl<T: Real> Harmonic<T> {
+    /// The same in another arithmetic.
+    pub(crate) fn map<U>(&self, number: impl Fn(T) -> U + Copy) -> Harmonic<U> {
+        Harmonic {
+            omega: number(self.omega),
+            cosine: self.cosine.map(number),
+            sine: self.sine.map(number),
+        }
+    }
+
+    /// Adds its Taylor series about time `t`: the k-th derivative turns (c, d) into Ω (d, −c).
+    pub(crate) fn expand(&self, t: T, into: &mut [Polynomial<T>; 2]) {
+        let local = self.shifted(t);
+        let (mut c, mut d) = (local.cosine, local.sine);
+        for k in 0..=ORDER {
+            let factor = self.omega / (k + 1) as f64;
+            for i in 0..2 {
+                into[i][k] += c[i];
+                (c[i], d[i]) = (d[i] * factor, -c[i] * factor);
+            }
+        }
+    }
+
     /// The elliptical forcing f_x = f_o cos Ωt, f_y = ν f_o sin Ωt (docs/model.md section 3).
     pub fn ellipse(f_o: T, nu: T, omega: T) -> Self {
         Self {
@@ -41,18 +78,6 @@ impl<T: Real> Harmonic<T> {
             omega,
             cosine: [amplitude[0] * cx, amplitude[1] * cy],
             sine: [-amplitude[0] * sx, -amplitude[1] * sy],
-        }
-    }
-
-    /// The same force seen from t0: f(t0 + s) = c' cos Ωs + d' sin Ωs.
-    pub fn shifted(&self, t0: T) -> Self {
-        let (s, c) = (self.omega * t0).sin_cos();
-        let turn = |i: usize| self.cosine[i] * c + self.sine[i] * s;
-        let advance = |i: usize| self.sine[i] * c - self.cosine[i] * s;
-        Self {
-            omega: self.omega,
-            cosine: [turn(0), turn(1)],
-            sine: [advance(0), advance(1)],
         }
     }
 
@@ -80,13 +105,13 @@ pub(crate) struct Push<T> {
     pub(crate) force: [T; 2],
 }
 
-impl<T: Real> Push<T> {
+impl<L: Lane> Push<L> {
     /// Of a constant force.
-    pub(crate) fn constant(force: [T; 2], s: T) -> Self {
-        let half = s * s * 0.5;
+    #[inline(always)]
+    pub(crate) fn constant(force: [L; 2], s: L) -> Self {
         Self {
-            drift: [force[0] * half, force[1] * half],
-            gain: [force[0] * s, force[1] * s],
+            drift: scaled(force, s * s * 0.5),
+            gain: scaled(force, s),
             force,
         }
     }
@@ -96,34 +121,28 @@ impl<T: Real> Push<T> {
     /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
     /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
     /// s (c (1 − z S) + d z C) and the force c (1 − z² C) + d (z − z² S).
-    pub(crate) fn with_harmonic(mut self, harmonic: &Harmonic<T>, s: T) -> Self {
+    #[inline(always)]
+    pub(crate) fn with_harmonic(self, harmonic: &Harmonic<L>, s: L) -> Self {
         let z = harmonic.omega * s;
         let (even, odd) = z.versines();
-        let square = z * z;
-        let sine = z - square * odd;
-        let cosine = T::ONE - square * even;
-        let sinc = T::ONE - z * odd;
-        for i in 0..2 {
-            let (c, d) = (harmonic.cosine[i], harmonic.sine[i]);
-            self.drift[i] += s * s * (c * even + d * odd);
-            self.gain[i] += s * (c * sinc + d * (z * even));
-            self.force[i] += c * cosine + d * sine;
+        let (c, d) = (harmonic.cosine, harmonic.sine);
+        let drift = combined(even, c, odd, d);
+        let gain = combined(L::ONE - z * odd, c, z * even, d);
+        let force = combined(L::ONE - z * z * even, c, z - z * z * odd, d);
+        Self {
+            drift: sum(self.drift, scaled(drift, s * s)),
+            gain: sum(self.gain, scaled(gain, s)),
+            force: sum(self.force, force),
         }
-        self
     }
 }
 
 impl<T: Real> Forcing<T> {
     /// The same forces in another arithmetic.
     pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Forcing<U> {
-        let harmonic = |harmonic: &Harmonic<T>| Harmonic {
-            omega: number(harmonic.omega),
-            cosine: harmonic.cosine.map(number),
-            sine: harmonic.sine.map(number),
-        };
         Forcing {
             constant: self.constant.map(number),
-            harmonics: self.harmonics.iter().map(harmonic).collect(),
+            harmonics: self.harmonics.iter().map(|wave| wave.map(number)).collect(),
         }
     }
 
@@ -153,6 +172,13 @@ impl<T: Real> Forcing<T> {
         self.harmonics
             .iter()
             .fold(self.constant[1], |sum, h| sum + h.amplitude_y())
+    }
+
+    /// The largest |f_y|.
+    pub fn steepest(&self) -> T {
+        let upward = self.most_upward();
+        let downward = self.constant[1] - (upward - self.constant[1]);
+        upward.abs().max(downward.abs())
     }
 }
 

@@ -15,6 +15,28 @@ pub(crate) struct Shock<T> {
     pub(crate) after: State<T>,
 }
 
+impl<T: Real> Shock<T> {
+    /// Of one cable.
+    pub(crate) fn of_one(
+        cable: usize,
+        [v_before, v_after]: [T; 2],
+        impulse: T,
+        after: State<T>,
+    ) -> Self {
+        let mut shock = Self {
+            impulse: [T::ZERO; MAX_CABLES],
+            pulling: TautSet::only(cable),
+            v_before: [T::ZERO; MAX_CABLES],
+            v_after: [T::ZERO; MAX_CABLES],
+            after,
+        };
+        shock.impulse[cable] = impulse;
+        shock.v_before[cable] = v_before;
+        shock.v_after[cable] = v_after;
+        shock
+    }
+}
+
 /// Impact of the closed cables, of which `taut` ones have no normal velocity (docs/model.md section 5):
 ///
 /// ```text

@@ -8,6 +8,9 @@ use std::ops::{Index, IndexMut};
 /// towards larger p, where the tail is the safer bound.
 pub(crate) const ORDER: usize = 24;
 
+/// So many roundings of Σ |c_k| s^k the value at s may be off.
+const ROUNDINGS: f64 = 8.0;
+
 /// A polynomial of degree at most [`ORDER`], lowest power first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Polynomial<T>([T; ORDER + 1]);
@@ -34,13 +37,34 @@ impl<T> IndexMut<usize> for Polynomial<T> {
 impl<T: Real> Polynomial<T> {
     /// Value and first two derivatives at s, of the powers up to `order`.
     pub(crate) fn jet(&self, s: T, order: usize) -> [T; 3] {
+        self.jet_and_size(s, order).0
+    }
+
+    /// The same, and Σ |c_k| s^k, to which the rounding of the value is in proportion.
+    fn jet_and_size(&self, s: T, order: usize) -> ([T; 3], T) {
         let (mut value, mut rate, mut half_accel) = (T::ZERO, T::ZERO, T::ZERO);
+        let mut size = T::ZERO;
         for coefficient in self.0[..=order].iter().rev() {
             half_accel = half_accel * s + rate;
             rate = rate * s + value;
             value = value * s + *coefficient;
+            size = size * s + coefficient.abs();
         }
-        [value, rate, half_accel * 2.0]
+        ([value, rate, half_accel * 2.0], size)
+    }
+
+    /// Value and first two derivatives at s, and the rounding error of the value.
+    pub(crate) fn jet_and_noise(&self, s: T, order: usize) -> ([T; 3], T) {
+        let (jet, size) = self.jet_and_size(s, order);
+        (jet, size * T::EPSILON * ROUNDINGS)
+    }
+
+    /// Whether it is provably below zero on all of \[0, s\], by more than its rounding.
+    pub(crate) fn stays_negative(&self, s: T, order: usize) -> bool {
+        let size = self.derivative_bound(0, s, order);
+        let constant = self.0[0];
+        let largest = size - constant.abs() + constant;
+        largest < -(size * T::EPSILON * (2.0 * ROUNDINGS))
     }
 
     /// Bound on the n-th derivative over \[0, s\].
@@ -51,11 +75,6 @@ impl<T: Real> Polynomial<T> {
             bound = bound * s + self.0[k].abs() * falling as f64;
         }
         bound
-    }
-
-    /// Rounding error of the value at s.
-    pub(crate) fn noise(&self, s: T, order: usize) -> T {
-        self.derivative_bound(0, s, order) * T::EPSILON * 8.0
     }
 
     /// The longest length up to `step`, by halves of an octave, on which the last two powers are below
@@ -101,13 +120,24 @@ pub(crate) fn convolve_tail<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: us
     sum_of_products(&a.0[1..=k], &b.0[..k])
 }
 
-/// The first list's entries times the second's in reverse, summed in the order of the first.
+/// The first list's entries times the second's in reverse: four sums that take turns and are added at the
+/// end, as a processor can do several at once.
 fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {
-    let mut sum = T::ZERO;
-    for (x, y) in a.iter().zip(b.iter().rev()) {
-        sum += *x * *y;
+    let mut sums = [T::ZERO; 4];
+    let (fours, reversed) = (a.chunks_exact(4), b.rchunks_exact(4));
+    let rest = fours
+        .remainder()
+        .iter()
+        .zip(reversed.remainder().iter().rev());
+    for (x, y) in fours.zip(reversed) {
+        for k in 0..4 {
+            sums[k] += x[k] * y[3 - k];
+        }
     }
-    sum
+    for (sum, (x, y)) in sums.iter_mut().zip(rest) {
+        *sum += *x * *y;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]

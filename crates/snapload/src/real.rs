@@ -2,10 +2,12 @@
 //!
 //! The whole motion is generic over [`Real`]: doubles for the ordinary run, [`crate::Dual`] numbers
 //! for its derivatives, [`crate::Precise`] ones for its proof. In a chaotic system a different last bit
-//! is a different picture: no function of a double calls the platform's `libm` (sine and cosine come
-//! from the Rust port in the crate `libm`, which is plain arithmetic in a fixed order), and a multiply
-//! is never fused with an add.
+//! is a different picture: no function of a double calls the platform's `libm` (sine and cosine are
+//! those of [`crate::elementary`], plain arithmetic in a fixed order), and a multiply is never fused with
+//! an add.
 
+use crate::elementary;
+pub(crate) use crate::lane::{dot, length, quarter_turn};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -35,6 +37,8 @@ pub trait Real:
     const ONE: Self;
     /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
     const NEWTON_STEPS: usize;
+    /// Whether it carries derivatives, which [`Real::detached`] leaves out.
+    const CARRIES_SLOPES: bool = false;
 
     /// The number of this arithmetic that equals `value`.
     fn from_f64(value: f64) -> Self;
@@ -81,24 +85,6 @@ pub trait Real:
     }
 }
 
-/// Number of terms that bring the series of [`Real::versines`] below half a rounding at |z| ≤ 1:
-/// the first one left out is z^20/22! < 1e-21.
-const VERSINE_TERMS: usize = 10;
-
-/// 1/((2k + m)(2k + m + 1)), the ratio of one term of a versine's series to the one before.
-const fn term_ratios(m: f64) -> [f64; VERSINE_TERMS] {
-    let mut ratios = [0.0; VERSINE_TERMS];
-    let mut k = 1;
-    while k < VERSINE_TERMS {
-        let n = 2.0 * k as f64 + m;
-        ratios[k] = 1.0 / (n * (n + 1.0));
-        k += 1;
-    }
-    ratios
-}
-const EVEN_RATIOS: [f64; VERSINE_TERMS] = term_ratios(1.0);
-const ODD_RATIOS: [f64; VERSINE_TERMS] = term_ratios(2.0);
-
 impl Real for f64 {
     const EPSILON: Self = f64::EPSILON;
     const ZERO: Self = 0.0;
@@ -122,46 +108,14 @@ impl Real for f64 {
         f64::sqrt(self)
     }
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincos(self)
+        elementary::sin_cos(self)
     }
     fn versines(self) -> (Self, Self) {
-        let square = self * self;
-        if square <= 1.0 {
-            // Horner from the smallest term: 1/2 (1 − z²/(3·4) (1 − z²/(5·6) (…))), and the same
-            // with 1/6, 4·5, 6·7, … for the odd one.
-            let (mut even, mut odd) = (1.0, 1.0);
-            for k in (1..VERSINE_TERMS).rev() {
-                even = 1.0 - even * square * EVEN_RATIOS[k];
-                odd = 1.0 - odd * square * ODD_RATIOS[k];
-            }
-            (0.5 * even, self * odd * (1.0 / 6.0))
-        } else {
-            let half_sine = libm::sin(0.5 * self);
-            (
-                2.0 * half_sine * half_sine / square,
-                (self - libm::sin(self)) / square,
-            )
-        }
+        elementary::versines(self)
     }
     fn abs(self) -> Self {
         f64::abs(self)
     }
-}
-
-/// x u + y v of two plane vectors.
-pub(crate) fn dot<T: Real>(a: [T; 2], b: [T; 2]) -> T {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Length of a plane vector.
-pub(crate) fn length<T: Real>(a: [T; 2]) -> T {
-    dot(a, a).sqrt()
-}
-
-/// A plane vector turned by a quarter, counter-clockwise: the velocity of a point at `a` on a body
-/// that turns at unit rate.
-pub(crate) fn quarter_turn<T: Real>(a: [T; 2]) -> [T; 2] {
-    [-a[1], a[0]]
 }
 
 #[cfg(test)]

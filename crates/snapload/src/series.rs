@@ -1,4 +1,4 @@
-//! Sliding, rocking, and motion with any other set of taut cables: the Taylor series of the motion.
+//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its Taylor series.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -22,6 +22,7 @@
 
 use crate::complementarity::{PerCable, solve};
 use crate::contact::{Contact, Contacts};
+use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
 use crate::real::{Real, dot};
@@ -62,7 +63,11 @@ pub(crate) struct Series<T: Real> {
     /// θ̇ and θ̇².
     theta_rate: Polynomial<T>,
     spin: Polynomial<T>,
+    /// The forces, drag included.
     force: [Polynomial<T>; 2],
+    /// θ̈ by drag.
+    turning: Polynomial<T>,
+    drag: DragSeries<T>,
     lines: Vec<Line<T>>,
     /// W_ij of taut cables, symmetric: entry (i, j) with i ≤ j.
     coupling: Vec<Polynomial<T>>,
@@ -73,6 +78,8 @@ pub(crate) struct Series<T: Real> {
     tops_count: usize,
     rotation_limit: Option<T>,
     step: T,
+    /// What may be reached within the step: event functions, as far as they are not the gaps of `lines`.
+    watched: Vec<(Watch, Polynomial<T>, usize)>,
 }
 
 impl<T: Real> Series<T> {
@@ -90,6 +97,8 @@ impl<T: Real> Series<T> {
             theta_rate: Polynomial::default(),
             spin: Polynomial::default(),
             force: [Polynomial::default(); 2],
+            turning: Polynomial::default(),
+            drag: DragSeries::default(),
             lines: vec![Line::default(); cables],
             coupling: vec![Polynomial::default(); cables * cables],
             contacts: [Contact::CLOSED; MAX_CABLES],
@@ -98,6 +107,7 @@ impl<T: Real> Series<T> {
             tops_count: 0,
             rotation_limit,
             step: T::ZERO,
+            watched: Vec::new(),
         }
     }
 
@@ -139,11 +149,44 @@ impl<T: Real> Series<T> {
             for line in self.taut.iter() {
                 self.extend_normal(system, line, k + 1);
             }
+            self.extend_drag(system, k);
             self.extend_motion(system, k);
         }
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
+        self.choose_watched();
+    }
+
+    /// Leaves out what provably is not reached within the step.
+    fn choose_watched(&mut self) {
+        let step = self.step;
+        self.watched.clear();
+        for cable in 0..self.cables {
+            let line = &self.lines[cable];
+            let (watch, function, order) = if self.taut.contains(cable) {
+                (Watch::Tension(cable), line.tension.negated(), ORDER - 2)
+            } else {
+                (Watch::Gap(cable), line.gap, ORDER - 1)
+            };
+            if !function.stays_negative(step, order) {
+                self.watched.push((watch, function, order));
+            }
+        }
+        for mut theta in [self.theta, self.theta.negated()] {
+            let Some(limit) = self.rotation_limit else {
+                break;
+            };
+            theta[0] -= limit;
+            if !theta.stays_negative(step, ORDER) {
+                self.watched.push((Watch::Rotation, theta, ORDER));
+            }
+        }
+        for top in &self.tops[..self.tops_count] {
+            if !top.stays_negative(step, ORDER - 1) {
+                self.watched.push((Watch::Top, *top, ORDER - 1));
+            }
+        }
     }
 
     /// f(t0 + s) as a power series.
@@ -153,17 +196,22 @@ impl<T: Real> Series<T> {
             self.force[i][0] = system.forcing.constant[i];
         }
         for harmonic in &system.forcing.harmonics {
-            let local = harmonic.shifted(t);
-            // The k-th derivative turns (c, d) into Ω (d, −c).
-            let (mut c, mut d) = (local.cosine, local.sine);
-            for k in 0..=ORDER {
-                let factor = harmonic.omega / (k + 1) as f64;
-                for i in 0..2 {
-                    self.force[i][k] += c[i];
-                    (c[i], d[i]) = (d[i] * factor, -c[i] * factor);
-                }
-            }
+            harmonic.expand(t, &mut self.force);
         }
+        if let Some(drag) = &system.drag {
+            self.drag.begin(drag, t);
+        }
+    }
+
+    /// Adds the k-th coefficients of the drag, which those of the velocities give.
+    fn extend_drag(&mut self, system: &System<T>, k: usize) {
+        let Some(drag) = &system.drag else { return };
+        let velocity = [&self.x, &self.y].map(|p| p[k + 1] * (k + 1) as f64);
+        let found = self.drag.extend(drag, velocity, k);
+        for (force, drag) in self.force.iter_mut().zip(found) {
+            force[k] += drag;
+        }
+        self.turning[k] = -(drag.turning * self.theta_rate[k]);
     }
 
     /// sin θ and cos θ to order k from θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
@@ -225,7 +273,7 @@ impl<T: Real> Series<T> {
             });
         }
         let tension = solve(taut, |i, j| self.coupling(i, j)[0], &right);
-        let mut accel = [self.force[0][k], self.force[1][k], T::ZERO];
+        let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
         for i in taut.iter() {
             let line = &mut self.lines[i];
             line.tension[k] = tension[i];
@@ -243,11 +291,16 @@ impl<T: Real> Series<T> {
         &self.coupling[i.min(j) * self.cables + i.max(j)]
     }
 
-    /// b_i = n·f + |Ṗ|²/r − θ̇² n·ρ to order k.
+    /// b_i = n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ to order k, with the f and θ̈ of forces and drag.
     fn load(&self, system: &System<T>, cable: usize, k: usize) -> T {
         let line = &self.lines[cable];
         let push = convolve(&line.normal[0], &self.force[0], k)
             + convolve(&line.normal[1], &self.force[1], k);
+        let push = if system.drag.is_some() {
+            push + convolve(&line.arm, &self.turning, k)
+        } else {
+            push
+        };
         let [u, v] = &line.velocity;
         let speed = convolve(u, u, k) + convolve(v, v, k);
         let centripetal = convolve(&self.spin, &line.reach, k);
@@ -332,10 +385,10 @@ impl<T: Real> Series<T> {
 
     /// The gap of a slack cable a time `s` after the start.
     pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
-        let gap = &self.lines[cable].gap;
+        let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER - 1);
         Contact {
-            gap: gap.jet(s, ORDER - 1)[0],
-            error: self.contacts[cable].error + gap.noise(s, ORDER - 1),
+            gap: value,
+            error: self.contacts[cable].error + noise,
             resting: false,
         }
     }
@@ -359,10 +412,10 @@ impl<T: Real> Series<T> {
     }
 
     fn jet(&self, watch: Watch, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
-        let [value, rate, accel] = polynomial.jet(s, order);
+        let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
         Jet {
             third: polynomial.derivative_bound(3, self.step, order),
-            noise: polynomial.noise(s, order),
+            noise,
             ..Jet::new(watch, value, rate, accel)
         }
     }
@@ -394,22 +447,11 @@ impl<T: Real> Series<T> {
 
 impl<T: Real> Watched<T> for Series<T> {
     fn watch(&self, s: T, jets: &mut Jets<T>) {
-        for cable in 0..self.cables {
-            jets.push(if self.taut.contains(cable) {
-                let tension = self.lines[cable].tension.negated();
-                self.jet(Watch::Tension(cable), &tension, ORDER - 2, s)
-            } else {
-                self.gap_jet(cable, s)
+        for (watch, polynomial, order) in &self.watched {
+            jets.push(match *watch {
+                Watch::Gap(cable) => self.gap_jet(cable, s),
+                other => self.jet(other, polynomial, *order, s),
             });
-        }
-        if let Some(limit) = self.rotation_limit {
-            for mut theta in [self.theta, self.theta.negated()] {
-                theta[0] -= limit;
-                jets.push(self.jet(Watch::Rotation, &theta, ORDER, s));
-            }
-        }
-        for top in &self.tops[..self.tops_count] {
-            jets.push(self.jet(Watch::Top, top, ORDER - 1, s));
         }
     }
 }

@@ -1,10 +1,12 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
+use crate::bounce::UNMOVED;
 use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Jets, Reached, first_crossing};
-use crate::extremes::{Extremes, rises_above_zero};
+use crate::extremes::Extremes;
 use crate::flight::Flight;
 use crate::impact::{Shock, impact};
+use crate::mooring::{Moment, Mooring};
 use crate::real::{Real, length};
 use crate::series::Series;
 use crate::start::{self, StartError};
@@ -12,12 +14,10 @@ use crate::taut::{normal_acceleration, project_position, project_velocity, taut_
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
 
-/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
-/// an impulse neither loads nor unloads.
-const UNMOVED: f64 = 64.0;
-
-/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
-const LOOKS: usize = 64;
+#[path = "simulate_bounce.rs"]
+mod by_bounces;
+#[path = "simulate_within.rs"]
+mod within;
 
 /// So many instants of impact in a row on the same cables count as a converging series.
 const CONVERGING: u32 = 5;
@@ -37,8 +37,13 @@ pub struct Simulation<T: Real = f64> {
     before: State<T>,
     taut: TautSet,
     contacts: Contacts<T>,
+    /// The system as [`crate::bounce`] takes it; none where it has not two cables and one harmonic.
+    mooring: Option<Mooring<T>>,
+    /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
+    departure: Option<Moment<T>>,
     flight: Flight<T>,
-    series: Series<T>,
+    /// In a place of its own: it is large, and a simulation that is handed on moves.
+    series: Box<Series<T>>,
     jets: Jets<T>,
     extremes: Extremes<T>,
     impacts: u64,
@@ -51,10 +56,17 @@ pub struct Simulation<T: Real = f64> {
 
 /// The latest instants of impact, as far as the limit of a converging series asks.
 #[derive(Clone, Copy, Debug)]
-struct LastImpacts<T> {
-    cables: TautSet,
-    v_n: T,
-    repeats: u32,
+pub(crate) struct LastImpacts<T> {
+    pub(crate) cables: TautSet,
+    pub(crate) v_n: T,
+    pub(crate) repeats: u32,
+}
+
+/// The impacts so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Progress<T> {
+    pub(crate) impacts: u64,
+    pub(crate) last: LastImpacts<T>,
 }
 
 /// What one step did: a stretch of motion with one taut set, and the event at its end.
@@ -128,9 +140,11 @@ impl<T: Real> Simulation<T> {
         let start = start::prepare(&system, &rules, t, &state)?;
         Ok(Self {
             flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
-            series: Series::new(&system, rules.rotation_limit),
+            series: Box::new(Series::new(&system, rules.rotation_limit)),
             jets: Jets::new(),
             extremes: Extremes::at(&start.state),
+            mooring: Mooring::of(&system, &rules, v_stick),
+            departure: None,
             system,
             rules,
             v_stick,
@@ -203,11 +217,16 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let (t_start, start, taut) = (self.t, self.state, self.taut);
-        let crossing = self.next_crossing();
-        self.advance(&crossing);
-        self.before = self.state;
-        let event = self.event(crossing.reached);
-        let shock = self.apply_law(&event);
+        let (event, shock) = match self.next_bounce() {
+            Some(bounce) => self.take(&bounce),
+            None => {
+                let crossing = self.next_crossing();
+                self.advance(&crossing);
+                self.before = self.state;
+                let event = self.event(crossing.reached);
+                (event, self.apply_law(&event))
+            }
+        };
         self.check_progress(t_start);
         Some(Step {
             t_start,
@@ -223,85 +242,6 @@ impl<T: Real> Simulation<T> {
         })
     }
 
-    /// The state a time `s` into the stretch that the latest step made.
-    pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
-        if step.taut.is_empty() {
-            self.flight.state(s)
-        } else {
-            self.series.state(s)
-        }
-    }
-
-    /// The gap of a cable at the time reached.
-    pub(crate) fn gap(&self, cable: usize) -> T {
-        self.contacts[cable].gap
-    }
-
-    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
-    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
-    /// grows from nothing.
-    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
-        let s = step.t_end - step.t_start;
-        if s <= T::ZERO {
-            return false;
-        }
-        let (bend, first) = if step.taut.is_empty() {
-            (
-                self.flight.gap_bend(cable, s),
-                self.flight.gap_at_start(cable),
-            )
-        } else {
-            (
-                self.series.gap_bend(cable),
-                self.series.gap_and_rate(cable, T::ZERO).0,
-            )
-        };
-        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
-            return false;
-        }
-        let (offset, slope) = if first < T::ZERO {
-            (margin, T::ZERO)
-        } else {
-            (T::ZERO, margin / s)
-        };
-        let nearness = |s: T| {
-            let (gap, rate) = if step.taut.is_empty() {
-                self.flight.gap_and_rate(cable, s)
-            } else {
-                self.series.gap_and_rate(cable, s)
-            };
-            (gap + offset + slope * s, rate + slope)
-        };
-        rises_above_zero(&nearness, s, bend)
-    }
-
-    /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
-    pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
-        let s = step.t_end - step.t_start;
-        let [y_bend, theta_bend] = if step.taut.is_empty() {
-            [self.flight.steepest(), T::ZERO]
-        } else {
-            self.series.steepest()
-        };
-        let reach = self.system.body.reach();
-        let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
-        if rough < floor {
-            return rough;
-        }
-        let width = s / LOOKS as f64;
-        let spin = step.start.vtheta.abs() + theta_bend * s;
-        let bend = y_bend + (spin * spin + theta_bend) * reach;
-        (0..=LOOKS)
-            .map(|k| self.system.top(&self.within(step, width * k as f64)))
-            .fold(step.start.y, T::max)
-            + bend * width * width * 0.125
-    }
-
-    /// How far the latest expansion of taut motion may be used.
-    pub(crate) fn expansion(&self) -> T {
-        self.series.step()
-    }
-
     fn event(&self, reached: Reached) -> Event {
         Event {
             reached,
@@ -313,7 +253,7 @@ impl<T: Real> Simulation<T> {
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
     fn next_crossing(&mut self) -> Crossing<T> {
         let mut horizon = self.rules.t_end - self.t;
-        let crossing = if self.taut.is_empty() {
+        let crossing = if self.system.flies_freely(self.taut) {
             self.flight.begin(
                 &self.system,
                 self.t,
@@ -332,7 +272,7 @@ impl<T: Real> Simulation<T> {
                 self.rules.upper_bound,
             );
             horizon = horizon.min(self.series.step());
-            first_crossing(&self.series, self.t, horizon, &mut self.jets)
+            first_crossing(&*self.series, self.t, horizon, &mut self.jets)
         };
         crossing.unwrap_or(Crossing {
             s: horizon,
@@ -344,10 +284,11 @@ impl<T: Real> Simulation<T> {
     /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
     fn advance(&mut self, crossing: &Crossing<T>) {
         let s = crossing.s;
-        let free = self.taut.is_empty();
+        let free = self.system.flies_freely(self.taut);
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
         if free {
-            let bends = [self.flight.most_upward(), self.flight.steepest(), T::ZERO];
+            let forcing = &self.system.forcing;
+            let bends = [forcing.most_upward(), forcing.steepest(), T::ZERO];
             self.extremes.cover(|s| self.flight.state(s), s, bends);
         } else {
             let [y, theta] = self.series.steepest();

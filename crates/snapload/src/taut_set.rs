@@ -22,6 +22,16 @@ impl TautSet {
         Self(bit(cable))
     }
 
+    /// The set as a number, one bit a cable.
+    pub(crate) fn bits(self) -> u16 {
+        self.0
+    }
+
+    /// The set that is this number.
+    pub(crate) fn from_bits(bits: u16) -> Self {
+        Self(bits)
+    }
+
     /// Whether the cable is in the set.
     pub fn contains(self, cable: usize) -> bool {
         self.0 & bit(cable) != 0

@@ -117,7 +117,7 @@ pub struct Trajectory {
 }
 
 /// ρ2 sums up to this time, included (chapter eq. 6.3).
-const RHO2_UNTIL: f64 = 10.0;
+pub(crate) const RHO2_UNTIL: f64 = 10.0;
 
 impl Trajectory {
     /// Runs a simulation to its end and keeps all of it.

@@ -42,6 +42,7 @@ impl Table {
                     sine: [0.0, self.gamma],
                 }],
             },
+            drag: None,
             restitution: self.e,
         }
     }
@@ -304,6 +305,10 @@ fn by_hand(table: &Table, step: &Step) -> Square {
     [delay, [a * delay[0] - table.e, a * delay[1] - table.e]]
 }
 
+/// A flight so short belongs to bounces that accumulate: chaotic motion, too, comes sooner or later to a phase of
+/// the table at which the ball is caught, and is free no more (Luck & Mehta). It is followed until then.
+const CHATTER: f64 = 1e-6;
+
 /// The exponents of the one vertical degree of freedom sum to 2 ln e/⟨time between impacts⟩, whatever the motion:
 /// a bounce contracts phase area by e², and flight not at all (Müller 1995). Each by itself is known where
 /// the motion ends in the orbit of one bounce: from the multipliers above.
@@ -332,15 +337,19 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
         let mut simulation = table.begin([t, vy * 1.02]);
         let tangent = Tangent::new(&table.system());
         let mut frame = Frame::new();
-        let (bounces, mut worst) = (2000, 0.0_f64);
-        for _ in 0..bounces {
+        let (mut bounces, mut elapsed, mut worst) = (0_u32, 0.0, 0.0_f64);
+        while bounces < 2000 {
             let step = simulation.step().expect("it goes on");
-            assert!(step.taut_after.is_empty() && step.t_end > step.t_start);
+            if step.t_end - step.t_start < CHATTER {
+                break;
+            }
+            assert!(step.taut_after.is_empty());
             let map = tangent.of_step(&simulation, &step);
             frame.follow(&map);
             worst = worst.max(worst_entry(&table, &step, &map));
+            (bounces, elapsed) = (bounces + 1, step.t_end - t);
         }
-        let elapsed = simulation.time() - t;
+        assert!(bounces > 300, "{bounces}");
         // Height and its velocity move by themselves, so the frame's two directions of them stay theirs.
         let vertical = [frame.logs()[1] / elapsed, frame.logs()[4] / elapsed];
         let sum = vertical[0] + vertical[1];

@@ -49,6 +49,25 @@ fn proven(found: &Verification) -> usize {
     found.proven.unwrap_or(found.differences.len() + 1)
 }
 
+/// The prediction is the width of a distribution, the difference that is proven one draw from it. While errors
+/// grow from impact to impact, this does not move the horizon; where bounces accumulate they stand still for a
+/// hundred impacts, at times near the tolerance. So the prediction is held to where the difference passes a
+/// third of the tolerance, and to where it passes three times it.
+fn assert_as_proven(id: &str, found: &Verification) {
+    let passes = |size: f64| {
+        let wrong = found.differences.iter().position(|d| *d > size);
+        wrong.map_or(found.differences.len() + 1, |k| k + 1)
+    };
+    let (early, late) = (passes(TOLERANCE / 3.0), passes(TOLERANCE * 3.0));
+    let predicted = predicted(found);
+    assert_alike(
+        id,
+        "proven",
+        predicted,
+        predicted.clamp(early.min(proven(found)), late),
+    );
+}
+
 fn assert_alike(id: &str, what: &str, ours: usize, theirs: usize) {
     let ratio = ours as f64 / theirs as f64;
     assert!(
@@ -64,7 +83,7 @@ fn horizons_are_where_they_were_predicted() {
         let settled = ("stop_when_settled", Value::Bool(true));
         let case = case(named.entries().into_iter().chain([sliding, settled]));
         let found = verify(&case, 60, TOLERANCE, |_| {}).expect("a legal start");
-        assert_alike(named.code, "proven", predicted(&found), proven(&found));
+        assert_as_proven(named.code, &found);
     });
 }
 
@@ -81,7 +100,7 @@ fn horizons_are_where_the_oracle_has_them() {
             proven(&found)
         );
         assert_alike(id, "the oracle's", predicted(&found), theirs);
-        assert_alike(id, "proven", predicted(&found), proven(&found));
+        assert_as_proven(id, &found);
         errors_are_of_the_size_predicted(id, &found);
     });
 }

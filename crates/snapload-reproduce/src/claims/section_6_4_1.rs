@@ -12,8 +12,8 @@ use super::runs::{
 use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::{Study, first_exceeding};
 use rayon::prelude::*;
-use snapload::analysis::{CriticalForce, ForceScan, Outcome};
-use snapload::{CaseError, Parameters, Playback, State, Stop, Trajectory};
+use snapload::analysis::{CriticalForce, ForceScan};
+use snapload::{CaseError, Outcome, Parameters, Playback, State, Stop, Trajectory};
 
 /// e = 1, 0.9, 0.7, 0.5.
 const RESTITUTIONS: [&str; 4] = [

@@ -8,8 +8,8 @@ use super::runs::{MANY, chapter, ensemble, of_all, table_codes};
 use super::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::{CriticalRow, Study};
 use rayon::prelude::*;
-use snapload::analysis::{ForceScan, Outcome};
-use snapload::{Case, CaseError, Parameters, Stop};
+use snapload::analysis::ForceScan;
+use snapload::{Case, CaseError, Outcome, Parameters, Stop};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {

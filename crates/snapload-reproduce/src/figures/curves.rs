@@ -3,7 +3,7 @@
 use super::{Figure, Row, Source, finish};
 use crate::ReportError;
 use crate::study::{Both, CriticalCurve, NormCurve, Reading, Study};
-use snapload::analysis::Outcome;
+use snapload::Outcome;
 use snapload_figures::{Axis, Colour, Dash, Layer, Plot, Point, Range, Shape, Stroke};
 
 const CHAPTER: Stroke = Stroke {

@@ -1,6 +1,7 @@
 //! Neighbours of a case: what comes of it where one run can not tell.
 
-use crate::analysis::{Doubt, Outcome, START_KEYS};
+use crate::Outcome;
+use crate::analysis::{Doubt, START_KEYS};
 use crate::parameters::natural_inertia;
 use crate::{Case, CaseError, Parameters, Stop, Value};
 use rand_chacha::ChaCha8Rng;

@@ -8,8 +8,7 @@ use crate::claims::runs::{
 use crate::claims::verdict::{Claim, Finding, Verdict, claim};
 use crate::study::Study;
 use rayon::prelude::*;
-use snapload::analysis::Outcome;
-use snapload::{Case, CaseError, Parameters, State, Stop, Trajectory};
+use snapload::{Case, CaseError, Outcome, Parameters, State, Stop, Trajectory};
 
 /// Checks the claims of these sections.
 pub(super) fn claims(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {

@@ -5,8 +5,8 @@ use crate::claims::runs::{chapter, ensemble, of_all};
 use crate::claims::verdict::Verdict;
 use crate::study::{CriticalRow, Study, first_exceeding};
 use rayon::prelude::*;
-use snapload::analysis::{ForceScan, Outcome};
-use snapload::{CaseError, Parameters, Stop, natural_inertia};
+use snapload::analysis::ForceScan;
+use snapload::{CaseError, Outcome, Parameters, Stop, natural_inertia};
 
 /// Neighbours of an entry.
 pub(super) const NEIGHBOURS: usize = 4;

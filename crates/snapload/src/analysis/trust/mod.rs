@@ -6,10 +6,12 @@
 //! tolerance, or where neighbours within three standard deviations may have another event than the run:
 //! there the linearisation ends, and with it the knowledge of what follows.
 
+mod certainty;
 mod losses;
 mod spread;
 mod witness;
 
+pub use certainty::Certainty;
 pub use witness::Witness;
 
 use crate::{Case, CaseError, Key, Trajectory, Value, key_named};

@@ -180,6 +180,11 @@ impl Witness {
         }
     }
 
+    /// Where trust has ended, if it has.
+    pub fn horizon(&self) -> Option<Horizon> {
+        self.horizon
+    }
+
     /// What there is to say, at the end of the run or wherever it has come to.
     pub fn verdict(self) -> Trust {
         let end_error = if self.is_lost() {

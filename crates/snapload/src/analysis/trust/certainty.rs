@@ -1,0 +1,49 @@
+//! How far a run can be trusted if its values are exact, and nothing more.
+
+use super::{Doubt, Horizon, Witness};
+use crate::Case;
+
+/// What rounding leaves of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certainty {
+    /// Where trust ends; none if nowhere.
+    pub horizon: Option<Horizon>,
+}
+
+impl Certainty {
+    /// Of a case; the run is followed as far as its horizon.
+    pub fn of(case: &Case) -> Self {
+        let mut simulation = case.simulation();
+        let mut witness = Witness::new(&simulation, &[0.0; 6], Doubt::default().tolerance);
+        while witness.horizon().is_none()
+            && let Some(step) = simulation.step()
+        {
+            witness.follow(&simulation, &step);
+        }
+        Self {
+            horizon: witness.horizon(),
+        }
+    }
+
+    /// Whether the way in which the run ends is certain.
+    pub fn decides_the_end(&self) -> bool {
+        self.horizon.is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::trusted_run;
+    use crate::{CaseError, named_case};
+
+    #[test]
+    fn certainty_is_that_of_the_trusted_run() -> Result<(), CaseError> {
+        for code in ["sliding-example", "rocking-example", "1910001000-359"] {
+            let case = Case::new(named_case(code)?.parameters)?;
+            let (_, trust) = trusted_run(&case, &Doubt::default())?;
+            assert_eq!(Certainty::of(&case).horizon, trust.horizon);
+        }
+        Ok(())
+    }
+}

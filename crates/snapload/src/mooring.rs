@@ -1,0 +1,248 @@
+//! A body on two cables under one sinusoid, and a moment of its motion, as numbers that a lane can hold.
+
+use crate::lane::{Lane, Turn, length};
+use crate::real::Real;
+use crate::{Cable, Harmonic, State, StopRules, System};
+
+/// A limit that is never reached.
+pub(crate) const NEVER: f64 = 1e300;
+
+/// What does not change along a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mooring<L> {
+    pub(crate) cables: [Cable<L>; 2],
+    /// Length of the fairleads.
+    pub(crate) reach: [L; 2],
+    pub(crate) inverse_inertia: L,
+    pub(crate) restitution: L,
+    pub(crate) constant: [L; 2],
+    pub(crate) wave: Harmonic<L>,
+    /// Bounds on the force and its derivatives.
+    pub(crate) force: [L; 3],
+    /// Bounds on ÿ and on |ÿ|.
+    pub(crate) upward: L,
+    pub(crate) steepest: L,
+    pub(crate) rotation_limit: L,
+    /// The upper bound, less what the outline reaches above the centre at most.
+    pub(crate) level: L,
+    pub(crate) t_end: L,
+    pub(crate) v_stick: L,
+}
+
+/// A motion just after an impact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment<L> {
+    pub(crate) t: L,
+    pub(crate) state: State<L>,
+    /// The rotation by θ.
+    pub(crate) turn: Turn<L>,
+    /// ẋ, ẏ, θ̇ before the impact.
+    pub(crate) before: [L; 3],
+    /// What is known of the gaps: value and error.
+    pub(crate) gaps: [[L; 2]; 2],
+    pub(crate) y_max: L,
+    pub(crate) theta_max: L,
+}
+
+/// How many numbers a [`Moment`] is.
+pub(crate) const MOMENT: usize = 20;
+
+impl<L: Copy> Moment<L> {
+    /// All its numbers, to take one lane from or put one in.
+    pub(crate) fn numbers(&self) -> [L; MOMENT] {
+        let [x, y, theta, vx, vy, vtheta] = self.state.components();
+        let [ux, uy, utheta] = self.before;
+        let [[gap, error], [other_gap, other_error]] = self.gaps;
+        let (t, y_max, theta_max) = (self.t, self.y_max, self.theta_max);
+        let Turn {
+            sine,
+            cosine,
+            chord,
+            lag,
+        } = self.turn;
+        [
+            t,
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+            ux,
+            uy,
+            utheta,
+            gap,
+            error,
+            other_gap,
+            other_error,
+            y_max,
+            theta_max,
+            sine,
+            cosine,
+            chord,
+            lag,
+        ]
+    }
+
+    /// From its numbers, in the same order.
+    pub(crate) fn from_numbers(
+        [
+            t,
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+            ux,
+            uy,
+            utheta,
+            gap,
+            error,
+            other_gap,
+            other_error,
+            y_max,
+            theta_max,
+            sine,
+            cosine,
+            chord,
+            lag,
+        ]: [L; MOMENT],
+    ) -> Self {
+        Self {
+            t,
+            state: State::from_components([x, y, theta, vx, vy, vtheta]),
+            turn: Turn {
+                sine,
+                cosine,
+                chord,
+                lag,
+            },
+            before: [ux, uy, utheta],
+            gaps: [[gap, error], [other_gap, other_error]],
+            y_max,
+            theta_max,
+        }
+    }
+}
+
+impl<L: Lane> Moment<L> {
+    /// One of two, lane by lane.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        let (mut numbers, others) = (no.numbers(), yes.numbers());
+        for k in 0..MOMENT {
+            numbers[k] = L::select(mask, others[k], numbers[k]);
+        }
+        Self::from_numbers(numbers)
+    }
+}
+
+/// How many numbers a [`Mooring`] is.
+pub(crate) const MOORING: usize = 34;
+
+impl<L: Copy> Mooring<L> {
+    /// All its numbers, to put one lane in.
+    pub(crate) fn numbers(&self) -> [L; MOORING] {
+        let [a, b, c, d, e, f, g] = self.cables[0].numbers();
+        let [h, i, j, k, l, m, n] = self.cables[1].numbers();
+        let Harmonic {
+            omega,
+            cosine: [cx, cy],
+            sine: [dx, dy],
+        } = self.wave;
+        let [force, rate, bend] = self.force;
+        [
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            h,
+            i,
+            j,
+            k,
+            l,
+            m,
+            n,
+            self.reach[0],
+            self.reach[1],
+            self.inverse_inertia,
+            self.restitution,
+            self.constant[0],
+            self.constant[1],
+            omega,
+            cx,
+            cy,
+            dx,
+            dy,
+            force,
+            rate,
+            bend,
+            self.upward,
+            self.steepest,
+            self.rotation_limit,
+            self.level,
+            self.t_end,
+            self.v_stick,
+        ]
+    }
+
+    /// From its numbers, in the same order.
+    pub(crate) fn from_numbers(n: [L; MOORING]) -> Self {
+        Self {
+            cables: [
+                Cable::from_numbers([n[0], n[1], n[2], n[3], n[4], n[5], n[6]]),
+                Cable::from_numbers([n[7], n[8], n[9], n[10], n[11], n[12], n[13]]),
+            ],
+            reach: [n[14], n[15]],
+            inverse_inertia: n[16],
+            restitution: n[17],
+            constant: [n[18], n[19]],
+            wave: Harmonic {
+                omega: n[20],
+                cosine: [n[21], n[22]],
+                sine: [n[23], n[24]],
+            },
+            force: [n[25], n[26], n[27]],
+            upward: n[28],
+            steepest: n[29],
+            rotation_limit: n[30],
+            level: n[31],
+            t_end: n[32],
+            v_stick: n[33],
+        }
+    }
+}
+
+impl<T: Real> Mooring<T> {
+    /// Of a system with two cables and one harmonic, without drag; others are left to the general loop.
+    pub(crate) fn of(system: &System<T>, rules: &StopRules<T>, v_stick: T) -> Option<Self> {
+        let ([first, second], [wave], None) = (
+            &system.cables[..],
+            &system.forcing.harmonics[..],
+            &system.drag,
+        ) else {
+            return None;
+        };
+        let never = T::from_f64(NEVER);
+        let upward = system.forcing.most_upward();
+        Some(Self {
+            cables: [*first, *second],
+            reach: [length(first.fairlead()), length(second.fairlead())],
+            inverse_inertia: system.body.inverse_inertia(),
+            restitution: system.restitution,
+            constant: system.forcing.constant,
+            wave: *wave,
+            force: system.forcing.bounds(),
+            upward,
+            steepest: system.forcing.steepest(),
+            rotation_limit: rules.rotation_limit.unwrap_or(never),
+            level: rules.upper_bound.unwrap_or(never) - system.body.reach(),
+            t_end: rules.t_end,
+            v_stick,
+        })
+    }
+}

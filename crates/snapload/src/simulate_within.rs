@@ -1,0 +1,137 @@
+//! What the latest step of a motion was like within.
+
+use super::{Simulation, Step};
+use crate::State;
+use crate::contact::Contact;
+use crate::extremes::rises_above_zero;
+use crate::flight::Flight;
+use crate::real::{Real, length};
+use std::borrow::Cow;
+
+/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
+const LOOKS: usize = 64;
+
+impl<T: Real> Simulation<T> {
+    /// The state a time `s` into the stretch that the latest step made.
+    pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
+        if self.system.flies_freely(step.taut) {
+            self.flown().state(s)
+        } else {
+            self.series.state(s)
+        }
+    }
+
+    /// The flight of the latest step.
+    fn flown(&self) -> Cow<'_, Flight<T>> {
+        let Some(from) = &self.departure else {
+            return Cow::Borrowed(&self.flight);
+        };
+        let mut flight = self.flight.clone();
+        let [vx, vy, vtheta] = from.before;
+        let before = State {
+            vx,
+            vy,
+            vtheta,
+            ..from.state
+        };
+        let mut contacts = self.contacts;
+        for (contact, [gap, error]) in contacts.iter_mut().zip(from.gaps) {
+            *contact = Contact {
+                gap,
+                error,
+                resting: false,
+            };
+        }
+        flight.begin(&self.system, from.t, &from.state, &before, &contacts);
+        Cow::Owned(flight)
+    }
+
+    /// The gap of a cable at the time reached.
+    pub(crate) fn gap(&self, cable: usize) -> T {
+        self.contacts[cable].gap
+    }
+
+    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
+    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
+    /// grows from nothing.
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
+        let s = step.t_end - step.t_start;
+        if s <= T::ZERO {
+            return false;
+        }
+        let free = self.system.flies_freely(step.taut);
+        let (bend, first) = match &self.departure {
+            _ if !free => (
+                self.series.gap_bend(cable),
+                self.series.gap_and_rate(cable, T::ZERO).0,
+            ),
+            Some(from) => (self.gap_bend(step, cable), from.gaps[cable][0]),
+            None => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+        };
+        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
+            return false;
+        }
+        let (offset, slope) = if first < T::ZERO {
+            (margin, T::ZERO)
+        } else {
+            (T::ZERO, margin / s)
+        };
+        let flight = self.flown();
+        let nearness = |s: T| {
+            let (gap, rate) = if free {
+                flight.gap_and_rate(cable, s)
+            } else {
+                self.series.gap_and_rate(cable, s)
+            };
+            (gap + offset + slope * s, rate + slope)
+        };
+        rises_above_zero(&nearness, s, bend)
+    }
+
+    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
+        let tether = &self.system.cables[cable];
+        let (start, reach) = (&step.start, length(tether.fairlead()));
+        let spin = start.vtheta.abs();
+        let accel = self.system.forcing.bounds()[0] + spin * spin * reach;
+        let s = step.t_end - step.t_start;
+        let speed = length([start.vx, start.vy]) + spin * reach + accel * s;
+        (speed * speed + tether.length() * accel) * 2.0
+    }
+
+    /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
+    pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
+        let s = step.t_end - step.t_start;
+        let free = self.system.flies_freely(step.taut);
+        let [y_bend, theta_bend] = if free {
+            [self.system.forcing.steepest(), T::ZERO]
+        } else {
+            self.series.steepest()
+        };
+        let reach = self.system.body.reach();
+        let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
+        if rough < floor {
+            return rough;
+        }
+        let width = s / LOOKS as f64;
+        let spin = step.start.vtheta.abs() + theta_bend * s;
+        let bend = y_bend + (spin * spin + theta_bend) * reach;
+        let flight = self.flown();
+        let state = |s: T| {
+            if free {
+                flight.state(s)
+            } else {
+                self.series.state(s)
+            }
+        };
+        (0..=LOOKS)
+            .map(|k| self.system.top(&state(width * k as f64)))
+            .fold(step.start.y, T::max)
+            + bend * width * width * 0.125
+    }
+
+    /// How far the latest expansion of taut motion may be used.
+    pub(crate) fn expansion(&self) -> T {
+        self.series.step()
+    }
+}

@@ -1,0 +1,200 @@
+//! The same case gives the same bits, whatever it is computed beside and by how many.
+
+use snapload::analysis::outcomes;
+use snapload::{Case, Lanes, Outcome, Parameters, Simulation, Value, named_case};
+
+/// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state after).
+fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    while let Some(step) = simulation.step() {
+        for impact in step.impacts() {
+            let state = impact.after.components();
+            for number in [impact.t, impact.v_n].into_iter().chain(state) {
+                for byte in number.to_bits().to_le_bytes() {
+                    hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+                }
+            }
+        }
+    }
+    (simulation.time().to_bits(), hash)
+}
+
+/// Time of the end and fingerprint of named cases: what every machine must compute.
+///
+/// They may change only where arithmetic is changed on purpose, which the change log then says: in a chaotic
+/// motion another last bit is another picture. The test prints what it found; put that here.
+const HELD: [(&str, u64, u64); 5] = [
+    (
+        "1910001000-359",
+        0x401c_fc58_0d77_877f,
+        0x07c2_1ea6_7f82_ce0f,
+    ),
+    (
+        "2911001000-359",
+        0x4034_fbb8_5408_9e34,
+        0xf8b8_71fc_0959_4531,
+    ),
+    (
+        "1510001000-359",
+        0x3fec_c832_c994_2c99,
+        0xc29b_1210_e4ad_3a0e,
+    ),
+    (
+        "1922001000-359",
+        0x4027_da3a_10f1_bdcd,
+        0xc00c_2da2_fa03_b6d9,
+    ),
+    (
+        "1930001000-359",
+        0x4037_edd4_c01e_ece7,
+        0xad26_b835_748e_fb0c,
+    ),
+];
+
+#[test]
+fn named_cases_have_the_bits_they_had() {
+    let found = HELD.map(|(code, ..)| {
+        let named = named_case(code).expect("a named case");
+        let case = Parameters::from_entries(named.entries()).and_then(Case::new);
+        let (t, hash) = fingerprint(case.expect("a legal case").simulation());
+        (code, t, hash)
+    });
+    let listed: String = found
+        .iter()
+        .map(|(code, t, hash)| format!("    (\"{code}\", {t:#018x}, {hash:#018x}),\n"))
+        .collect();
+    assert_eq!(found, HELD, "found\n{listed}");
+}
+
+/// Several hundred cases of all kinds: shapes, restitutions, forces, stops, point masses, starts at speed.
+fn varied() -> Vec<Case> {
+    let cases = (0..600_u32).filter_map(|k| {
+        let x = f64::from(k);
+        let wild = |factor: f64| (x * factor).sin();
+        let standard = Parameters::STANDARD;
+        let mut p = Parameters {
+            f_o: 0.5 * wild(1.3).abs(),
+            nu: wild(0.7),
+            omega: [0.9, 0.0, 2.0, 14.0, 1.1][k as usize % 5],
+            e: [0.9, 0.5, 0.97, 0.0, 0.8, 1.0][k as usize % 6],
+            a: 0.3 * wild(2.1).abs(),
+            b: [0.0, 0.1, 0.2][k as usize % 3],
+            r: 1.5 + 0.5 * wild(0.9).abs(),
+            inertia: Some(0.01 + 0.05 * wild(0.5).abs()),
+            x: 0.1 * wild(3.1),
+            y: 0.2 + 0.1 * wild(1.9),
+            theta: 0.3 * wild(2.7),
+            vx: 0.5 * wild(0.4),
+            vtheta: 2.0 * wild(4.4),
+            t_end: [0.7, 5.0, 12.0, 40.0][k as usize % 4],
+            stop_when_settled: k % 7 != 0,
+            stop_when_sliding: k % 11 == 0,
+            max_impacts: if k % 13 == 0 { 40 } else { 5000 },
+            ..standard
+        };
+        if k % 9 == 0 {
+            let entries = [
+                ("body", Value::Text("point".into())),
+                ("f_o", Value::Number(p.f_o)),
+            ];
+            p = Parameters::from_entries(entries).ok()?;
+        }
+        if k % 4 == 0 {
+            p = Parameters {
+                f_o: 0.001 * x,
+                ..standard
+            };
+        }
+        Case::new(p).ok()
+    });
+    cases.collect()
+}
+
+/// Bit by bit, −0 and 0 included.
+fn bits(outcome: &Outcome) -> Vec<u64> {
+    let (end, norms) = (&outcome.end, &outcome.norms);
+    let limit = end.t_limit.map_or(0, f64::to_bits);
+    let numbers = [
+        norms.rho1,
+        norms.rho2,
+        norms.rho3,
+        norms.y_max,
+        norms.theta_max,
+        end.t,
+        outcome.sliding,
+        outcome.rocking,
+    ];
+    let first = outcome.first.map_or([0.0; 2], |first| [first.t, first.v_n]);
+    let numbers = numbers
+        .into_iter()
+        .chain(first)
+        .chain(end.state.components());
+    numbers
+        .map(f64::to_bits)
+        .chain(outcome.impacts)
+        .chain([limit, end.reason as u64])
+        .collect()
+}
+
+#[test]
+fn every_width_of_lanes_has_the_bits_of_one_run_by_itself() {
+    let cases = varied();
+    assert!(cases.len() > 400, "{}", cases.len());
+    let alone: Vec<Outcome> = cases.iter().map(Outcome::of).collect();
+    for lanes in Lanes::available() {
+        let (beside, usage) = lanes.outcomes(&cases);
+        assert_eq!(beside.len(), alone.len());
+        for (k, (beside, alone)) in beside.iter().zip(&alone).enumerate() {
+            assert_eq!(bits(beside), bits(alone), "{lanes:?}, case {k}");
+        }
+        assert!(usage.bounces > 20_000, "{lanes:?}: {usage:?}");
+    }
+    assert_eq!(outcomes(&cases), alone);
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let cases: Vec<Case> = (0..3).flat_map(|_| varied()).collect();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().expect("threads");
+        pool.install(|| outcomes(&cases))
+    };
+    let one: Vec<_> = on(1).iter().map(bits).collect();
+    for threads in [2, 5] {
+        assert_eq!(on(threads).iter().map(bits).collect::<Vec<_>>(), one);
+    }
+}
+
+/// Lanes that run dry early or late: fewer cases than lanes, and none.
+#[test]
+fn few_cases_fill_no_lanes() {
+    let cases = varied();
+    for count in [0, 1, 3, 9] {
+        for lanes in Lanes::available() {
+            let (outcomes, _) = lanes.outcomes(&cases[..count]);
+            let alone: Vec<Outcome> = cases[..count].iter().map(Outcome::of).collect();
+            assert_eq!(outcomes, alone);
+        }
+    }
+}
+
+/// A lane whose run has stopped takes the next one at once: of the places for bounces hardly any stay empty.
+#[test]
+fn lanes_are_kept_full() {
+    let cases: Vec<Case> = (0..1000)
+        .map(|k| {
+            let f_o = 0.01 + 0.3 * f64::from(k) / 999.0;
+            Case::new(Parameters {
+                f_o,
+                ..Parameters::STANDARD
+            })
+        })
+        .collect::<Result<_, _>>()
+        .expect("legal");
+    for lanes in Lanes::available() {
+        let usage = lanes.outcomes(&cases).1;
+        let used = usage.bounces as f64 / (usage.rounds * usage.width as u64) as f64;
+        assert!(used > 0.9, "{lanes:?}: {used}");
+    }
+}
