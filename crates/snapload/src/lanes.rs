@@ -216,7 +216,9 @@ impl<'a, L: Vector> Fleet<'a, L> {
                 self.leave(lane, &mut rider);
                 rider.step();
                 self.usage.steps_apart += 1;
-                self.settle(lane, rider);
+                if !self.boards(lane, rider) {
+                    self.refill(lane);
+                }
             }
             if self.riders[lane].is_none() {
                 empty |= 1 << lane;
@@ -225,32 +227,34 @@ impl<'a, L: Vector> Fleet<'a, L> {
         empty
     }
 
-    /// Gives a lane to the next run.
+    /// Gives a lane to the next run that flies freely at some time; those before it stop without.
     fn refill(&mut self, lane: usize) {
-        if let Some(simulation) = self.runs.next() {
+        while let Some(simulation) = self.runs.next() {
             let rider = Box::new(Rider {
                 index: self.boarded,
                 outcome: Outcome::begun(&simulation),
                 simulation,
             });
             self.boarded += 1;
-            self.settle(lane, rider);
+            if self.boards(lane, rider) {
+                return;
+            }
         }
     }
 
-    /// Puts a run into a lane once it flies freely; if it stops before, the next one.
-    fn settle(&mut self, lane: usize, mut rider: Box<Rider>) {
+    /// Puts a run into a lane once it flies freely. If it stops before, says so and leaves the lane free.
+    fn boards(&mut self, lane: usize, mut rider: Box<Rider>) -> bool {
         loop {
             if rider.simulation.stop().is_some() {
                 (self.tell)(rider.index, rider.outcome.ended(&rider.simulation));
-                return self.refill(lane);
+                return false;
             }
             // The first impact is kept as such, so it is not made in a lane.
             let begun = rider.outcome.first.is_some();
             if let (true, Some((mooring, moment))) = (begun, rider.simulation.aboard()) {
                 self.enter(lane, &rider, &mooring, &moment);
                 self.riders[lane] = Some(rider);
-                return;
+                return true;
             }
             rider.step();
             self.usage.steps_apart += 1;

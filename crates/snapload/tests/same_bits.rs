@@ -198,3 +198,15 @@ fn lanes_are_kept_full() {
         assert!(used > 0.9, "{lanes:?}: {used}");
     }
 }
+
+/// Runs that stop before they ever fly take no lane, however many there are of them.
+#[test]
+fn runs_that_stop_at_once_are_no_burden() {
+    let case = Case::new(Parameters {
+        t_end: 1e-6,
+        ..Parameters::STANDARD
+    });
+    let cases = vec![case.expect("legal"); 50_000];
+    let (outcomes, usage) = Lanes::best().outcomes(&cases);
+    assert_eq!((outcomes.len(), usage.bounces), (50_000, 0));
+}
