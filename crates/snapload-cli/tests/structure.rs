@@ -1,4 +1,5 @@
 //! `snapload assess` and `snapload seas` as their users meet them.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod common;
 
