@@ -26,6 +26,9 @@ Examples:
 
 A case file has the tables [body], [[line]], [site], [wave] or [sea], and [run]; all in kg, m, N and s.";
 
+/// Columns of the words beside a label.
+const WIDTH: usize = 98;
+
 /// Which structure, and where the answer goes.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -42,7 +45,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
     /// Neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
-    #[arg(long, value_name = "NUMBER", default_value_t = 100, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 40, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     neighbours: u32,
     /// Leave the scan over wave heights and periods out of the page
     #[arg(long)]
@@ -156,9 +159,7 @@ fn summary(name: &str, assessment: &Assessment, written: &[PathBuf]) -> String {
     let prepared = &assessment.prepared;
     let (structure, rest) = (&prepared.structure, &prepared.rest);
     let mut text = String::new();
-    let mut row = |label: &str, words: String| {
-        let _ = writeln!(text, "  {label:<12}{words}");
-    };
+    let mut row = |label: &str, words: String| text += &told(label, &words);
     let waves = match structure.water {
         Water::Still => "still water".to_owned(),
         Water::Wave(wave) => format!("waves of {} m and {} s", wave.height_m, wave.period_s),
@@ -243,6 +244,27 @@ fn summary(name: &str, assessment: &Assessment, written: &[PathBuf]) -> String {
         structure.lines.len(),
         structure.site.depth_m
     )
+}
+
+/// A label and its words, broken to a width that reads well.
+pub(crate) fn told(label: &str, words: &str) -> String {
+    let mut text = format!("  {label:<10}");
+    let mut column = 0;
+    for word in words.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width > WIDTH {
+            text.push_str("\n            ");
+            column = 0;
+        }
+        if column > 0 {
+            text.push(' ');
+            column += 1;
+        }
+        text.push_str(word);
+        column += width;
+    }
+    text.push('\n');
+    text
 }
 
 /// The keys, a table of the case file each.

@@ -1,5 +1,5 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
-use crate::assess::StructureArgs;
+use crate::assess::{StructureArgs, told};
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory};
 use crate::progress::Counter;
@@ -8,7 +8,6 @@ use serde_json::{Value, json};
 use snapload_structure::{
     Estimate, Gumbel, SeaOutcome, Seas, Water, end_words, note, quantile, seas,
 };
-use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     };
     let counter = Counter::new("records", u64::from(args.seeds), 0);
-    let result = seas(structure, args.seeds, || counter.one())
+    let result = seas(structure, args.seeds, || counter.more(1))
         .map_err(|e| Failure::BadInput(format!("{name}: {e}")))?;
     drop(counter);
     if let Some((room, path, as_csv)) = out {
@@ -150,9 +149,7 @@ fn report(name: &str, seas: &Seas) -> Value {
 fn summary(name: &str, seas: &Seas, written: &[PathBuf]) -> String {
     let structure = &seas.prepared.structure;
     let mut text = String::new();
-    let mut row = |label: &str, words: String| {
-        let _ = writeln!(text, "  {label:<12}{words}");
-    };
+    let mut row = |label: &str, words: String| text += &told(label, &words);
     for line in 0..structure.lines.len() {
         row(
             &format!("line {}", line + 1),

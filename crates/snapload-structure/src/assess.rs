@@ -126,11 +126,17 @@ impl Prepared {
     /// [`StartError`], which [`Prepared::new`] has excluded.
     pub fn begin(&self, height: f64) -> Result<Simulation, StartError> {
         let mut system = self.model.system.clone();
-        for harmonic in &mut system.forcing.harmonics {
+        let water = system.drag.iter_mut().flat_map(|drag| &mut drag.water);
+        for harmonic in system.forcing.harmonics.iter_mut().chain(water) {
             harmonic.cosine = harmonic.cosine.map(|force| force * height);
             harmonic.sine = harmonic.sine.map(|force| force * height);
         }
         Simulation::new(system, self.model.rules, V_STICK, 0.0, self.start)
+    }
+
+    /// The state in which it begins, in the engine's units.
+    pub fn start(&self) -> State {
+        self.start
     }
 
     fn explain(&self, error: StartError) -> CaseError {

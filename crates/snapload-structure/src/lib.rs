@@ -9,6 +9,7 @@
 
 mod assess;
 mod catalogue;
+mod elastic;
 mod entries;
 mod equilibrium;
 mod gumbel;
@@ -25,6 +26,7 @@ mod wave;
 
 pub use assess::{Assessment, LineOutcome, NEIGHBOUR, Outcome, Prepared, assess, quantile};
 pub use catalogue::{Section, section};
+pub use elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_elastic, springs};
 pub use entries::{Entries, InputError, Value, is_structure};
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use gumbel::{Estimate, Gumbel};

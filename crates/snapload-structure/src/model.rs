@@ -7,7 +7,7 @@ use crate::equilibrium::Equilibrium;
 use crate::sea::components;
 use crate::structure::{LineSi, Outline, Structure, Water};
 use crate::wave::LinearWave;
-use snapload::{Body, Cable, Forcing, Harmonic, Shape, State, StopRules, System};
+use snapload::{Body, Cable, Drag, Forcing, Harmonic, Shape, State, StopRules, System};
 use std::f64::consts::FRAC_PI_2;
 
 /// A body that is turned by less than this at rest is upright: its gaps are then off by rounding only \[rad\].
@@ -188,6 +188,7 @@ impl Model {
                 constant: [0.0, -1.0],
                 harmonics,
             },
+            drag: drag(structure, &scales, &waves, inertia),
             restitution: structure.restitution,
         };
         let floor = (origin_m[1] + structure.site.depth_m) / l;
@@ -271,6 +272,42 @@ fn force(structure: &Structure, scales: &Scales, wave: &PhasedWave) -> Harmonic 
         cosine: [x * cosine, y * sine],
         sine: [-x * sine, y * cosine],
     }
+}
+
+/// Drag and damping of the body in the engine's units, per unit mass and inertia; none where all are zero.
+///
+/// With u̇ and ẇ as in [`force`] the water moves at u = (a_x/ω) sin(ωt + ε), w = (a_z/ω) cos(ωt + ε), and z points up.
+fn drag(
+    structure: &Structure,
+    scales: &Scales,
+    waves: &[PhasedWave],
+    inertia: f64,
+) -> Option<Drag> {
+    let body = &structure.body;
+    let (l, m, t) = (scales.length_m, scales.mass_kg, scales.time_s);
+    let quadratic = 0.5 * structure.site.water_density_kg_m3 * body.drag_area_m2;
+    let drag = Drag {
+        linear: body.linear_damping_n_s_m * t / m,
+        quadratic: quadratic * l / m,
+        turning: body.turning_damping_n_m_s * t / (m * l * l) / inertia,
+        water: Vec::new(),
+    };
+    let velocity = |wave: &PhasedWave| {
+        let per = 1.0 / (wave.wave.omega_rad_s * scales.speed_m_s());
+        let x = structure.heading * per * wave.wave.a_x_m_s2;
+        let y = -per * wave.wave.a_z_m_s2;
+        let (sine, cosine) = wave.phase_rad.sin_cos();
+        Harmonic {
+            omega: wave.wave.omega_rad_s * t,
+            cosine: [x * sine, y * cosine],
+            sine: [x * cosine, -y * sine],
+        }
+    };
+    let resists = drag.linear + drag.quadratic + drag.turning > 0.0;
+    resists.then(|| Drag {
+        water: waves.iter().map(velocity).collect(),
+        ..drag
+    })
 }
 
 fn cable(structure: &Structure, scales: &Scales, line: &LineSi, taut: bool) -> Cable {

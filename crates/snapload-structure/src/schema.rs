@@ -102,6 +102,10 @@ pub static TABLES: &[Table] = &[
         key("moment_of_inertia", "kg m^2", Kind::Positive(1e18),
             Need::Derived("of a uniform body: mass width^2/8 (circle), mass (width^2 + height^2)/12 (rectangle)"),
             "about the centre, the part of the added mass included; a hollow cylinder has nearly mass width^2/4"),
+        key("drag_area", "m^2", Kind::Number(0.0, 1e6), Need::Number(0.0),
+            "C_d A of the quadratic drag, water_density C_d A |u| u / 2 with the velocity u of the water past the centre"),
+        key("linear_damping", "N s/m", Kind::Number(0.0, HEAVIEST), Need::Number(0.0), "force on the body per velocity of the water past it"),
+        key("turning_damping", "N m s", Kind::Number(0.0, 1e18), Need::Number(0.0), "moment on the body per angular velocity"),
         key("position", "m", PLACE, Need::Required, "[x, z] of its centre to which the fairleads are drawn; z is up from the still water"),
     ]},
     Table { name: "line", many: true, meaning: "a mooring line; write [[line]] once for each, 1 to 16 of them", keys: &[

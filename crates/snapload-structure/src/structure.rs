@@ -31,6 +31,12 @@ pub struct BodySi {
     pub displaced_volume_m3: f64,
     /// Moment of inertia about the centre \[kg m²\].
     pub moment_of_inertia_kg_m2: f64,
+    /// C_d A of the quadratic drag \[m²\].
+    pub drag_area_m2: f64,
+    /// Force per velocity of the water past the body \[N s/m\].
+    pub linear_damping_n_s_m: f64,
+    /// Moment per angular velocity \[N m s\].
+    pub turning_damping_n_m_s: f64,
     /// Centre `[x, z]` to which the fairleads are drawn \[m\].
     pub position_m: [f64; 2],
 }
@@ -276,6 +282,9 @@ fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
         height_m: height,
         displaced_volume_m3: volume,
         moment_of_inertia_kg_m2: fields.maybe_number("moment_of_inertia")?.unwrap_or(inertia),
+        drag_area_m2: fields.number("drag_area")?,
+        linear_damping_n_s_m: fields.number("linear_damping")?,
+        turning_damping_n_m_s: fields.number("turning_damping")?,
         position_m: fields.pair("position")?,
     })
 }
