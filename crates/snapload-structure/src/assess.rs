@@ -2,7 +2,7 @@
 
 use crate::equilibrium::{Equilibrium, equilibrium};
 use crate::model::Model;
-use crate::plausible::{Warning, warnings};
+use crate::plausible::{Warning, phase_warning, warnings};
 use crate::snap::{Snap, SnapLaw};
 use crate::structure::{IrregularSea, Structure, Water};
 use rand_chacha::ChaCha8Rng;
@@ -309,7 +309,7 @@ pub fn assess(
             outcome
         })
         .collect();
-    Ok(Assessment {
+    let mut assessment = Assessment {
         warnings,
         run,
         trust: witness.verdict(),
@@ -317,7 +317,12 @@ pub fn assess(
         outcome,
         neighbours,
         prepared,
-    })
+    };
+    let ([x, z], [sides, _]) = (assessment.prepared.rest.place_m, assessment.reach_m());
+    let excursion = (sides[1] - x).max(x - sides[0]);
+    let doubt = phase_warning(&assessment.prepared.structure, z, excursion);
+    assessment.warnings.extend(doubt);
+    Ok(assessment)
 }
 
 /// Evenly in [−1, 1), for each neighbour its own.

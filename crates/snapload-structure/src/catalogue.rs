@@ -30,7 +30,7 @@ pub struct Section {
     pub breaking_load_n: f64,
 }
 
-/// The section of a line of a type of [`TYPES`] and a diameter, a chain of a grade; `None` for another name.
+/// The section of a line of a type, such as `studless chain`, and a diameter, a chain of a grade; `None` for another name.
 pub fn section(kind: &str, diameter_m: f64, grade: Option<&str>) -> Option<Section> {
     let d2 = diameter_m * diameter_m;
     let of = |mass: f64, stiffness: f64, strength: f64| {

@@ -454,12 +454,17 @@ fn line_of(text: &str, at: usize) -> usize {
 
 /// Whether a text looks like the case of a structure, so that it has a table of one.
 pub fn is_structure(text: &str) -> bool {
+    use toml::de::DeValue;
+    let known = |name: &str| {
+        TABLES
+            .iter()
+            .any(|table| table.name == name && table.name != "run")
+    };
     toml::de::DeTable::parse(text).is_ok_and(|document| {
-        let known = |name: &str| {
-            TABLES
-                .iter()
-                .any(|table| table.name == name && table.name != "run")
-        };
-        document.get_ref().keys().any(|key| known(key.get_ref()))
+        document.get_ref().iter().any(|(key, value)| {
+            // `body = "point"` is a key of the other sort of case.
+            let is_table = matches!(value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
+            is_table && known(key.get_ref())
+        })
     })
 }

@@ -189,6 +189,13 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
         if residual.amax() < 1e-15 {
             break;
         }
+        if !matrix
+            .iter()
+            .chain(residual.iter())
+            .all(|entry: &f64| entry.is_finite())
+        {
+            return None;
+        }
         // A body that may turn freely makes the matrix singular; the shortest step does not turn it.
         let step = matrix.svd(true, true).solve(&-residual, 1e-10).ok()?;
         let shorter = (0.5 / step.rows(0, 3).norm()).min(1.0);

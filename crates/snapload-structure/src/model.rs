@@ -13,6 +13,9 @@ use std::f64::consts::FRAC_PI_2;
 /// A body that is turned by less than this at rest is upright: its gaps are then off by rounding only \[rad\].
 const UPRIGHT: f64 = 1e-12;
 
+/// Anchors that stand closer together than this part of the longest line do not make a scale.
+const LEAST_SPREAD: f64 = 0.02;
+
 /// The units of the engine in SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scales {
@@ -39,7 +42,7 @@ impl Scales {
             .lines
             .iter()
             .fold(0.0_f64, |longest, line| longest.max(line.length_m));
-        let length_m = if high > low {
+        let length_m = if high - low > LEAST_SPREAD * longest {
             (high - low) / 2.0
         } else {
             longest
@@ -170,7 +173,7 @@ impl Model {
             wave: match (structure.water, waves.first()) {
                 (Water::Wave(_), Some(PhasedWave { wave, .. })) => Some([
                     force_per_acceleration(structure) * wave.a_x_m_s2 / scales.force_n,
-                    wave.a_z_m_s2 / wave.a_x_m_s2,
+                    (wave.wave_number_1_m * (origin_m[1] + structure.site.depth_m)).tanh(),
                     wave.omega_rad_s * scales.time_s,
                 ]),
                 _ => None,

@@ -12,6 +12,9 @@ const ROUNDED: f64 = 0.02;
 /// Rayleigh-distributed waves (M. S. Longuet-Higgins, *J. Mar. Res.* 11 (1952) 245).
 const HIGHEST: f64 = 1.86;
 
+/// A phase of the wave that is off by this much is no longer small \[rad\].
+const MOST_PHASE: f64 = 0.3;
+
 /// A doubt about a case that can be computed all the same.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warning {
@@ -167,6 +170,16 @@ pub fn warnings(structure: &Structure, z_m: f64) -> Vec<Warning> {
     contact_time(structure, wave.omega_rad_s, &mut warn);
     lines_mass(structure, &mut warn);
     found
+}
+
+/// The doubt about a body that moves so far that the wave's phase where it is differs from that where it rests.
+pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -> Option<Warning> {
+    let (_, wave) = governing_wave(structure, z_m)?;
+    let phase = wave.wave_number_1_m * excursion_m;
+    (phase > MOST_PHASE).then(|| Warning {
+        rule: "phase",
+        message: format!("the body moves {excursion_m:.2} m to the side, where the wave's phase differs by {:.0} degrees from that of the place of rest, at which its force is taken", phase.to_degrees()),
+    })
 }
 
 /// The wave by which a structure is judged: the regular one, or the highest of a sea at its peak period.

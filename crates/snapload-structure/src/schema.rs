@@ -144,7 +144,7 @@ pub static TABLES: &[Table] = &[
         key("restitution", "1", Kind::Number(0.0, 1.0), Need::Required,
             "part of the closing speed that a snap gives back: 0 a line that absorbs all, 1 one that absorbs nothing"),
         key("duration", "s", Kind::Positive(1e6), Need::Derived("100 wave periods; three hours of a sea"), "time that is computed"),
-        key("transient", "s", Kind::Number(0.0, 1e6), Need::Derived("10 wave periods; 10 peak periods of a sea; none in still water"),
+        key("transient", "s", Kind::Number(0.0, 1e6), Need::Derived("10 wave periods, or peak periods of a sea, at most half the duration; 0 in still water"),
             "snaps before this are shown but not judged, as the waves begin at once on a body at rest"),
         key("start", "m", PLACE, Need::Derived("where the body rests in still water"), "[x, z] of the centre at the start, at rest"),
         key("max_snaps", "1", Kind::Count(1, 10_000_000), Need::Count(1_000_000), "the run ends at more snaps than this"),

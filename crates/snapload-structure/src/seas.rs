@@ -87,11 +87,19 @@ impl Seas {
         self.in_three_hours(&self.speeds_m_s())
     }
 
-    /// A fit to records without snaps would be one to zeros.
+    /// Records in which the body turned over or touched the floor.
+    fn exceeding(&self) -> usize {
+        self.records
+            .iter()
+            .filter(|record| record.outcome.stop.exceeds())
+            .count()
+    }
+
+    /// A fit to records without snaps would be one to zeros, and one to records that ended early is of less time.
     fn in_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
         let snapping = largest.iter().filter(|value| **value > 0.0).count();
         let judged = self.prepared.structure.duration_s - self.prepared.structure.transient_s;
-        if judged <= 0.0 || snapping < largest.len() {
+        if judged <= 0.0 || snapping < largest.len() || self.exceeding() > 0 {
             return None;
         }
         Gumbel::fit(largest).map(|fit| fit.over_times(THREE_HOURS_S / judged))
@@ -175,6 +183,11 @@ impl Seas {
                     mean.value / 1e3, mean.error / 1e3, high.value / 1e3, high.error / 1e3
                 )
             }
+            None if self.exceeding() > 0 => format!(
+                "In {} of {} records the body turns over or touches the floor; a distribution of the largest tension is therefore not given.",
+                self.exceeding(),
+                self.records.len()
+            ),
             None if self.speeds_m_s().iter().all(|speed| *speed == 0.0) => {
                 "No line snaps in any of the records.".to_owned()
             }

@@ -195,6 +195,13 @@ impl Structure {
             Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
             Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
         };
+        let duration_s = run.maybe_number("duration")?.unwrap_or(duration);
+        let given = run.maybe_number("transient")?;
+        if let Some(transient) = given.filter(|transient| *transient >= duration_s) {
+            let allowed = format!("less than the {duration_s} s that are computed");
+            return Err(CaseError::value("run.transient", transient, allowed)
+                .with_hint("make run.duration longer, or transient shorter"));
+        }
         let structure = Self {
             body,
             lines,
@@ -202,8 +209,8 @@ impl Structure {
             water,
             heading,
             restitution: run.number("restitution")?,
-            duration_s: run.maybe_number("duration")?.unwrap_or(duration),
-            transient_s: run.maybe_number("transient")?.unwrap_or(transient),
+            duration_s,
+            transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
             start_m: run.maybe_pair("start")?,
             max_snaps: run.count("max_snaps")?,
         };

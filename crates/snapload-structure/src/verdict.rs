@@ -87,7 +87,23 @@ impl Assessment {
         };
         Verdict {
             standing,
-            words: format!("{begins} {says}{}", self.transient_words()),
+            words: format!(
+                "{begins} {says}{}{}",
+                self.transient_words(),
+                self.cut_words()
+            ),
+        }
+    }
+
+    /// That a run was cut short, where it was.
+    fn cut_words(&self) -> String {
+        match self.outcome.stop {
+            Stop::EndTime => String::new(),
+            stop => format!(
+                " The run {} at {:.0} s and tells nothing of what follows.",
+                end_words(stop),
+                self.outcome.end_s
+            ),
         }
     }
 

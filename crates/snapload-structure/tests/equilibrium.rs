@@ -107,7 +107,10 @@ proptest! {
             ([x, -30.0], fairlead, reach + more)
         }).collect();
         let structure = Structure::parse("random", &case([0.0, -14.0], &lines)).unwrap();
-        let Ok(rest) = equilibrium(&structure) else { return Ok(()) };
+        // Moorings that hold no body are not few, but the test is one of many that do.
+        let rest = equilibrium(&structure);
+        prop_assume!(rest.is_ok());
+        let rest = rest.unwrap();
         let place = |[x, z]: [f64; 2], theta: f64, fairlead: [f64; 2]| {
             let (s, c) = theta.sin_cos();
             let arm = [fairlead[0], fairlead[1] + 14.0];

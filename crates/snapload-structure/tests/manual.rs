@@ -1,6 +1,7 @@
 //! The manual's tables are the schema's.
 
-use snapload_structure::{Entries, Need, Structure, TABLES};
+use proptest::prelude::*;
+use snapload_structure::{Entries, Need, Prepared, Structure, TABLES};
 
 /// The keys as the manual prints them.
 fn table() -> String {
@@ -138,5 +139,37 @@ fn set_changes_one_line_or_all() {
     ] {
         let error = entries.set(bad).expect_err(bad).to_string();
         assert!(error.contains(says), "{error}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    /// Whatever stands in a file is read or refused in words, and what is read has a place of rest or is refused.
+    #[test]
+    fn anything_is_read_or_refused(text in any::<String>(), broken in "(\\[?\\[[a-z]{1,5}\\]?\\]|[a-z]{1,6} = [-0-9.e\\[\\]\"]{0,5}|\n){0,12}") {
+        for text in [text, broken] {
+            if let Err(error) = Structure::parse("case", &text) {
+                prop_assert!(!error.to_string().is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn extreme_numbers_are_computed_or_refused(
+        key in prop::sample::select(vec![
+            "body.mass", "body.displaced_volume", "body.width", "body.added_mass", "body.moment_of_inertia",
+            "line.1.length", "line.length", "site.depth", "wave.height", "wave.period", "line.1.spring_rate",
+        ]),
+        value in prop_oneof![Just(1e-300), Just(1e-9), Just(0.3), Just(20.0), Just(1e4), Just(1e5), Just(1e12), 0.1..1e6],
+    ) {
+        let mut entries = Entries::parse("case", include_str!("../../../docs/examples/cylinder.toml")).unwrap();
+        if entries.set(&format!("{key}={value:e}")).is_ok()
+            && let Ok(structure) = Structure::from_entries(&entries)
+            && let Ok(prepared) = Prepared::new(structure)
+        {
+            prop_assert!(prepared.rest.place_m.iter().all(|x| x.is_finite()));
+            prop_assert!(prepared.rest.tension_n.iter().all(|tension| tension.is_finite() && *tension >= 0.0));
+        }
     }
 }

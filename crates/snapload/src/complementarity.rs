@@ -271,8 +271,8 @@ mod tests {
             let set: TautSet = (0..n).collect();
             let w = |i: usize, j: usize| -> f64 { (0..3).map(|k| rows[i][k] * rows[j][k]).sum() };
             let mut q = [0.0; MAX_CABLES];
-            for i in 0..n {
-                q[i] = (0..n).map(|j| w(i, j) * pulls[j]).sum();
+            for (i, load) in q.iter_mut().enumerate().take(n) {
+                *load = (0..n).map(|j| w(i, j) * pulls[j]).sum();
             }
             let matrix = nalgebra::DMatrix::from_fn(n, n, w);
             let eigen = matrix.clone().symmetric_eigen();
@@ -284,13 +284,13 @@ mod tests {
             let (z, _) = complementary(set, w, &q);
             let ours = least_norm(set, w, &q, z);
             let norm = |z: &[f64]| z.iter().map(|z| z * z).sum::<f64>().sqrt();
-            for i in 0..n {
+            for i in set.iter() {
                 let acts: f64 = (0..n).map(|j| w(i, j) * ours[j]).sum();
                 prop_assert!(ours[i] >= 0.0 && (acts - q[i]).abs() < 1e-8, "{acts} {}", q[i]);
             }
             prop_assert!(norm(&ours) <= norm(&pulls[..n]) * (1.0 + 1e-8));
             if pseudo.iter().all(|z| *z >= 0.0) {
-                for i in 0..n {
+                for i in set.iter() {
                     prop_assert!((ours[i] - pseudo[i]).abs() < 1e-7, "{ours:?} {pseudo:?}");
                 }
             }

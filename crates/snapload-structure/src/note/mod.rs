@@ -139,7 +139,7 @@ fn warnings(assessment: &Assessment) -> Markup {
             h2 { "Warnings" }
             @if assessment.warnings.is_empty() {
                 p { "None: the case is within the range of every rule that was looked at (submergence, free surface, floor, breaking \
-                     waves, linear theory, drag, diffraction, instant snaps, light lines)." }
+                     waves, linear theory, drag, diffraction, instant snaps, phase, light lines)." }
             } @else {
                 ul.warnings { @for warning in &assessment.warnings { li { b { (warning.rule) } ": " (warning.message) "." } } }
             }
