@@ -19,10 +19,17 @@ use differential_equations::prelude::{
     ControlFlag, ExplicitRungeKutta, IVP, Interpolation, ODE, Solout, Solution,
 };
 use snapload::{CaseError, State, System, TautSet};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 /// Tolerance of a step, relative and absolute, in the engine's units.
 const TOLERANCE: f64 = 1e-11;
+/// Steps are no longer than this part of 1/ω, ω = sqrt(k w) of the stiffest line that pulls: the dense output, on which
+/// lines let go, is of order 7 and would else be less exact than the steps.
+const STEP: f64 = 0.25;
+/// So many such steps are made between two looks at whether to stop.
+const TOGETHER: f64 = 4000.0;
+/// The longest time in one go while no line pulls.
+const AT_A_TIME: f64 = 1.0;
 /// Places in a step at which forces are looked at.
 const LOOKS: u32 = 16;
 /// A force below zero by less than this, where a line has just taken hold or let go, is rounding.
@@ -206,6 +213,15 @@ impl Elastic<'_> {
         (0..self.springs.len()).filter(pulls).collect()
     }
 
+    fn longest_step(&self, state: &State, pulling: TautSet) -> f64 {
+        let inverse_inertia = self.system.body.inverse_inertia();
+        let quickest = pulling.iter().fold(1.0, |quickest: f64, line| {
+            let inverse_mass = 1.0 + self.grip(line, state).arm.powi(2) * inverse_inertia;
+            quickest.max((self.springs[line].rate * inverse_mass).sqrt())
+        });
+        STEP / quickest
+    }
+
     fn acceleration(&self, t: f64, state: &State, pulling: TautSet) -> [f64; 3] {
         let inverse_inertia = self.system.body.inverse_inertia();
         let free = self.system.free_acceleration(t, state);
@@ -247,8 +263,17 @@ struct Watch<'a, 'b> {
 struct Found {
     /// Lines that have just taken hold or let go, and whose force is zero but for rounding.
     fresh: TautSet,
-    /// Where a line took hold or let go: time since the begin, state, line.
-    change: Option<(f64, State, usize)>,
+    change: Option<Change>,
+}
+
+/// Where a line took hold or let go, found on the dense output of a step.
+#[derive(Clone, Copy)]
+struct Change {
+    line: usize,
+    /// Time since the stretch began.
+    s: f64,
+    /// The step's own begin, from which the state there is integrated: the dense output is less exact.
+    from: (f64, [f64; 6]),
 }
 
 impl Watch<'_, '_> {
@@ -268,7 +293,7 @@ impl Watch<'_, '_> {
         None
     }
 
-    fn locate<I>(&self, line: usize, mut low: f64, mut high: f64, dense: &mut I) -> (f64, State)
+    fn locate<I>(&self, line: usize, mut low: f64, mut high: f64, dense: &mut I) -> f64
     where
         I: Interpolation<f64, [f64; 6]> + ?Sized,
     {
@@ -289,7 +314,7 @@ impl Watch<'_, '_> {
                 break;
             }
         }
-        (high, at(high).unwrap_or_default())
+        high
     }
 }
 
@@ -299,7 +324,7 @@ impl Solout<f64, [f64; 6]> for Watch<'_, '_> {
         now: f64,
         before: f64,
         _: &[f64; 6],
-        _: &[f64; 6],
+        start: &[f64; 6],
         dense: &mut I,
         _: &mut Solution<f64, [f64; 6]>,
     ) -> ControlFlag<f64, [f64; 6]>
@@ -317,9 +342,11 @@ impl Solout<f64, [f64; 6]> for Watch<'_, '_> {
             };
             let state = State::from_components(y);
             if let Some(line) = self.changed(&state) {
-                let (s, state) = self.locate(line, last, s, dense);
-                (self.see)(self.stretch.begin + s, &state);
-                self.found.change = Some((s, state, line));
+                self.found.change = Some(Change {
+                    line,
+                    s: self.locate(line, last, s, dense),
+                    from: (before, *start),
+                });
                 return ControlFlag::Terminate;
             }
             (self.see)(self.stretch.begin + s, &state);
@@ -357,7 +384,8 @@ pub fn run_elastic(
     record.see(t, &state, pulling);
     let end = model.rules.t_end;
     while t < end && state.theta.abs() < FRAC_PI_2 && !stop() {
-        let until = end.min(t + PI);
+        let step = elastic.longest_step(&state, pulling);
+        let until = end.min(t + AT_A_TIME.min(TOGETHER * step));
         let stretch = Stretch {
             elastic: &elastic,
             begin: t,
@@ -373,37 +401,48 @@ pub fn run_elastic(
             see: &mut see,
             found: &mut found,
         };
+        let method = || {
+            let method = ExplicitRungeKutta::dop853();
+            method.rtol(TOLERANCE).atol(TOLERANCE).h_max(step)
+        };
         let solved = IVP::ode(&stretch, 0.0, until - t, state.components())
             .solout(watch)
-            .method(ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE))
+            .method(method())
             .solve();
-        match (found.change, solved) {
-            (Some((s, at, line)), _) => {
-                let before = pulling;
-                pulling = if pulling.contains(line) {
-                    pulling.without(line)
-                } else {
-                    pulling.with(line)
-                };
-                (t, state, fresh) = (t + s, at, found.fresh.with(line));
-                record.change(t, &state, before, pulling);
-            }
-            (None, Ok(solution)) => {
-                let Some(y) = solution.y.last() else { break };
-                (t, state, fresh) = (until, State::from_components(*y), found.fresh);
-            }
-            (None, Err(error)) => {
-                let shown = format!("({error:?})");
-                return Err(CaseError::value(
-                    "line.stiffness",
-                    shown,
-                    "lines that the integrator can follow",
-                )
-                .with_hint("lower the stiffness, or the duration"));
-            }
-        }
+        let solved = match found.change {
+            Some(Change {
+                s, from: (s0, y0), ..
+            }) if s > s0 => IVP::ode(&stretch, s0, s, y0).method(method()).solve(),
+            _ => solved,
+        };
+        let reached = match solved {
+            Ok(solution) => solution.y.last().map(|y| State::from_components(*y)),
+            Err(error) => return Err(gave_up(&error)),
+        };
+        let Some(reached) = reached else { break };
+        (state, fresh) = (reached, found.fresh);
+        let Some(Change { line, s, .. }) = found.change else {
+            t = until;
+            continue;
+        };
+        let before = pulling;
+        pulling = if pulling.contains(line) {
+            pulling.without(line)
+        } else {
+            pulling.with(line)
+        };
+        (t, fresh) = (t + s, fresh.with(line));
+        record.see(t, &state, before);
+        record.change(t, &state, before, pulling);
     }
     Ok(record.finish(t, state))
+}
+
+fn gave_up(error: &impl std::fmt::Debug) -> CaseError {
+    let shown: String = format!("({error:?})").chars().take(80).collect();
+    let allowed = "lines that the integrator can follow";
+    CaseError::value("line.stiffness", shown, allowed)
+        .with_hint("lower the stiffness, or the duration")
 }
 
 /// What is kept of a motion.

@@ -103,9 +103,15 @@ fn damping_ratios_of_known_restitutions() {
 /// not stretch, and the more so the shorter the contact, which lasts as 1/sqrt(k).
 #[test]
 fn stiff_lines_are_lines_that_do_not_stretch() {
-    let prepared = prepared(
+    let mut prepared = prepared(
         CYLINDER,
-        &["run.duration=9", "run.start=[0.2,-3.9]", "wave.height=1.5"],
+        // Dampers have their e at one effective mass; without them e is 1 at all.
+        &[
+            "run.restitution=1",
+            "run.duration=9",
+            "run.start=[0.2,-3.9]",
+            "wave.height=1.5",
+        ],
     );
     let mut simulation = prepared.begin(1.0).expect("a start");
     let time = prepared.model.scales.time_s;
@@ -116,6 +122,7 @@ fn stiff_lines_are_lines_that_do_not_stretch() {
     {
         snaps.extend(step.impacts().map(|i| (i.cable, i.t * time, i.v_n * speed)));
     }
+    prepared.model.rules.t_end = (snaps[2].1 + 1e-3) / time;
     let mut last = f64::INFINITY;
     for stiffer in [1e2, 1e4, 1e6] {
         let motion = run(&prepared, &springs(&prepared, stiffer).expect("springs"));
@@ -158,11 +165,13 @@ fn energy_is_kept_or_lost() {
         let mut now = first;
         for look in &motion.looks {
             let next = energy(&look.state);
-            // A damped line lets go while it is still a little stretched, and what it holds then is not given back.
-            assert!(next <= now + 1e-9, "{} at {}", next - now, look.t_s);
+            // Looks lie on the dense output, which is less exact than the steps.
+            assert!(next <= now + 1e-7, "{} at {}", next - now, look.t_s);
             now = next;
         }
+        let end = energy(&motion.end);
+        assert!(end <= first + 1e-9, "{}", end - first);
         assert!(motion.pulls.len() > 6, "{}", motion.pulls.len());
-        assert_eq!(first - now > 1e-6, lost, "{}", first - now);
+        assert_eq!(first - end > 1e-6, lost, "{}", first - end);
     }
 }
