@@ -185,6 +185,11 @@ pub(crate) fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseErr
 fn read_file(path: &Path, aside: &[&str]) -> Result<(Vec<Entry>, toml::Table), Failure> {
     let text = read_text(path)?;
     let shown = path.display();
+    if snapload_structure::is_structure(&text) {
+        return Err(Failure::BadInput(format!(
+            "{shown}: this is the case of a structure in metres and kilograms\nhint: write snapload assess {shown}"
+        )));
+    }
     // Once for the values, once for the lines on which they stand.
     let mut table: toml::Table = text
         .parse()
@@ -244,7 +249,8 @@ fn line_of(text: &str, at: usize) -> usize {
     text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
 }
 
-fn read_text(path: &Path) -> Result<String, Failure> {
+/// The text of a case file.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     let shown = path.display();
     let bad = |what: &str| Failure::BadInput(format!("{shown}: {what}"));
     let mut bytes = Vec::new();

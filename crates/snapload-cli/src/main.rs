@@ -1,4 +1,6 @@
 //! The command line of snapload: reads a case, runs it, and writes down what happened.
+mod assess;
+mod assess_json;
 mod case_input;
 mod cases;
 mod completions;
@@ -13,6 +15,7 @@ mod pictures;
 mod progress;
 mod reproduce;
 mod run;
+mod seas;
 mod stage;
 mod study_input;
 mod study_picture;
@@ -41,6 +44,8 @@ Examples:
   snapload critical --over e=0.5:1:11          critical force against restitution
   snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
                                                a map of 3060 cases
+  snapload assess cylinder.toml --out note.html
+                                               a structure in metres, with waves: do its lines break?
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -58,6 +63,10 @@ enum Verb {
     Merge(merge::Args),
     /// Reproduce the chapter's tables, figures and claims as one report
     Reproduce(reproduce::Args),
+    /// Assess a structure in metres and kilograms: do its lines go slack, snap, break?
+    Assess(assess::Args),
+    /// Run a structure in many records of an irregular sea: the distribution of snaps and tensions
+    Seas(seas::Args),
     /// List the built-in cases
     Cases,
     /// Explain the keys of a case: meaning, default, what is allowed
@@ -75,6 +84,8 @@ fn main() -> ExitCode {
         Verb::Sweep(args) => sweep::run(&args),
         Verb::Merge(args) => merge::run(&args),
         Verb::Reproduce(args) => reproduce::run(&args),
+        Verb::Assess(args) => assess::run(&args),
+        Verb::Seas(args) => seas::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
         Verb::Completions(args) => completions::run(&args),

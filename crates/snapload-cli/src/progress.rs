@@ -68,9 +68,9 @@ impl Counter {
         Self(bar)
     }
 
-    /// So many more.
-    pub(crate) fn more(&self, done: u64) {
-        self.0.inc(done);
+    /// One more.
+    pub(crate) fn one(&self) {
+        self.0.inc(1);
     }
 }
 

@@ -73,7 +73,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             interrupt::be_gentle();
             let counter = Counter::new("sweep", store.asked(), store.safe());
             let watch = Watch {
-                done: &|done| counter.more(done),
+                done: &|| counter.one(),
                 stop: &interrupt::asked,
             };
             let finished = sweep(&study, store, &watch).map_err(go_on)?;

@@ -89,3 +89,20 @@ fn the_printed_output_is_the_programs() {
         );
     }
 }
+
+/// And of the structure that the manual works through.
+#[test]
+fn the_printed_assessment_is_the_programs() {
+    let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+    let output = program
+        .current_dir(root())
+        .args(["assess", "docs/examples/cylinder.toml"])
+        .output()
+        .expect("a run")
+        .stdout;
+    let output = String::from_utf8(output).expect("text");
+    assert!(
+        read("docs/structures.md").contains(&output),
+        "docs/structures.md prints something else than\n{output}"
+    );
+}

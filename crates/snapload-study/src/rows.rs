@@ -19,34 +19,31 @@ pub struct Row {
     pub certainty: Option<Certainty>,
 }
 
-/// Runs cases, on the threads that there are, and returns their rows in order. `done` is told how many are done,
-/// every few of them.
+/// Runs cases, on the threads that there are, and returns their rows in order. `done` is called for each.
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
-pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn(u64) + Sync)) -> Vec<Row> {
+pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> {
     drawn
         .par_chunks(share(drawn.len()))
-        .flat_map_iter(|drawn| {
-            let rows = side_by_side(drawn, trust);
-            done(drawn.len() as u64);
-            rows
-        })
+        .flat_map_iter(|drawn| side_by_side(drawn, trust, done))
         .collect()
 }
 
-fn side_by_side(drawn: &[Drawn], trust: bool) -> Vec<Row> {
+fn side_by_side(drawn: &[Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
     let made = |drawn: &Drawn| drawn.parameters.clone().and_then(Case::new);
     let cases: Vec<Result<Case, CaseError>> = drawn.iter().map(made).collect();
     let legal: Vec<Case> = cases.iter().flatten().cloned().collect();
     let mut outcomes = Lanes::best().outcomes(&legal).0.into_iter();
     let row = |(drawn, case): (&Drawn, Result<Case, CaseError>)| {
+        let certainty = case.as_ref().ok().filter(|_| trust).map(Certainty::of);
+        done();
         Some(Row {
             index: drawn.index,
             keys: match &drawn.parameters {
                 Ok(parameters) => parameters.entries().map(|(_, value)| value).collect(),
                 Err(_) => given(drawn),
             },
-            certainty: case.as_ref().ok().filter(|_| trust).map(Certainty::of),
+            certainty,
             outcome: match case {
                 Ok(_) => Ok(outcomes.next()?),
                 Err(error) => Err(error),

@@ -213,7 +213,7 @@ impl Store {
 }
 
 /// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`] takes. `done` is
-/// called after each case.
+/// called for each case.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the list of cases can not be read.
@@ -222,7 +222,7 @@ pub fn chunk(
     range: Range<u64>,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<u8>, StudyError> {
-    let rows = rows(study.draw(range.clone())?, study.trust(), done);
+    let rows = rows(&study.draw(range.clone())?, study.trust(), done);
     let bytes = encode(&Identity::new(study, None), range, &rows);
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }
@@ -377,12 +377,12 @@ mod tests {
 
     fn save(store: &mut Store, study: &Study, range: Range<u64>) {
         let drawn = study.draw(range.clone()).unwrap();
-        store.save(range, &rows(&drawn, false, &|_| ())).unwrap();
+        store.save(range, &rows(&drawn, false, &|| ())).unwrap();
     }
 
     fn complete(target: &Path, study: &Study) -> Vec<u8> {
         let watch = Watch {
-            done: &|_| (),
+            done: &|| (),
             stop: &|| false,
         };
         let finished = sweep(study, work(target, study), &watch).unwrap();

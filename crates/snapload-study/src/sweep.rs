@@ -14,8 +14,8 @@ const MOST: u64 = 1 << 14;
 
 /// Who looks on.
 pub struct Watch<'a> {
-    /// Told after every few cases how many they were, on any thread.
-    pub done: &'a (dyn Fn(u64) + Sync),
+    /// Called for each case, on any thread.
+    pub done: &'a (dyn Fn() + Sync),
     /// Asked between chunks whether to end here.
     pub stop: &'a dyn Fn() -> bool,
 }

@@ -1,6 +1,7 @@
 //! Forces that depend on time alone: a constant one and a sum of sinusoids.
 
 use crate::lane::{Lane, combined, length, scaled, sum};
+use crate::polynomial::{ORDER, Polynomial};
 use crate::real::Real;
 
 /// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
@@ -38,6 +39,29 @@ pub struct Forcing<T = f64> {
 }
 
 impl<T: Real> Harmonic<T> {
+    /// The same in another arithmetic.
+    pub(crate) fn map<U>(&self, number: impl Fn(T) -> U + Copy) -> Harmonic<U> {
+        Harmonic {
+            omega: number(self.omega),
+            cosine: self.cosine.map(number),
+            sine: self.sine.map(number),
+        }
+    }
+
+    /// Adds its Taylor series about time `t`: the k-th derivative turns (c, d) into Ω (d, −c).
+    pub(crate) fn expand(&self, t: T, into: &mut [Polynomial<T>; 2]) {
+        let local = self.shifted(t);
+        let (mut c, mut d) = (local.cosine, local.sine);
+        let [x, y] = into;
+        for k in 0..=ORDER {
+            let factor = self.omega / (k + 1) as f64;
+            (x[k], y[k]) = (x[k] + c[0], y[k] + c[1]);
+            let turned = [-c[0] * factor, -c[1] * factor];
+            c = [d[0] * factor, d[1] * factor];
+            d = turned;
+        }
+    }
+
     /// The elliptical forcing f_x = f_o cos Ωt, f_y = ν f_o sin Ωt (docs/model.md section 3).
     pub fn ellipse(f_o: T, nu: T, omega: T) -> Self {
         Self {
@@ -117,14 +141,9 @@ impl<L: Lane> Push<L> {
 impl<T: Real> Forcing<T> {
     /// The same forces in another arithmetic.
     pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Forcing<U> {
-        let harmonic = |harmonic: &Harmonic<T>| Harmonic {
-            omega: number(harmonic.omega),
-            cosine: harmonic.cosine.map(number),
-            sine: harmonic.sine.map(number),
-        };
         Forcing {
             constant: self.constant.map(number),
-            harmonics: self.harmonics.iter().map(harmonic).collect(),
+            harmonics: self.harmonics.iter().map(|wave| wave.map(number)).collect(),
         }
     }
 

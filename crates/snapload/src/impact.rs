@@ -1,6 +1,6 @@
 //! The law of impact: Newton-Moreau.
 
-use crate::complementarity::{PerCable, complementary};
+use crate::complementarity::{PerCable, complementary, least_norm};
 use crate::real::Real;
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
@@ -46,6 +46,8 @@ impl<T: Real> Shock<T> {
 /// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
 /// on it and goes slack when the impulse unloads it.
 ///
+/// Where more cables pull than the body has freedoms for, the impulses are those of the least norm that do the same.
+///
 /// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the law
 /// it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is, it then
 /// snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
@@ -71,7 +73,12 @@ pub(crate) fn impact<T: Real>(
         .iter()
         .filter(|&cable| v_before[cable] >= T::ZERO)
         .collect();
-    let (impulse, pulling) = complementary(held, w, &load);
+    let (fewest, _) = complementary(held, w, &load);
+    let impulse = least_norm(held, w, &load, fewest);
+    let pulling: TautSet = held
+        .iter()
+        .filter(|&cable| impulse[cable] > T::ZERO)
+        .collect();
 
     let mut after = *before;
     let mut v_after = [T::ZERO; MAX_CABLES];

@@ -218,9 +218,13 @@ impl<L: Copy> Mooring<L> {
 }
 
 impl<T: Real> Mooring<T> {
-    /// Of a system with two cables and one harmonic; others are left to the general loop.
+    /// Of a system with two cables and one harmonic, without drag; others are left to the general loop.
     pub(crate) fn of(system: &System<T>, rules: &StopRules<T>, v_stick: T) -> Option<Self> {
-        let ([first, second], [wave]) = (&system.cables[..], &system.forcing.harmonics[..]) else {
+        let ([first, second], [wave], None) = (
+            &system.cables[..],
+            &system.forcing.harmonics[..],
+            &system.drag,
+        ) else {
             return None;
         };
         let never = T::from_f64(NEVER);

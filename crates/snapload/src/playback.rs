@@ -57,7 +57,7 @@ impl<'a> Playback<'a> {
         }
         let state = if s <= 0.0 {
             segment.start
-        } else if segment.taut.is_empty() {
+        } else if self.run.system().flies_freely(segment.taut) {
             self.flight.state(s)
         } else {
             self.series.state(s)
@@ -77,7 +77,7 @@ impl<'a> Playback<'a> {
         let (system, t, start) = (self.run.system(), segment.t, &segment.start);
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
-        if segment.taut.is_empty() {
+        if system.flies_freely(segment.taut) {
             self.flight.begin(system, t, start, start, &contacts);
         } else {
             self.series

@@ -1,4 +1,4 @@
-//! Sliding, rocking, and motion with any other set of taut cables: the Taylor series of the motion.
+//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its Taylor series.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -22,6 +22,7 @@
 
 use crate::complementarity::{PerCable, solve};
 use crate::contact::{Contact, Contacts};
+use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
 use crate::real::{Real, dot};
@@ -62,7 +63,11 @@ pub(crate) struct Series<T: Real> {
     /// θ̇ and θ̇².
     theta_rate: Polynomial<T>,
     spin: Polynomial<T>,
+    /// The forces, drag included.
     force: [Polynomial<T>; 2],
+    /// θ̈ by drag.
+    turning: Polynomial<T>,
+    drag: DragSeries<T>,
     lines: Vec<Line<T>>,
     /// W_ij of taut cables, symmetric: entry (i, j) with i ≤ j.
     coupling: Vec<Polynomial<T>>,
@@ -92,6 +97,8 @@ impl<T: Real> Series<T> {
             theta_rate: Polynomial::default(),
             spin: Polynomial::default(),
             force: [Polynomial::default(); 2],
+            turning: Polynomial::default(),
+            drag: DragSeries::default(),
             lines: vec![Line::default(); cables],
             coupling: vec![Polynomial::default(); cables * cables],
             contacts: [Contact::CLOSED; MAX_CABLES],
@@ -142,6 +149,7 @@ impl<T: Real> Series<T> {
             for line in self.taut.iter() {
                 self.extend_normal(system, line, k + 1);
             }
+            self.extend_drag(system, k);
             self.extend_motion(system, k);
         }
         self.expand_gaps();
@@ -188,17 +196,22 @@ impl<T: Real> Series<T> {
             self.force[i][0] = system.forcing.constant[i];
         }
         for harmonic in &system.forcing.harmonics {
-            let local = harmonic.shifted(t);
-            // The k-th derivative turns (c, d) into Ω (d, −c).
-            let (mut c, mut d) = (local.cosine, local.sine);
-            for k in 0..=ORDER {
-                let factor = harmonic.omega / (k + 1) as f64;
-                for i in 0..2 {
-                    self.force[i][k] += c[i];
-                    (c[i], d[i]) = (d[i] * factor, -c[i] * factor);
-                }
-            }
+            harmonic.expand(t, &mut self.force);
         }
+        if let Some(drag) = &system.drag {
+            self.drag.begin(drag, t);
+        }
+    }
+
+    /// Adds the k-th coefficients of the drag, which those of the velocities give.
+    fn extend_drag(&mut self, system: &System<T>, k: usize) {
+        let Some(drag) = &system.drag else { return };
+        let velocity = [&self.x, &self.y].map(|p| p[k + 1] * (k + 1) as f64);
+        let found = self.drag.extend(drag, velocity, k);
+        for (force, drag) in self.force.iter_mut().zip(found) {
+            force[k] += drag;
+        }
+        self.turning[k] = -(drag.turning * self.theta_rate[k]);
     }
 
     /// sin θ and cos θ to order k from θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
@@ -260,7 +273,7 @@ impl<T: Real> Series<T> {
             });
         }
         let tension = solve(taut, |i, j| self.coupling(i, j)[0], &right);
-        let mut accel = [self.force[0][k], self.force[1][k], T::ZERO];
+        let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
         for i in taut.iter() {
             let line = &mut self.lines[i];
             line.tension[k] = tension[i];
@@ -278,11 +291,16 @@ impl<T: Real> Series<T> {
         &self.coupling[i.min(j) * self.cables + i.max(j)]
     }
 
-    /// b_i = n·f + |Ṗ|²/r − θ̇² n·ρ to order k.
+    /// b_i = n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ to order k, with the f and θ̈ of forces and drag.
     fn load(&self, system: &System<T>, cable: usize, k: usize) -> T {
         let line = &self.lines[cable];
         let push = convolve(&line.normal[0], &self.force[0], k)
             + convolve(&line.normal[1], &self.force[1], k);
+        let push = if system.drag.is_some() {
+            push + convolve(&line.arm, &self.turning, k)
+        } else {
+            push
+        };
         let [u, v] = &line.velocity;
         let speed = convolve(u, u, k) + convolve(v, v, k);
         let centripetal = convolve(&self.spin, &line.reach, k);

@@ -42,7 +42,8 @@ pub struct Simulation<T: Real = f64> {
     /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
     departure: Option<Moment<T>>,
     flight: Flight<T>,
-    series: Series<T>,
+    /// In a place of its own: it is large, and a simulation that is handed on moves.
+    series: Box<Series<T>>,
     jets: Jets<T>,
     extremes: Extremes<T>,
     impacts: u64,
@@ -139,7 +140,7 @@ impl<T: Real> Simulation<T> {
         let start = start::prepare(&system, &rules, t, &state)?;
         Ok(Self {
             flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
-            series: Series::new(&system, rules.rotation_limit),
+            series: Box::new(Series::new(&system, rules.rotation_limit)),
             jets: Jets::new(),
             extremes: Extremes::at(&start.state),
             mooring: Mooring::of(&system, &rules, v_stick),
@@ -252,7 +253,7 @@ impl<T: Real> Simulation<T> {
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
     fn next_crossing(&mut self) -> Crossing<T> {
         let mut horizon = self.rules.t_end - self.t;
-        let crossing = if self.taut.is_empty() {
+        let crossing = if self.system.flies_freely(self.taut) {
             self.flight.begin(
                 &self.system,
                 self.t,
@@ -271,7 +272,7 @@ impl<T: Real> Simulation<T> {
                 self.rules.upper_bound,
             );
             horizon = horizon.min(self.series.step());
-            first_crossing(&self.series, self.t, horizon, &mut self.jets)
+            first_crossing(&*self.series, self.t, horizon, &mut self.jets)
         };
         crossing.unwrap_or(Crossing {
             s: horizon,
@@ -283,7 +284,7 @@ impl<T: Real> Simulation<T> {
     /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
     fn advance(&mut self, crossing: &Crossing<T>) {
         let s = crossing.s;
-        let free = self.taut.is_empty();
+        let free = self.system.flies_freely(self.taut);
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
         if free {
             let forcing = &self.system.forcing;

@@ -14,7 +14,7 @@ const LOOKS: usize = 64;
 impl<T: Real> Simulation<T> {
     /// The state a time `s` into the stretch that the latest step made.
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
-        if step.taut.is_empty() {
+        if self.system.flies_freely(step.taut) {
             self.flown().state(s)
         } else {
             self.series.state(s)
@@ -59,7 +59,7 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return false;
         }
-        let free = step.taut.is_empty();
+        let free = self.system.flies_freely(step.taut);
         let (bend, first) = match &self.departure {
             _ if !free => (
                 self.series.gap_bend(cable),
@@ -102,7 +102,8 @@ impl<T: Real> Simulation<T> {
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
     pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
         let s = step.t_end - step.t_start;
-        let [y_bend, theta_bend] = if step.taut.is_empty() {
+        let free = self.system.flies_freely(step.taut);
+        let [y_bend, theta_bend] = if free {
             [self.system.forcing.steepest(), T::ZERO]
         } else {
             self.series.steepest()
@@ -117,7 +118,7 @@ impl<T: Real> Simulation<T> {
         let bend = y_bend + (spin * spin + theta_bend) * reach;
         let flight = self.flown();
         let state = |s: T| {
-            if step.taut.is_empty() {
+            if free {
                 flight.state(s)
             } else {
                 self.series.state(s)

@@ -2,7 +2,7 @@
 
 use crate::real::{Real, dot};
 use crate::taut_set::MAX_CABLES;
-use crate::{Body, Cable, Forcing, Harmonic, Normal, Shape, State, TautSet};
+use crate::{Body, Cable, Drag, Forcing, Harmonic, Normal, Shape, State, TautSet};
 
 /// A body of unit mass on inextensible cables, under forces that depend on time alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +13,8 @@ pub struct System<T = f64> {
     pub cables: Vec<Cable<T>>,
     /// All forces but the cables', the weight among them.
     pub forcing: Forcing<T>,
+    /// Resistance of the water, if it has any.
+    pub drag: Option<Drag<T>>,
     /// Coefficient of restitution e, 0 ≤ e ≤ 1.
     pub restitution: T,
 }
@@ -39,6 +41,7 @@ impl<T: Real> System<T> {
                 constant: [T::ZERO, -T::ONE],
                 harmonics: vec![wave],
             },
+            drag: None,
             restitution,
         }
     }
@@ -49,8 +52,14 @@ impl<T: Real> System<T> {
             body: self.body.map(number),
             cables: self.cables.iter().map(|cable| cable.map(number)).collect(),
             forcing: self.forcing.map(number),
+            drag: self.drag.as_ref().map(|drag| drag.map(number)),
             restitution: number(self.restitution),
         }
+    }
+
+    /// Whether motion with these taut cables has a closed form: slack, and without drag.
+    pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
+        taut.is_empty() && self.drag.is_none()
     }
 
     /// The set of all cables.
@@ -80,9 +89,26 @@ impl<T: Real> System<T> {
         normals
     }
 
-    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled:
-    /// n·f + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
-    pub fn free_normal_acceleration(&self, cable: usize, state: &State<T>, force: [T; 2]) -> T {
+    /// (ẍ, ÿ, θ̈) if no cable pulled: the forces and the drag, for unit mass.
+    pub fn free_acceleration(&self, t: T, state: &State<T>) -> [T; 3] {
+        let [x, y] = self.forcing.at(t);
+        match &self.drag {
+            None => [x, y, T::ZERO],
+            Some(drag) => {
+                let [u, v, turning] = drag.at(t, state);
+                [x + u, y + v, turning]
+            }
+        }
+    }
+
+    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with (f, θ̈) the free
+    /// acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
+    pub fn free_normal_acceleration(
+        &self,
+        cable: usize,
+        state: &State<T>,
+        [x, y, turning]: [T; 3],
+    ) -> T {
         let tether = &self.cables[cable];
         let (sine, cosine) = state.theta.sin_cos();
         let lever = tether.lever(sine, cosine);
@@ -91,7 +117,7 @@ impl<T: Real> System<T> {
             state.vx - state.vtheta * lever[1],
             state.vy + state.vtheta * lever[0],
         ];
-        dot(normal.n, force) + dot(velocity, velocity) / tether.length()
+        dot(normal.n, [x, y]) + normal.arm * turning + dot(velocity, velocity) / tether.length()
             - state.vtheta.squared() * dot(normal.n, lever)
     }
 }

@@ -67,13 +67,13 @@ pub struct StepMap {
 struct Flow {
     /// How long it is.
     s: f64,
-    /// Φ where cables are taut; where none is, positions drift with the velocities.
-    taut: Option<Matrix>,
+    /// Φ where velocities change by the state: with taut cables, or drag. Else positions drift with the velocities.
+    driven: Option<Matrix>,
 }
 
 impl Flow {
     fn carry<const M: usize>(&self, block: &mut Block<M>) {
-        match &self.taut {
+        match &self.driven {
             None => {
                 for i in 0..3 {
                     add_row(block, i, &block[i + 3].clone(), self.s);
@@ -204,11 +204,11 @@ impl Tangent {
         let system = simulation.system();
         let flow = Flow {
             s: step.t_end - step.t_start,
-            taut: (!step.taut.is_empty()).then(|| self.taut_flow(simulation, step)),
+            driven: (!system.flies_freely(step.taut)).then(|| self.driven_flow(simulation, step)),
         };
         let first = rate(system, step.t_start, &step.start, step.taut);
         let last = rate(system, step.t_end, &step.before, step.taut);
-        let rate_after = if step.taut == step.taut_after && step.taut.is_empty() {
+        let rate_after = if step.taut == step.taut_after && system.flies_freely(step.taut) {
             // In flight the force alone accelerates, and it does not jump.
             let State { vx, vy, vtheta, .. } = step.after;
             [vx, vy, vtheta, last[3], last[4], last[5]]
@@ -229,9 +229,9 @@ impl Tangent {
         }
     }
 
-    /// Φ along a stretch with taut cables: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the rule of Runge and
+    /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the rule of Runge and
     /// Kutta. The motion itself is known to rounding; its deviation need only be known to some digits.
-    fn taut_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
+    fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
         let count = (SUBSTEPS * s / simulation.expansion()).ceil().max(1.0);
         let h = s / count;

@@ -49,13 +49,13 @@ pub(crate) fn acceleration<T: Real>(
     state: &State<T>,
     taut: TautSet,
 ) -> [T; 3] {
-    let [fx, fy] = system.forcing.at(t);
+    let free = system.free_acceleration(t, state);
     if taut.is_empty() {
-        return [fx, fy, T::ZERO];
+        return free;
     }
     let tension = tensions(system, t, state, taut);
     let inverse_inertia = system.body.inverse_inertia();
-    taut.iter().fold([fx, fy, T::ZERO], |[x, y, theta], cable| {
+    taut.iter().fold(free, |[x, y, theta], cable| {
         let (normal, pull) = (system.cables[cable].normal(state), tension[cable]);
         [
             x - pull * normal.n[0],
@@ -87,10 +87,10 @@ fn load<T: Real>(
     state: &State<T>,
     set: TautSet,
 ) -> (PerCable<T>, [crate::Normal<T>; MAX_CABLES]) {
-    let force = system.forcing.at(t);
+    let free = system.free_acceleration(t, state);
     let mut load = [T::ZERO; MAX_CABLES];
     for cable in set.iter() {
-        load[cable] = system.free_normal_acceleration(cable, state, force);
+        load[cable] = system.free_normal_acceleration(cable, state, free);
     }
     (load, system.normals(state, set))
 }

@@ -17,6 +17,7 @@ fn string(length: f64, weight: f64, restitution: f64) -> System {
             constant: [0.0, -weight],
             harmonics: vec![],
         },
+        drag: None,
         restitution,
     }
 }

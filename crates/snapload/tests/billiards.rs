@@ -16,6 +16,7 @@ fn billiard(cables: &[([f64; 2], f64)]) -> System {
             .map(|&(anchor, length)| Cable::new(anchor, [0.0, 0.0], length))
             .collect(),
         forcing: Forcing::default(),
+        drag: None,
         restitution: 1.0,
     }
 }

@@ -42,6 +42,7 @@ impl Table {
                     sine: [0.0, self.gamma],
                 }],
             },
+            drag: None,
             restitution: self.e,
         }
     }

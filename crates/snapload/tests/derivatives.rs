@@ -204,6 +204,7 @@ fn towards_a_graze(depth: f64) -> (System, State) {
             constant: [0.0, -weight],
             harmonics: vec![],
         },
+        drag: None,
         restitution: 0.8,
     };
     let (angle, theta, along, spin, before): (f64, f64, f64, f64, f64) = (1.2, 0.4, 0.4, 0.7, 0.5);
@@ -276,16 +277,16 @@ fn derivatives_grow_towards_a_graze() {
         let before = State::from_components(exact.before.components().map(Digits::to_f64));
         let (v_n, t) = (exact.v_n.to_f64(), exact.t.to_f64());
         let Normal { n, arm } = system.cables[0].normal(&before);
-        let force = system.forcing.constant;
-        let alpha = -system.free_normal_acceleration(0, &before, force);
+        let free = system.free_acceleration(t, &before);
+        let alpha = -system.free_normal_acceleration(0, &before, free);
         assert!(alpha > 0.5 && v_n < 0.2, "it slows down where it snaps");
         let inverse_inertia = system.body.inverse_inertia();
         let w = 1.0 + arm * arm * inverse_inertia;
         let g = [n[0], n[1], arm];
         let recoil = (1.0 + system.restitution) * alpha / w;
         let kick = [
-            force[0] + recoil * n[0],
-            force[1] + recoil * n[1],
+            free[0] + recoil * n[0],
+            free[1] + recoil * n[1],
             recoil * arm * inverse_inertia,
         ];
         // In ordinary numbers v_n is the root of a depth that is known to some roundings.

@@ -90,8 +90,8 @@ impl Closing {
             .normal(&step.before)
             .velocity(&step.before);
         let alpha = if step.taut.is_empty() {
-            let [.., x, y, _] = *map.rate();
-            system.free_normal_acceleration(cable, &step.before, [x, y])
+            let [.., x, y, theta] = *map.rate();
+            system.free_normal_acceleration(cable, &step.before, [x, y, theta])
         } else {
             normal_acceleration(system, step.t_end, &step.before, cable, step.taut)
         };

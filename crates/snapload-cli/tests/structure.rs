@@ -1,0 +1,145 @@
+//! `snapload assess` and `snapload seas` as their users meet them.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{directory, listing, snapload};
+use predicates::prelude::*;
+use predicates::str::contains;
+use std::fs;
+use std::path::Path;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/examples");
+
+/// A directory with the examples in it.
+fn room() -> tempfile::TempDir {
+    let room = directory();
+    for name in ["cylinder.toml", "cylinder-sea.toml"] {
+        fs::copy(Path::new(EXAMPLES).join(name), room.path().join(name)).unwrap();
+    }
+    room
+}
+
+#[test]
+fn assess_answers_in_a_few_lines_a_page_and_json() {
+    let room = room();
+    let short = [
+        "--set",
+        "run.duration=120",
+        "--neighbours",
+        "4",
+        "--no-scan",
+    ];
+    snapload(room.path())
+        .args([
+            "assess",
+            "cylinder.toml",
+            "--out",
+            "note.html",
+            "--json",
+            "note.json",
+        ])
+        .args(short)
+        .assert()
+        .success()
+        .stdout(
+            contains("force 0.364 and 0.250 of net buoyancy")
+                .and(contains("verdict"))
+                .and(contains("note.html")),
+        );
+    let page = fs::read_to_string(room.path().join("note.html")).unwrap();
+    assert!(
+        page.contains("Assumptions")
+            && page.contains("<svg")
+            && page.contains("--set 'run.duration=120'")
+    );
+    assert!(!page.contains("http://www.w3.org/1999/xlink") && !page.contains("<script"));
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(room.path().join("note.json")).unwrap()).unwrap();
+    assert_eq!(json["verdict"]["standing"], "holds");
+    assert_eq!(json["lines"].as_array().unwrap().len(), 2);
+    assert!((json["units"]["length_m"].as_f64().unwrap() - 3.593).abs() < 1e-12);
+}
+
+#[test]
+fn bad_input_is_told_and_ends_with_2() {
+    let room = room();
+    for (set, says) in [
+        ("wave.hieght=2", "did you mean height?"),
+        ("body.mass=200000", "sinks"),
+        ("line.length=9", "shorten the lines"),
+        ("run.start=[0, -2]", "within reach of every line"),
+    ] {
+        snapload(room.path())
+            .args(["assess", "cylinder.toml", "--set", set])
+            .assert()
+            .code(2)
+            .stderr(contains(says));
+    }
+    snapload(room.path())
+        .args(["assess"])
+        .assert()
+        .code(2)
+        .stderr(contains("CASE.toml"));
+    snapload(room.path())
+        .args(["seas", "cylinder.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("[sea]").and(contains("snapload assess")));
+    snapload(room.path())
+        .args(["seas", "cylinder-sea.toml", "--out", "seas.txt"])
+        .assert()
+        .code(2)
+        .stderr(contains(".html or .csv"));
+    assert_eq!(listing(room.path()), ["cylinder-sea.toml", "cylinder.toml"]);
+}
+
+/// A structure given to `run` leads to `assess`.
+#[test]
+fn run_points_to_assess() {
+    let room = room();
+    snapload(room.path())
+        .args(["run", "cylinder.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("snapload assess cylinder.toml"));
+}
+
+/// The same records from the same seed, whatever their number.
+#[test]
+fn seas_are_reproducible() {
+    let room = room();
+    let run = |seeds: &str, name: &str| {
+        snapload(room.path())
+            .args([
+                "seas",
+                "cylinder-sea.toml",
+                "--seeds",
+                seeds,
+                "--set",
+                "run.duration=200",
+                "--out",
+                name,
+            ])
+            .assert()
+            .success();
+        fs::read_to_string(room.path().join(name)).unwrap()
+    };
+    let (three, five) = (run("3", "three.csv"), run("5", "five.csv"));
+    assert!(five.starts_with(&three) && five.lines().count() == 6);
+    let page = run("4", "seas.html");
+    assert!(page.contains("Gumbel") && page.contains("<svg"));
+}
+
+#[test]
+fn the_keys_are_listed() {
+    snapload(directory().path())
+        .args(["assess", "--keys"])
+        .assert()
+        .success()
+        .stdout(
+            contains("[[line]]")
+                .and(contains("breaking_load"))
+                .and(contains("kg/m^3")),
+        );
+}

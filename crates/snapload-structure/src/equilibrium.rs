@@ -1,0 +1,277 @@
+//! Where the body rests in still water.
+//!
+//! Lines pull only where they are taut, so the place of rest is the least potential energy −F z within reach of all
+//! lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J. Nocedal and S. Wright, *Numerical
+//! Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions T_i ≥ 0, zero where a line is slack, that balance
+//! buoyancy, and curvature Σ T_i ∇(n_i, s_i) that is not negative along the motions that keep the taut lines taut.
+//! Each set of one to three lines is tried, as three hold a body in the plane, from several places and rotations;
+//! of all that pass, the highest place is the answer.
+
+use crate::model::Model;
+use crate::structure::Structure;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use snapload::{CaseError, State, System};
+use std::f64::consts::FRAC_PI_2;
+
+/// A closed gap, and a balance of forces, holds to this in the engine's units.
+const BALANCED: f64 = 1e-9;
+/// A line is taut at rest where its gap is within this of closed, which is 0.1 µm on a line of 100 m.
+const TOUCHING: f64 = 1e-9;
+/// Steps of Newton's method.
+const STEPS: usize = 30;
+/// Step of the differences that stand for derivatives of the normals.
+const DIFFERENCE: f64 = 1e-6;
+
+/// The place of rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equilibrium {
+    /// Centre `[x, z]` \[m\].
+    pub place_m: [f64; 2],
+    /// Rotation, counter-clockwise with z up \[rad\].
+    pub theta_rad: f64,
+    /// Tension of each line, 0 where it is slack \[N\].
+    pub tension_n: Vec<f64>,
+    /// The lines that are just taut, by index, a slack one that touches included.
+    pub taut: Vec<usize>,
+    /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides who carries what;
+    /// the tensions are then those of the least sum of squares.
+    pub indeterminate: bool,
+}
+
+/// Finds where the body rests.
+///
+/// # Errors
+/// A [`CaseError`] if there is no such place below the surface.
+pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
+    let model = Model::about(structure, structure.body.position_m, &[]);
+    let system = &model.system;
+    let best = sets(system.cables.len())
+        .into_iter()
+        .flat_map(|set| {
+            starts(structure)
+                .into_iter()
+                .filter_map(move |start| rest(system, &set, start))
+        })
+        .min_by(|a, b| a.y.total_cmp(&b.y))
+        .ok_or_else(|| nowhere(structure))?;
+    let taut: Vec<usize> = (0..system.cables.len())
+        .filter(|&line| system.cables[line].gap(&best) >= -TOUCHING)
+        .collect();
+    let (tension, left) = tensions(system, &taut, &best);
+    if left > 1e-6 {
+        return Err(nowhere(structure));
+    }
+    let place_m = model.scales.to_si([best.x, best.y]);
+    let top = place_m[1] + structure.body.height_m / 2.0;
+    if top > 0.0 {
+        let allowed = format!(
+            "lines that hold the body under water; with these it rises until its top is {top:.2} m above the still water"
+        );
+        return Err(CaseError::value("line.length", lengths(structure), allowed)
+            .with_hint("shorten the lines, or make fast more of them"));
+    }
+    let mut tension_n = vec![0.0; system.cables.len()];
+    for (line, pull) in taut.iter().zip(&tension) {
+        tension_n[*line] = pull * model.scales.force_n;
+    }
+    Ok(Equilibrium {
+        place_m,
+        theta_rad: -best.theta,
+        tension_n,
+        indeterminate: dependent(system, &taut, &best),
+        taut,
+    })
+}
+
+fn nowhere(structure: &Structure) -> CaseError {
+    CaseError::value("line.length", lengths(structure), "lines within whose reach the body can rest upright")
+        .with_hint("look at anchors, fairleads and lengths: every line must reach, and together they must hold the body without turning it over")
+}
+
+fn lengths(structure: &Structure) -> String {
+    let all: Vec<String> = structure
+        .lines
+        .iter()
+        .map(|line| line.length_m.to_string())
+        .collect();
+    format!("[{}]", all.join(", "))
+}
+
+/// Every set of one to three of so many lines.
+fn sets(count: usize) -> Vec<Vec<usize>> {
+    let mut sets = Vec::new();
+    for i in 0..count {
+        sets.push(vec![i]);
+        for j in i + 1..count {
+            sets.push(vec![i, j]);
+            sets.extend((j + 1..count).map(|k| vec![i, j, k]));
+        }
+    }
+    sets
+}
+
+/// Where the search begins: the place drawn, beside it and turned, and above each line's anchor.
+fn starts(structure: &Structure) -> Vec<State> {
+    let l = Model::about(structure, structure.body.position_m, &[])
+        .scales
+        .length_m;
+    let above = structure
+        .lines
+        .iter()
+        .map(|line| (line.anchor_m[0] - structure.body.position_m[0]) / l);
+    let places: Vec<f64> = [0.0, 0.3, -0.3].into_iter().chain(above).collect();
+    let turned = [0.0, 0.4, -0.4, 1.0, -1.0];
+    let state = |x: f64, theta: f64| State {
+        x,
+        theta,
+        ..State::default()
+    };
+    places
+        .iter()
+        .flat_map(|&x| turned.iter().map(move |&theta| state(x, theta)))
+        .collect()
+}
+
+/// The row (n_x, n_y, s) of a line.
+fn row(system: &System, line: usize, at: &State) -> Vector3<f64> {
+    let normal = system.cables[line].normal(at);
+    Vector3::new(normal.n[0], normal.n[1], normal.arm)
+}
+
+fn moved(at: &State, step: &Vector3<f64>) -> State {
+    State {
+        x: at.x + step[0],
+        y: at.y + step[1],
+        theta: at.theta + step[2],
+        ..*at
+    }
+}
+
+/// How the row of a line changes with x, y and θ.
+fn bend(system: &System, line: usize, at: &State) -> Matrix3<f64> {
+    let mut bend = Matrix3::zeros();
+    for k in 0..3 {
+        let mut step = Vector3::zeros();
+        step[k] = DIFFERENCE;
+        let ahead = row(system, line, &moved(at, &step));
+        let behind = row(system, line, &moved(at, &-step));
+        bend.set_column(k, &((ahead - behind) / (2.0 * DIFFERENCE)));
+    }
+    bend
+}
+
+/// A stable place of rest with just these lines pulling, or none from this start: Newton's method on
+///
+/// ```text
+/// Σ T_i (n_i, s_i) = (0, −1, 0),    g_i/(2r) = 0
+/// ```
+fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
+    let m = set.len();
+    let (mut at, mut tension) = (start, DVector::from_element(m, 1.0 / m as f64));
+    for _ in 0..STEPS {
+        let mut residual = DVector::zeros(3 + m);
+        let mut matrix = DMatrix::zeros(3 + m, 3 + m);
+        residual[1] = 1.0;
+        for (i, &line) in set.iter().enumerate() {
+            let normal = row(system, line, &at);
+            let bend = bend(system, line, &at) * tension[i];
+            for k in 0..3 {
+                residual[k] += tension[i] * normal[k];
+                matrix[(k, 3 + i)] = normal[k];
+                matrix[(3 + i, k)] = normal[k];
+                for j in 0..3 {
+                    matrix[(k, j)] += bend[(k, j)];
+                }
+            }
+            let cable = &system.cables[line];
+            residual[3 + i] = cable.gap(&at) / (2.0 * cable.length());
+        }
+        if residual.amax() < 1e-15 {
+            break;
+        }
+        if !matrix
+            .iter()
+            .chain(residual.iter())
+            .all(|entry: &f64| entry.is_finite())
+        {
+            return None;
+        }
+        // A body that may turn freely makes the matrix singular; the shortest step does not turn it.
+        let step = matrix.svd(true, true).solve(&-residual, 1e-10).ok()?;
+        let shorter = (0.5 / step.rows(0, 3).norm()).min(1.0);
+        at = moved(&at, &(Vector3::new(step[0], step[1], step[2]) * shorter));
+        tension += step.rows(3, m) * shorter;
+    }
+    let within = system.cables.iter().all(|cable| cable.gap(&at) <= TOUCHING);
+    let pulls = tension.iter().all(|pull| *pull > -BALANCED);
+    let (_, left) = tensions(system, set, &at);
+    let closed = set
+        .iter()
+        .all(|&line| system.cables[line].gap(&at).abs() <= TOUCHING);
+    let upright = at.theta.abs() < FRAC_PI_2;
+    (within && pulls && closed && upright && left < BALANCED && stable(system, set, &at, &tension))
+        .then_some(at)
+}
+
+/// Whether Σ T_i ∇(n_i, s_i) is not negative along the motions that keep the lines that pull taut.
+fn stable(system: &System, set: &[usize], at: &State, tension: &DVector<f64>) -> bool {
+    let mut curvature = Matrix3::zeros();
+    let mut held = Matrix3::zeros();
+    for (i, &line) in set.iter().enumerate().filter(|(i, _)| tension[*i] > 1e-6) {
+        curvature += bend(system, line, at) * tension[i];
+        let normal = row(system, line, at);
+        held += normal * normal.transpose();
+    }
+    // The free motions are the directions that no pulling line resists.
+    let frame = held.symmetric_eigen();
+    let free: Vec<Vector3<f64>> = (0..3)
+        .filter(|&k| frame.eigenvalues[k] < 1e-9)
+        .map(|k| frame.eigenvectors.column(k).into_owned())
+        .collect();
+    let projected = DMatrix::from_fn(free.len(), free.len(), |i, j| {
+        let both = (curvature + curvature.transpose()) * 0.5;
+        free[i].dot(&(both * free[j]))
+    });
+    free.is_empty()
+        || projected
+            .symmetric_eigen()
+            .eigenvalues
+            .iter()
+            .all(|value| *value > -1e-6)
+}
+
+/// The tensions ≥ 0 of least sum of squares that balance the buoyancy, and what is left unbalanced.
+fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
+    let rows: Vec<Vector3<f64>> = taut.iter().map(|&line| row(system, line, at)).collect();
+    let load = Vector3::new(0.0, -1.0, 0.0);
+    // Least squares, and again without the lines that would push.
+    let mut kept: Vec<usize> = (0..taut.len()).collect();
+    loop {
+        if kept.is_empty() {
+            return (vec![0.0; taut.len()], 1.0);
+        }
+        let matrix = DMatrix::from_fn(3, kept.len(), |k, i| rows[kept[i]][k]);
+        let right = DVector::from_fn(3, |k, _| load[k]);
+        let solution = matrix.clone().svd(true, true).solve(&right, 1e-10);
+        let solution = solution.unwrap_or_else(|_| DVector::zeros(kept.len()));
+        let pushing = (0..kept.len())
+            .filter(|&i| solution[i] < -1e-9)
+            .min_by(|&a, &b| solution[a].total_cmp(&solution[b]));
+        if let Some(worst) = pushing {
+            kept.remove(worst);
+            continue;
+        }
+        let left = (matrix * &solution - right).amax();
+        let mut all = vec![0.0; taut.len()];
+        for (i, &line) in kept.iter().enumerate() {
+            all[line] = solution[i].max(0.0);
+        }
+        return (all, left);
+    }
+}
+
+/// Whether the taut lines' directions depend on each other.
+fn dependent(system: &System, taut: &[usize], at: &State) -> bool {
+    let matrix = DMatrix::from_fn(3, taut.len(), |k, i| row(system, taut[i], at)[k]);
+    matrix.rank(1e-9) < taut.len()
+}

@@ -1,0 +1,371 @@
+//! The plots of a note, in SI.
+
+use super::Scan;
+use crate::assess::Assessment;
+use crate::gumbel::reduced;
+use crate::seas::Seas;
+use crate::structure::{Structure, Water};
+use snapload::Playback;
+use snapload_figures::{
+    Axis, Cell, Colour, Dash, FigureError, Layer, Map, Picture, Plot, Point, Range, Shape, Stroke,
+    TickStyle, Width, draw, draw_map,
+};
+
+/// Points of a line over time.
+const POINTS: u32 = 12_000;
+/// A closer look takes so many wave periods.
+const CLOSE: f64 = 6.0;
+
+const INKS: [Colour; 6] = [
+    Colour::Blue,
+    Colour::Vermilion,
+    Colour::Green,
+    Colour::Purple,
+    Colour::Orange,
+    Colour::Grey,
+];
+
+fn axis(label: &str, range: Range) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        range,
+        ticks: TickStyle::Decimal,
+    }
+}
+
+/// The plots with their captions.
+pub(super) fn all(assessment: &Assessment) -> Result<Vec<(Picture, String)>, FigureError> {
+    let window = window(assessment);
+    let named = [
+        ("path", path(assessment, window), format!("Path of the body's centre from t = {:.0} to {:.0} s, about the hardest snap.", window[0], window[1])),
+        ("snaps", peaks(assessment), "Estimated tension of every snap of 1 cm/s or more; dashed, the lowest breaking load. Grey: not judged.".to_owned()),
+        ("tension", tension(assessment, window), "Tension of the lines while they are taut, in the same time. Snaps are not in it: they last no time here, and have an impulse, not a tension.".to_owned()),
+        ("rotation", rotation(assessment, window), "Rotation of the body in the same time.".to_owned()),
+    ];
+    named
+        .into_iter()
+        .map(|(name, plot, words)| Ok((draw(name, Width::Column, &[plot])?, words)))
+        .collect()
+}
+
+/// A few periods about the hardest snap that is judged, or the last few.
+fn window(assessment: &Assessment) -> [f64; 2] {
+    let structure = &assessment.prepared.structure;
+    let end = assessment.outcome.end_s;
+    let period = match structure.water {
+        Water::Still => end / CLOSE,
+        Water::Wave(wave) => wave.period_s,
+        Water::Sea(sea) => 2.0 * sea.peak_period_s,
+    };
+    let judged = assessment
+        .snaps
+        .iter()
+        .filter(|snap| snap.counts() && snap.t_s >= structure.transient_s);
+    let hardest = judged.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
+    let width = (CLOSE * period).min(end);
+    let middle = hardest.map_or(end, |snap| snap.t_s);
+    let from = (middle - width / 2.0).clamp(0.0, end - width);
+    [from, from + width]
+}
+
+/// Looks at the motion within a window, in SI: time, place, rotation, tensions.
+fn looks(
+    assessment: &Assessment,
+    [from, to]: [f64; 2],
+    mut see: impl FnMut(f64, &snapload::Motion),
+) {
+    let mut playback = Playback::new(&assessment.run);
+    let unit = assessment.prepared.model.scales.time_s;
+    for k in 0..=POINTS {
+        let t = from + (to - from) * f64::from(k) / f64::from(POINTS);
+        see(t, &playback.at(t / unit));
+    }
+}
+
+fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
+    let scales = &assessment.prepared.model.scales;
+    let mut pieces: [Vec<Vec<Point>>; 2] = [Vec::new(), Vec::new()];
+    let mut last = None;
+    looks(assessment, window, |_, motion| {
+        let kind = usize::from(!motion.taut.is_empty());
+        let point = scales.to_si([motion.state.x, motion.state.y]);
+        if last != Some(kind) {
+            pieces[kind].push(Vec::new());
+        }
+        if let Some(piece) = pieces[kind].last_mut() {
+            piece.push(point);
+        }
+        last = Some(kind);
+    });
+    let [slack, taut] = pieces;
+    let line = |pieces, colour, width_pt, legend: &str| Layer::Line {
+        pieces,
+        stroke: Stroke {
+            colour,
+            width_pt,
+            dash: Dash::Solid,
+        },
+        legend: legend.to_owned(),
+    };
+    Plot {
+        description: "Path of the body's centre, z against x".to_owned(),
+        x: axis("*x* (m)", Range::Auto),
+        y: axis("*z* (m)", Range::Auto),
+        equal_scale: true,
+        layers: vec![
+            line(slack, Colour::Black, 0.5, "no line taut"),
+            line(taut, Colour::Blue, 1.0, "a line taut"),
+        ],
+        ..Plot::default()
+    }
+}
+
+fn over_time(description: &str, label: &str, range: Range, layers: Vec<Layer>) -> Plot {
+    Plot {
+        description: description.to_owned(),
+        x: axis("*t* (s)", Range::Auto),
+        y: axis(label, range),
+        layers,
+        ..Plot::default()
+    }
+}
+
+fn peaks(assessment: &Assessment) -> Plot {
+    let structure = &assessment.prepared.structure;
+    let known = assessment.snaps.iter().all(|snap| snap.peak_n().is_some());
+    let shade = Layer::Shade {
+        from: f64::NEG_INFINITY,
+        to: structure.transient_s,
+        legend: String::new(),
+    };
+    let mut layers = vec![shade];
+    for line in 0..structure.lines.len() {
+        let of_line = assessment
+            .snaps
+            .iter()
+            .filter(|snap| snap.counts() && snap.line == line);
+        let points = of_line.map(|snap| {
+            [
+                snap.t_s,
+                snap.peak_n().map_or(snap.speed_m_s, |peak| peak / 1e3),
+            ]
+        });
+        layers.push(Layer::Markers {
+            points: points.collect(),
+            shape: if line.is_multiple_of(2) {
+                Shape::Cross
+            } else {
+                Shape::Circle
+            },
+            colour: INKS[line % INKS.len()],
+            legend: format!("line {}", line + 1),
+        });
+    }
+    let weakest = structure
+        .lines
+        .iter()
+        .filter_map(|line| line.breaking_load_n)
+        .reduce(f64::min);
+    if let (true, Some(load)) = (known, weakest) {
+        layers.push(Layer::Horizontal {
+            y: load / 1e3,
+            label: "breaks".to_owned(),
+        });
+    }
+    let label = if known {
+        "tension (kN)"
+    } else {
+        "speed of the snap (m/s)"
+    };
+    let mut plot = over_time(
+        "Estimated tension of each snap against time",
+        label,
+        Range::AtLeast(0.0, 0.0),
+        layers,
+    );
+    plot.x.range = Range::AtLeast(0.0, assessment.outcome.end_s);
+    if !assessment.snaps.iter().any(crate::Snap::counts) {
+        plot.note = "no line snapped".to_owned();
+    }
+    plot
+}
+
+fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
+    let lines = assessment.prepared.structure.lines.len();
+    let force = assessment.prepared.model.scales.force_n;
+    let mut pieces: Vec<Vec<Vec<Point>>> = vec![Vec::new(); lines];
+    let mut joined = vec![false; lines];
+    looks(assessment, window, |t, motion| {
+        for line in 0..lines {
+            let taut = motion.taut.contains(line);
+            if taut {
+                let point = [t, motion.tensions[line] * force / 1e3];
+                match pieces[line].last_mut() {
+                    Some(piece) if joined[line] => piece.push(point),
+                    _ => pieces[line].push(vec![point]),
+                }
+            }
+            joined[line] = taut;
+        }
+    });
+    let layers = pieces
+        .into_iter()
+        .enumerate()
+        .map(|(line, pieces)| Layer::Line {
+            pieces,
+            stroke: Stroke {
+                colour: INKS[line % INKS.len()],
+                width_pt: 0.9,
+                dash: if line.is_multiple_of(2) {
+                    Dash::Solid
+                } else {
+                    Dash::Dashed
+                },
+            },
+            legend: format!("line {}", line + 1),
+        });
+    let mut plot = over_time(
+        "Tension of each line while it is taut",
+        "tension (kN)",
+        Range::AtLeast(0.0, 0.0),
+        layers.collect(),
+    );
+    plot.x.range = Range::Fixed(window[0], window[1]);
+    plot
+}
+
+fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
+    let mut points = Vec::new();
+    looks(assessment, window, |t, motion| {
+        points.push([t, -motion.state.theta.to_degrees()])
+    });
+    let line = Layer::Line {
+        pieces: vec![points],
+        stroke: Stroke::default(),
+        legend: String::new(),
+    };
+    let mut plot = over_time(
+        "Rotation of the body against time",
+        "rotation (degrees)",
+        Range::Auto,
+        vec![line],
+    );
+    plot.x.range = Range::Fixed(window[0], window[1]);
+    plot
+}
+
+/// The map of a scan.
+pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, FigureError> {
+    let known = structure
+        .lines
+        .iter()
+        .all(|line| line.breaking_load_n.is_some() && line.stiffness_n.is_some());
+    let cells = scan.cells.iter().map(|cell| match cell {
+        None => Cell::Class(0),
+        Some(value) => Cell::Value(*value),
+    });
+    let map = Map {
+        description: "Result for other waves, by period and height".to_owned(),
+        x_label: "*T* (s)".to_owned(),
+        x: scan.periods_s.clone(),
+        y_label: "*H* (m)".to_owned(),
+        y: scan.heights_m.clone(),
+        cells: cells.collect(),
+        value_label: if known {
+            "utilisation".to_owned()
+        } else {
+            "fastest snap (m/s)".to_owned()
+        },
+        classes: vec!["turned over or touched the floor".to_owned()],
+        ..Map::default()
+    };
+    draw_map("scan", Width::Column, &map)
+}
+
+/// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often tensions are exceeded.
+pub(super) fn of_seas(seas: &Seas) -> Result<Vec<(Picture, String)>, FigureError> {
+    let structure = &seas.prepared.structure;
+    let (mut largest, all, fit, unit, label) = match seas.peaks_n() {
+        Some(peaks) => (
+            peaks,
+            seas.all_peaks_n(),
+            seas.peak_in_three_hours(),
+            1e3,
+            "tension (kN)",
+        ),
+        None => (
+            seas.speeds_m_s(),
+            seas.all_speeds_m_s(),
+            seas.speed_in_three_hours(),
+            1.0,
+            "speed of the snap (m/s)",
+        ),
+    };
+    largest.sort_by(f64::total_cmp);
+    let count = largest.len() as f64;
+    let points: Vec<Point> = largest
+        .iter()
+        .enumerate()
+        .map(|(rank, value)| [value / unit, reduced((rank as f64 + 0.56) / (count + 0.12))])
+        .collect();
+    let mut layers = vec![Layer::Markers {
+        points,
+        shape: Shape::Circle,
+        colour: Colour::Blue,
+        legend: "records".to_owned(),
+    }];
+    // The fit is for three hours; on this paper it stands where the records are.
+    let judged = structure.duration_s - structure.transient_s;
+    if let Some(fit) = fit.map(|fit| fit.over_times(judged / crate::THREE_HOURS_S)) {
+        let ends = [0.01, 0.995].map(|p| [fit.quantile(p).value / unit, reduced(p)]);
+        layers.push(Layer::Line {
+            pieces: vec![ends.to_vec()],
+            stroke: Stroke::default(),
+            legend: "Gumbel fit".to_owned(),
+        });
+    }
+    for (p, words) in [(0.5, "50 %"), (0.9, "90 %"), (0.99, "99 %")] {
+        layers.push(Layer::Horizontal {
+            y: reduced(p),
+            label: words.to_owned(),
+        });
+    }
+    let gumbel = Plot {
+        description: "Largest snap of each record on Gumbel's paper".to_owned(),
+        x: axis(label, Range::Auto),
+        y: axis("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
+        layers,
+        ..Plot::default()
+    };
+    let hours = seas.judged_s() / crate::THREE_HOURS_S;
+    let exceeded: Vec<Point> = all
+        .iter()
+        .enumerate()
+        .map(|(below, value)| [value / unit, ((all.len() - below) as f64 / hours).log10()])
+        .collect();
+    let often = Plot {
+        description: "How often a snap is harder than a value, in three hours".to_owned(),
+        x: axis(label, Range::AtLeast(0.0, 0.0)),
+        y: axis("log₁₀ of snaps in 3 h", Range::Auto),
+        layers: vec![Layer::Line {
+            pieces: vec![exceeded],
+            stroke: Stroke::default(),
+            legend: String::new(),
+        }],
+        note: if all.is_empty() {
+            "no line snapped".to_owned()
+        } else {
+            String::new()
+        },
+        ..Plot::default()
+    };
+    let words = [
+        "The hardest snap of each record against the part P of records that stay below it; on this paper a Gumbel distribution is a straight line.",
+        "How many snaps in three hours are harder than a value.",
+    ];
+    [("gumbel", gumbel), ("exceedance", often)]
+        .into_iter()
+        .zip(words)
+        .map(|((name, plot), words)| Ok((draw(name, Width::Column, &[plot])?, words.to_owned())))
+        .collect()
+}

@@ -1,0 +1,93 @@
+//! The same structure in other waves.
+
+use crate::assess::Prepared;
+use crate::structure::{Structure, Water, Wave};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Heights and periods that are tried, in parts of the case's.
+const HEIGHTS: [f64; 2] = [0.5, 1.25];
+const PERIODS: [f64; 2] = [2.0 / 3.0, 7.0 / 6.0];
+/// Of each so many.
+const STEPS: u32 = 10;
+/// So many periods of each wave are computed.
+const LENGTH: f64 = 60.0;
+
+/// What the structure does in waves about those of its case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scan {
+    /// Periods \[s\].
+    pub periods_s: Vec<f64>,
+    /// Heights \[m\].
+    pub heights_m: Vec<f64>,
+    /// For the first period all heights, then for the next: the largest utilisation, or the fastest snap \[m/s\] where
+    /// that is not known; none where the body turned over or touched the floor.
+    pub cells: Vec<Option<f64>>,
+}
+
+/// Scans heights and periods; none unless the case has a regular wave. `watch` is told which part is done.
+pub fn scan(structure: &Structure, watch: impl Fn(f64) + Sync) -> Option<Scan> {
+    let Water::Wave(wave) = structure.water else {
+        return None;
+    };
+    let spaced = |[low, high]: [f64; 2], value: f64| -> Vec<f64> {
+        let part = |k: u32| low + (high - low) * f64::from(k) / f64::from(STEPS - 1);
+        (0..STEPS).map(|k| value * part(k)).collect()
+    };
+    let (periods_s, heights_m) = (
+        spaced(PERIODS, wave.period_s),
+        spaced(HEIGHTS, wave.height_m),
+    );
+    let waves: Vec<Wave> = periods_s
+        .iter()
+        .flat_map(|&period_s| {
+            heights_m
+                .iter()
+                .map(move |&height_m| Wave { height_m, period_s })
+        })
+        .collect();
+    let done = AtomicU64::new(0);
+    let cells = waves
+        .par_iter()
+        .map(|wave| {
+            let cell = one(structure, *wave);
+            let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+            watch(count as f64 / waves.len() as f64);
+            cell
+        })
+        .collect();
+    Some(Scan {
+        periods_s,
+        heights_m,
+        cells,
+    })
+}
+
+fn one(structure: &Structure, wave: Wave) -> Option<f64> {
+    let changed = Structure {
+        water: Water::Wave(wave),
+        duration_s: LENGTH * wave.period_s,
+        transient_s: structure.transient_s.min(LENGTH / 2.0 * wave.period_s),
+        ..structure.clone()
+    };
+    let prepared = Prepared::new(changed).ok()?;
+    let outcome = prepared.outcome(1.0, || false)?;
+    if outcome.stop.exceeds() {
+        return None;
+    }
+    let known: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
+    Some(match known {
+        Some(all) => all.into_iter().fold(0.0, f64::max),
+        None => outcome.speed_m_s(),
+    })
+}
+
+impl Scan {
+    /// Its caption.
+    pub(super) fn words(&self) -> String {
+        format!(
+            "The largest utilisation by a snap (or the fastest snap, where strengths are not known) in other regular waves, each \
+             run for {LENGTH:.0} periods. Grazing and chaos make such maps uneven: read regions, not single cells."
+        )
+    }
+}

@@ -1,0 +1,424 @@
+//! A moored structure in SI units, checked once at the border.
+
+use crate::catalogue::{Section, section};
+use crate::entries::{Entries, Fields, InputError};
+use snapload::{CaseError, MAX_CABLES};
+use std::f64::consts::PI;
+
+/// The outline of the body in the x-z plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outline {
+    /// A circle of the width as its diameter.
+    Circle,
+    /// A rectangle.
+    Rectangle,
+}
+
+/// The body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodySi {
+    /// Mass m \[kg\].
+    pub mass_kg: f64,
+    /// Added mass m_a, the same in x and z \[kg\].
+    pub added_mass_kg: f64,
+    /// Outline.
+    pub outline: Outline,
+    /// Size in x \[m\].
+    pub width_m: f64,
+    /// Size in z \[m\].
+    pub height_m: f64,
+    /// Displaced volume V \[m³\].
+    pub displaced_volume_m3: f64,
+    /// Moment of inertia about the centre \[kg m²\].
+    pub moment_of_inertia_kg_m2: f64,
+    /// C_d A of the quadratic drag \[m²\].
+    pub drag_area_m2: f64,
+    /// Force per velocity of the water past the body \[N s/m\].
+    pub linear_damping_n_s_m: f64,
+    /// Moment per angular velocity \[N m s\].
+    pub turning_damping_n_m_s: f64,
+    /// Centre `[x, z]` to which the fairleads are drawn \[m\].
+    pub position_m: [f64; 2],
+}
+
+/// A mooring line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LineSi {
+    /// Anchor `[x, z]` \[m\].
+    pub anchor_m: [f64; 2],
+    /// Fairlead `[x, z]` with the body at its position, unturned \[m\].
+    pub fairlead_m: [f64; 2],
+    /// Unstretched length \[m\].
+    pub length_m: f64,
+    /// What it is called, from its type and diameter; empty where they are not given.
+    pub name: String,
+    /// Axial stiffness EA \[N\].
+    pub stiffness_n: Option<f64>,
+    /// Mass per length μ \[kg/m\].
+    pub mass_per_length_kg_m: Option<f64>,
+    /// Minimum breaking load \[N\].
+    pub breaking_load_n: Option<f64>,
+}
+
+impl LineSi {
+    /// Spring rate k = EA/length \[N/m\].
+    pub fn spring_rate_n_m(&self) -> Option<f64> {
+        self.stiffness_n.map(|stiffness| stiffness / self.length_m)
+    }
+}
+
+/// The place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Depth d \[m\].
+    pub depth_m: f64,
+    /// Density of the water ρ \[kg/m³\].
+    pub water_density_kg_m3: f64,
+    /// Gravity g \[m/s²\].
+    pub gravity_m_s2: f64,
+}
+
+/// A regular wave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Height H from trough to crest \[m\].
+    pub height_m: f64,
+    /// Period \[s\].
+    pub period_s: f64,
+}
+
+/// The shape of a spectrum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpectrumShape {
+    /// JONSWAP with this peak enhancement γ.
+    Jonswap(f64),
+    /// Pierson-Moskowitz.
+    PiersonMoskowitz,
+}
+
+/// An irregular sea.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IrregularSea {
+    /// Shape of its spectrum.
+    pub shape: SpectrumShape,
+    /// Significant wave height Hs = 4 sqrt(m0) \[m\].
+    pub significant_height_m: f64,
+    /// Peak period Tp \[s\].
+    pub peak_period_s: f64,
+    /// Seed of its phases.
+    pub seed: u64,
+    /// How many sinusoids it is made of.
+    pub components: usize,
+}
+
+/// What moves the water.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Water {
+    /// Nothing.
+    Still,
+    /// A regular wave.
+    Wave(Wave),
+    /// An irregular sea.
+    Sea(IrregularSea),
+}
+
+/// A structure and what it is to go through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Structure {
+    /// The body.
+    pub body: BodySi,
+    /// The lines.
+    pub lines: Vec<LineSi>,
+    /// The place.
+    pub site: Site,
+    /// The waves.
+    pub water: Water,
+    /// Where they go: 1 to +x, −1 to −x.
+    pub heading: f64,
+    /// Coefficient of restitution e.
+    pub restitution: f64,
+    /// Time that is computed \[s\].
+    pub duration_s: f64,
+    /// Snaps before this are not judged \[s\].
+    pub transient_s: f64,
+    /// Centre at the start `[x, z]`; none: where it rests \[m\].
+    pub start_m: Option<[f64; 2]>,
+    /// The run ends at more snaps than this.
+    pub max_snaps: u64,
+}
+
+/// Three hours, the time for which a sea is taken to be stationary \[s\].
+pub const THREE_HOURS_S: f64 = 10_800.0;
+/// So many periods of a regular wave are computed by default.
+const PERIODS: f64 = 100.0;
+/// So many periods the motion is given to forget its start.
+const TRANSIENT: f64 = 10.0;
+/// Time that is computed in still water by default \[s\].
+const STILL_S: f64 = 60.0;
+
+impl Structure {
+    /// Reads a case file; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// An [`InputError`] that names the line, the key, its value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Self, InputError> {
+        Self::from_entries(&Entries::parse(name, text)?)
+    }
+
+    /// From the keys that a case gives.
+    ///
+    /// # Errors
+    /// An [`InputError`] that names the key, its value and what is allowed.
+    pub fn from_entries(entries: &Entries) -> Result<Self, InputError> {
+        Self::read(entries).map_err(|error| entries.locate(error))
+    }
+
+    fn read(entries: &Entries) -> Result<Self, CaseError> {
+        let site = read_site(entries.table("site", 0))?;
+        let body = read_body(entries.table("body", 0), &site)?;
+        if !(1..=MAX_CABLES).contains(&entries.lines()) {
+            let allowed = format!("1 to {MAX_CABLES} of them");
+            let shown = entries.lines().to_string();
+            return Err(
+                CaseError::value("[[line]]", format!("({shown} given)"), allowed).with_hint(
+                    "write [[line]] once for each line, and below it anchor, fairlead and length",
+                ),
+            );
+        }
+        let lines = (0..entries.lines())
+            .map(|index| read_line(entries.table("line", index)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let (water, heading) = read_water(entries)?;
+        let run = entries.table("run", 0);
+        let (duration, transient) = match water {
+            Water::Still => (STILL_S, 0.0),
+            Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
+            Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
+        };
+        let duration_s = run.maybe_number("duration")?.unwrap_or(duration);
+        let given = run.maybe_number("transient")?;
+        if let Some(transient) = given.filter(|transient| *transient >= duration_s) {
+            let allowed = format!("less than the {duration_s} s that are computed");
+            return Err(CaseError::value("run.transient", transient, allowed)
+                .with_hint("make run.duration longer, or transient shorter"));
+        }
+        let structure = Self {
+            body,
+            lines,
+            site,
+            water,
+            heading,
+            restitution: run.number("restitution")?,
+            duration_s,
+            transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
+            start_m: run.maybe_pair("start")?,
+            max_snaps: run.count("max_snaps")?,
+        };
+        crate::plausible::check(&structure)?;
+        Ok(structure)
+    }
+
+    /// Net buoyancy F = (ρV − m) g \[N\]; positive in every checked structure.
+    pub fn net_buoyancy_n(&self) -> f64 {
+        self.site.gravity_m_s2 * (self.displaced_mass_kg() - self.body.mass_kg)
+    }
+
+    /// Mass of the displaced water ρV \[kg\].
+    pub fn displaced_mass_kg(&self) -> f64 {
+        self.site.water_density_kg_m3 * self.body.displaced_volume_m3
+    }
+
+    /// Coefficient of added mass C_a = m_a/(ρV).
+    pub fn added_mass_coefficient(&self) -> f64 {
+        self.body.added_mass_kg / self.displaced_mass_kg()
+    }
+
+    /// Mass that a snap has to stop, m + m_a \[kg\].
+    pub fn moving_mass_kg(&self) -> f64 {
+        self.body.mass_kg + self.body.added_mass_kg
+    }
+}
+
+fn read_site(fields: Fields<'_>) -> Result<Site, CaseError> {
+    Ok(Site {
+        depth_m: fields.number("depth")?,
+        water_density_kg_m3: fields.number("water_density")?,
+        gravity_m_s2: fields.number("gravity")?,
+    })
+}
+
+fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
+    let mass = fields.number("mass")?;
+    let volume = fields.number("displaced_volume")?;
+    let width = fields.number("width")?;
+    let outline = match fields.word("shape")?.as_str() {
+        "rectangle" => Outline::Rectangle,
+        _ => Outline::Circle,
+    };
+    let given_height = fields.maybe_number("height")?;
+    let needed = |key: &str, found: Option<f64>| {
+        let allowed = "a value, which a rectangle needs";
+        found.ok_or_else(|| CaseError::value(&fields.path(key), "(left out)", allowed))
+    };
+    let added = fields.maybe_number("added_mass")?;
+    let (height, added, inertia) = match outline {
+        Outline::Circle => {
+            if let Some(height) = given_height.filter(|height| *height != width) {
+                let allowed = format!("the width, {width}, for a circle");
+                return Err(CaseError::value(&fields.path("height"), height, allowed)
+                    .with_hint("leave height out, or set shape = \"rectangle\""));
+            }
+            let displaced = site.water_density_kg_m3 * volume;
+            (
+                width,
+                added.unwrap_or(displaced),
+                mass * width * width / 8.0,
+            )
+        }
+        Outline::Rectangle => {
+            let height = needed("height", given_height)?;
+            let inertia = mass * (width * width + height * height) / 12.0;
+            (height, needed("added_mass", added)?, inertia)
+        }
+    };
+    Ok(BodySi {
+        mass_kg: mass,
+        added_mass_kg: added,
+        outline,
+        width_m: width,
+        height_m: height,
+        displaced_volume_m3: volume,
+        moment_of_inertia_kg_m2: fields.maybe_number("moment_of_inertia")?.unwrap_or(inertia),
+        drag_area_m2: fields.number("drag_area")?,
+        linear_damping_n_s_m: fields.number("linear_damping")?,
+        turning_damping_n_m_s: fields.number("turning_damping")?,
+        position_m: fields.pair("position")?,
+    })
+}
+
+fn read_line(fields: Fields<'_>) -> Result<LineSi, CaseError> {
+    let length = fields.number("length")?;
+    let kind = fields.word("type")?;
+    let diameter = fields.maybe_number("diameter")?;
+    let grade = fields.word("grade")?;
+    let error =
+        |key: &str, shown: &str, allowed: &str| CaseError::value(&fields.path(key), shown, allowed);
+    let catalogued: Option<Section> = match (kind.as_str(), diameter) {
+        ("", None) => None,
+        ("", Some(_)) => return Err(error("type", "(left out)", "a type, as diameter is given")),
+        (_, None) => {
+            return Err(error(
+                "diameter",
+                "(left out)",
+                "the diameter of the line, as its type is given",
+            ));
+        }
+        (kind, Some(diameter)) => {
+            let grade = (!grade.is_empty()).then_some(grade.as_str());
+            if grade.is_some() && !kind.ends_with("chain") {
+                return Err(error(
+                    "grade",
+                    "(given)",
+                    "no grade, as the line is not a chain",
+                ));
+            }
+            section(kind, diameter, grade)
+        }
+    };
+    let (stiffness, rate) = (
+        fields.maybe_number("stiffness")?,
+        fields.maybe_number("spring_rate")?,
+    );
+    if stiffness.is_some() && rate.is_some() {
+        return Err(error(
+            "spring_rate",
+            "(given)",
+            "one of stiffness and spring_rate",
+        ));
+    }
+    let own = stiffness.or(rate.map(|rate| rate * length));
+    let name = match (diameter, kind.ends_with("chain")) {
+        (None, _) => String::new(),
+        (Some(d), true) => {
+            let grade = if grade.is_empty() { "R3" } else { &grade };
+            format!("{kind} {grade}, {} mm", millimetres(d))
+        }
+        (Some(d), false) => format!("{kind}, {} mm", millimetres(d)),
+    };
+    Ok(LineSi {
+        anchor_m: fields.pair("anchor")?,
+        fairlead_m: fields.pair("fairlead")?,
+        length_m: length,
+        name,
+        stiffness_n: own.or(catalogued.map(|section| section.stiffness_n)),
+        mass_per_length_kg_m: fields
+            .maybe_number("mass_per_length")?
+            .or(catalogued.map(|section| section.mass_per_length_kg_m)),
+        breaking_load_n: fields
+            .maybe_number("breaking_load")?
+            .or(catalogued.map(|section| section.breaking_load_n)),
+    })
+}
+
+/// Rounded to a tenth.
+fn millimetres(metres: f64) -> f64 {
+    (metres * 1e4).round() / 10.0
+}
+
+fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
+    let heading = |fields: Fields<'_>| -> Result<f64, CaseError> {
+        Ok(if fields.word("direction")? == "-x" {
+            -1.0
+        } else {
+            1.0
+        })
+    };
+    match (entries.has("wave"), entries.has("sea")) {
+        (true, true) => {
+            let allowed = "one of [wave] and [sea]";
+            Err(CaseError::value("[sea]", "(beside [wave])", allowed)
+                .with_hint("take one of them out"))
+        }
+        (false, false) => Ok((Water::Still, 1.0)),
+        (true, false) => {
+            let fields = entries.table("wave", 0);
+            let wave = Wave {
+                height_m: fields.number("height")?,
+                period_s: fields.number("period")?,
+            };
+            Ok((Water::Wave(wave), heading(fields)?))
+        }
+        (false, true) => {
+            let fields = entries.table("sea", 0);
+            let shape = match fields.word("spectrum")?.as_str() {
+                "pierson-moskowitz" => SpectrumShape::PiersonMoskowitz,
+                _ => SpectrumShape::Jonswap(fields.number("gamma")?),
+            };
+            let sea = IrregularSea {
+                shape,
+                significant_height_m: fields.number("hs")?,
+                peak_period_s: fields.number("tp")?,
+                seed: fields.count("seed")?,
+                components: usize::try_from(fields.count("components")?).unwrap_or(usize::MAX),
+            };
+            Ok((Water::Sea(sea), heading(fields)?))
+        }
+    }
+}
+
+impl SpectrumShape {
+    /// In words.
+    pub fn words(self) -> String {
+        match self {
+            Self::Jonswap(gamma) => format!("JONSWAP, γ = {gamma}"),
+            Self::PiersonMoskowitz => "Pierson-Moskowitz".to_owned(),
+        }
+    }
+}
+
+impl Wave {
+    /// Angular frequency ω = 2π/T \[rad/s\].
+    pub fn omega_rad_s(&self) -> f64 {
+        2.0 * PI / self.period_s
+    }
+}

@@ -1,0 +1,162 @@
+//! Forces and tensions against independent computations, and several lines along a run.
+
+use snapload::{Impact, Playback, State};
+use snapload_structure::{Prepared, SnapLaw, Structure, assess};
+use std::f64::consts::PI;
+
+const EXAMPLE: &str = include_str!("../../../docs/examples/cylinder.toml");
+
+/// The force against differences of the velocity potential, φ = (g A/ω) cosh k(z + d)/cosh kd sin(kx − ωt + π/2) of a
+/// wave to +x, and its mirror image: right side up, right phase, right sign.
+#[test]
+fn wave_force_follows_from_the_potential() {
+    for (direction, side) in [("+x", 1.0), ("-x", -1.0)] {
+        let text = EXAMPLE.replace("[wave]", &format!("[wave]\ndirection = \"{direction}\""));
+        let prepared = Prepared::new(Structure::parse("case", &text).unwrap()).unwrap();
+        let (g, d, z) = (9.806_65, 10.0, prepared.rest.place_m[1]);
+        let omega = 2.0 * PI / 6.0;
+        let k = snapload_structure::wave_number(omega, d, g);
+        let potential = |x: f64, z: f64, t: f64| {
+            g / omega * (k * (z + d)).cosh() / (k * d).cosh()
+                * (k * side * x - omega * t + PI / 2.0).sin()
+        };
+        let h = 1e-3;
+        let velocity = |t: f64| {
+            [
+                (potential(h, z, t) - potential(-h, z, t)) / (2.0 * h),
+                (potential(0.0, z + h, t) - potential(0.0, z - h, t)) / (2.0 * h),
+            ]
+        };
+        // ρV (1 + C_a), with the numbers of the file.
+        let inertia = 1025.0 * 141.37 + 144_904.0;
+        for t in [0.0, 0.7, 1.9, 3.3, 5.1] {
+            let (ahead, behind) = (velocity(t + h), velocity(t - h));
+            let force = prepared.model.wave_force_n(t);
+            for i in 0..2 {
+                let expected = inertia * (ahead[i] - behind[i]) / (2.0 * h);
+                assert!(
+                    (force[i] - expected).abs() < 2.0,
+                    "{direction} {t}: {force:?} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// The peak by energy against the motion of the body on a spring, in small steps: a rigid body, struck off its centre.
+#[test]
+fn energy_peak_is_that_of_a_body_on_a_spring() {
+    let mut structure = Structure::parse("case", EXAMPLE).unwrap();
+    // So stiff that the body hardly moves while the line stretches.
+    structure.lines[0].stiffness_n = Some(1e12);
+    let prepared = Prepared::new(structure).unwrap();
+    let (mass, inertia) = (
+        prepared.structure.moving_mass_kg(),
+        prepared.structure.body.moment_of_inertia_kg_m2,
+    );
+    let scales = prepared.model.scales;
+    let law = SnapLaw::new(&prepared.structure, &prepared.rest, &prepared.model);
+    // At rest line 1 is closed; the body comes with some velocity that closes it.
+    let before = State {
+        vx: -0.2,
+        vy: -0.1,
+        vtheta: 0.3,
+        ..State::default()
+    };
+    let cable = &prepared.model.system.cables[0];
+    let v_n = cable.normal(&before).velocity(&before);
+    assert!(v_n > 0.0);
+    let impact = Impact {
+        t: 0.0,
+        cable: 0,
+        v_n,
+        impulse: 0.0,
+        energy_lost: 0.0,
+        before,
+        after: before,
+    };
+    let snap = law.snap(&prepared.model.system, &impact);
+
+    let line = &prepared.structure.lines[0];
+    let rate = 1e12 / line.length_m;
+    let [x0, z0] = prepared.rest.place_m;
+    let position = prepared.structure.body.position_m;
+    let arm = [
+        line.fairlead_m[0] - position[0],
+        line.fairlead_m[1] - position[1],
+    ];
+    let speed = scales.speed_m_s();
+    // In SI: z up, θ counter-clockwise.
+    let (mut place, mut velocity) = (
+        [x0, z0, 0.0],
+        [
+            before.vx * speed,
+            -before.vy * speed,
+            -before.vtheta / scales.time_s,
+        ],
+    );
+    let (dt, mut peak) = (1e-7, 0.0_f64);
+    for _ in 0..40_000 {
+        let (s, c) = place[2].sin_cos();
+        let lever = [arm[0] * c - arm[1] * s, arm[0] * s + arm[1] * c];
+        let span = [
+            place[0] + lever[0] - line.anchor_m[0],
+            place[1] + lever[1] - line.anchor_m[1],
+        ];
+        let distance = span[0].hypot(span[1]);
+        let tension = (rate * (distance - line.length_m)).max(0.0);
+        peak = peak.max(tension);
+        let pull = [-tension * span[0] / distance, -tension * span[1] / distance];
+        let moment = lever[0] * pull[1] - lever[1] * pull[0];
+        let acceleration = [pull[0] / mass, pull[1] / mass, moment / inertia];
+        for i in 0..3 {
+            velocity[i] += dt * acceleration[i];
+            place[i] += dt * velocity[i];
+        }
+    }
+    let estimate = snap.energy_peak_n.unwrap() - prepared.rest.tension_n[0];
+    assert!((estimate / peak - 1.0).abs() < 2e-3, "{estimate} {peak}");
+}
+
+/// Four lines that are not symmetric, in waves: no line is ever longer than it is, and what is reported is of each.
+#[test]
+fn four_lines_are_never_longer_than_they_are() {
+    let text = "[body]\nmass = 72452\ndisplaced_volume = 141.37\nwidth = 3\nposition = [0, -4]\n\
+        [site]\ndepth = 12\n[wave]\nheight = 2\nperiod = 6.5\n[run]\nrestitution = 0.3\nduration = 60\ntransient = 0\n\
+        [[line]]\nanchor = [6, -12]\nfairlead = [1.2, -4.9]\nlength = 8.7\ntype = \"stud chain\"\ndiameter = 0.04\n\
+        [[line]]\nanchor = [3, -12]\nfairlead = [0.8, -5.2]\nlength = 7.3\ntype = \"polyester\"\ndiameter = 0.08\n\
+        [[line]]\nanchor = [-4, -12]\nfairlead = [-1, -5.1]\nlength = 7.6\ntype = \"nylon\"\ndiameter = 0.1\n\
+        [[line]]\nanchor = [-7, -12]\nfairlead = [-1.4, -4.5]\nlength = 9.5\nspring_rate = 2e6\n";
+    let assessment = assess(Structure::parse("four", text).unwrap(), 2, || {}).unwrap();
+    let scales = assessment.prepared.model.scales;
+    let structure = &assessment.prepared.structure;
+    let mut playback = Playback::new(&assessment.run);
+    for look in 0..=5000 {
+        let motion = playback.at(assessment.run.end().t * f64::from(look) / 5000.0);
+        let [x, z] = scales.to_si([motion.state.x, motion.state.y]);
+        let (s, c) = (-motion.state.theta).sin_cos();
+        for line in &structure.lines {
+            let arm = [line.fairlead_m[0], line.fairlead_m[1] + 4.0];
+            let at = [x + arm[0] * c - arm[1] * s, z + arm[0] * s + arm[1] * c];
+            let distance = (at[0] - line.anchor_m[0]).hypot(at[1] - line.anchor_m[1]);
+            assert!(
+                distance <= line.length_m + 1e-7,
+                "{distance} {}",
+                line.length_m
+            );
+        }
+    }
+    assert_eq!(assessment.outcome.lines.len(), 4);
+    assert!(
+        assessment
+            .outcome
+            .lines
+            .iter()
+            .map(|line| line.snaps)
+            .sum::<u64>()
+            > 10
+    );
+    let utilisations = assessment.outcome.utilisations(structure);
+    assert!(utilisations[..3].iter().all(Option::is_some) && utilisations[3].is_none());
+    assert_eq!(assessment.neighbours.len(), 2);
+}
