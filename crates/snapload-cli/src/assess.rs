@@ -2,7 +2,7 @@
 use crate::assess_json::report;
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
-use crate::json::{Json, refuse_directory};
+use crate::json::{Json, room_of};
 use crate::progress::Progress;
 use crate::stage::Stage;
 use snapload_structure::{Assessment, Entries, Structure, Water, assess, end_words, note};
@@ -101,16 +101,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let json = Json::open(&mut stage, args.json.as_deref())?;
     let page = match &args.out {
         None => None,
-        Some(path) => {
-            refuse_directory(path)?;
-            let parent = path
-                .parent()
-                .filter(|parent| !parent.as_os_str().is_empty());
-            Some((
-                stage.create_and_open(parent.unwrap_or(Path::new(".")))?,
-                path.clone(),
-            ))
-        }
+        Some(path) => Some((room_of(&mut stage, path)?, path.clone())),
     };
     let progress = Mutex::new(Progress::new("running", f64::from(args.neighbours) + 1.0));
     let done = AtomicU64::new(0);

@@ -7,12 +7,9 @@ use snapload_report::Trusted;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What is uncertain, as given on the command line.
+/// What counts as known, as given on the command line.
 #[derive(clap::Args)]
-pub(crate) struct DoubtArgs {
-    /// How far every start value may be off, or one key; may be repeated
-    #[arg(long, value_name = "SIZE|KEY=SIZE", allow_negative_numbers = true)]
-    uncertainty: Vec<String>,
+pub(crate) struct ToleranceArgs {
     /// Error of state and time above which a result counts as not known
     #[arg(
         long,
@@ -21,6 +18,29 @@ pub(crate) struct DoubtArgs {
         allow_negative_numbers = true
     )]
     tolerance: f64,
+}
+
+impl ToleranceArgs {
+    /// Reads it.
+    pub(crate) fn read(&self) -> Result<f64, Failure> {
+        let tolerance = self.tolerance;
+        if tolerance > 0.0 && tolerance.is_finite() {
+            return Ok(tolerance);
+        }
+        Err(Failure::BadInput(format!(
+            "--tolerance {tolerance}: allowed is a number above 0, such as 1e-3"
+        )))
+    }
+}
+
+/// What is uncertain, as given on the command line.
+#[derive(clap::Args)]
+pub(crate) struct DoubtArgs {
+    /// How far every start value may be off, or one key; may be repeated
+    #[arg(long, value_name = "SIZE|KEY=SIZE", allow_negative_numbers = true)]
+    uncertainty: Vec<String>,
+    #[command(flatten)]
+    tolerance: ToleranceArgs,
     /// Which neighbours an ensemble draws
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
@@ -29,14 +49,8 @@ pub(crate) struct DoubtArgs {
 impl DoubtArgs {
     /// Reads them and checks them against a case.
     pub(crate) fn read(&self, case: &Case) -> Result<Doubt, Failure> {
-        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
-            return Err(Failure::BadInput(format!(
-                "--tolerance {}: allowed is a number above 0, such as 1e-3",
-                self.tolerance
-            )));
-        }
         let mut doubt = Doubt {
-            tolerance: self.tolerance,
+            tolerance: self.tolerance.read()?,
             ..Doubt::default()
         };
         for text in &self.uncertainty {

@@ -80,6 +80,15 @@ pub(crate) fn to_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result
     writeln!(out)
 }
 
+/// Opens the directory in which a file is to be written, and creates it where it is absent.
+pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
+    refuse_directory(path)?;
+    let parent = path
+        .parent()
+        .filter(|parent| !parent.as_os_str().is_empty());
+    stage.create_and_open(parent.unwrap_or(Path::new(".")))
+}
+
 /// Says so where a file is to be written and a directory stands.
 pub(crate) fn refuse_directory(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {

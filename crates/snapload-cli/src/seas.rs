@@ -1,7 +1,7 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
 use crate::assess::{StructureArgs, told};
 use crate::failure::{Failure, print};
-use crate::json::{Json, refuse_directory};
+use crate::json::{Json, room_of};
 use crate::progress::Counter;
 use crate::stage::Stage;
 use serde_json::{Value, json};
@@ -9,7 +9,7 @@ use snapload_structure::{
     Estimate, Gumbel, SeaOutcome, Seas, Water, end_words, note, quantile, seas,
 };
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -55,15 +55,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                     path.display()
                 )));
             }
-            refuse_directory(path)?;
-            let parent = path
-                .parent()
-                .filter(|parent| !parent.as_os_str().is_empty());
-            Some((
-                stage.create_and_open(parent.unwrap_or(Path::new(".")))?,
-                path.clone(),
-                ending == Some("csv"),
-            ))
+            let room = room_of(&mut stage, path)?;
+            Some((room, path.clone(), ending == Some("csv")))
         }
     };
     let counter = Counter::new("records", u64::from(args.seeds), 0);

@@ -1,5 +1,6 @@
 //! `snapload verify`: the same run with many digits, to see where the ordinary one goes wrong.
 use crate::case_input::CaseArgs;
+use crate::doubt::ToleranceArgs;
 use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::progress::Progress;
@@ -30,14 +31,8 @@ pub(crate) struct Args {
     /// Decimal digits to compute with, at least
     #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_DIGITS)))]
     digits: u32,
-    /// Error of state and time above which the ordinary run counts as wrong
-    #[arg(
-        long,
-        value_name = "SIZE",
-        default_value_t = 1e-3,
-        allow_negative_numbers = true
-    )]
-    tolerance: f64,
+    #[command(flatten)]
+    tolerance: ToleranceArgs,
     /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
@@ -46,21 +41,14 @@ pub(crate) struct Args {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
-    if !(args.tolerance > 0.0 && args.tolerance.is_finite()) {
-        let tolerance = args.tolerance;
-        return Err(Failure::BadInput(format!(
-            "--tolerance {tolerance}: allowed is a number above 0, such as 1e-3"
-        )));
-    }
+    let tolerance = args.tolerance.read()?;
     let mut stage = Stage::default();
     let json = Json::open(&mut stage, args.json.as_deref())?;
     let mut progress = Progress::new("computing with many digits", input.case.parameters().t_end);
-    let found = verify(&input.case, args.digits, args.tolerance, |t| {
-        progress.show(t)
-    })
-    .map_err(Failure::bad_input)?;
+    let found = verify(&input.case, args.digits, tolerance, |t| progress.show(t))
+        .map_err(Failure::bad_input)?;
     drop(progress);
-    let answer = Verified::new(&input.case, found, args.tolerance);
+    let answer = Verified::new(&input.case, found, tolerance);
     if let Some(written) = json.write(stage, &answer.row())? {
         let mut text = answer.told(&case_in_words(&input.name, input.case.parameters()));
         for path in written {

@@ -320,7 +320,7 @@ impl Rider {
 }
 
 impl<L: Lane> Tally<L> {
-    /// Counts an impact, in the lanes that have one, as [`Norms::take`] and [`Simulation`] do.
+    /// Counts an impact, in the lanes that have one, as [`Outcome::take`] and [`Simulation`] do.
     #[inline(always)]
     fn take(&mut self, plain: L::Mask, second: L::Mask, v_n: L, t: L) {
         let cables = L::select(second, L::from_f64(2.0), L::ONE);

@@ -2,28 +2,14 @@
 
 mod common;
 
-use common::{number, oracle};
+use common::{keys_of_oracle, oracle};
 use serde_json::Value as Json;
-use snapload::{
-    Case, Dual, Impact, Parameters, Precise, Real, Simulation, State, Value, named_cases,
-};
+use snapload::{Case, Dual, Impact, Parameters, Precise, Real, Simulation, State, named_cases};
 
 type Digits = Precise<4>;
 
 fn case(oracle: &Json) -> Case {
-    let keys = [
-        ("r", "r"),
-        ("e", "e"),
-        ("a", "a"),
-        ("b", "b"),
-        ("f_o", "f0"),
-        ("nu", "nu"),
-        ("omega", "Om"),
-    ];
-    let given = keys.iter().filter_map(|(ours, theirs)| {
-        Some((*ours, Value::Number(number(oracle["params"].get(theirs)?))))
-    });
-    Parameters::from_entries(given)
+    Parameters::from_entries(keys_of_oracle(oracle))
         .and_then(Case::new)
         .expect("a legal case")
 }

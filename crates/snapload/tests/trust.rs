@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{number, oracle};
+use common::{keys_of_oracle, oracle};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
@@ -22,19 +22,7 @@ fn case(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Case {
 
 /// The oracle's case; it ends where sliding begins.
 fn of_oracle(truth: &Json) -> Case {
-    let keys = [
-        ("r", "r"),
-        ("e", "e"),
-        ("a", "a"),
-        ("b", "b"),
-        ("f_o", "f0"),
-        ("nu", "nu"),
-        ("omega", "Om"),
-    ];
-    let given = keys.into_iter().filter_map(|(ours, theirs)| {
-        Some((ours, Value::Number(number(truth["params"].get(theirs)?))))
-    });
-    case(given.chain([("stop_when_sliding", Value::Bool(true))]))
+    case(keys_of_oracle(truth).chain([("stop_when_sliding", Value::Bool(true))]))
 }
 
 /// The impact at which trust ends, counted from 1; where it does not within the part of the run that is

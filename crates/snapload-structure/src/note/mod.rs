@@ -39,37 +39,45 @@ pub fn page(
         Standing::Breaks | Standing::Exceeds => "fails",
         Standing::Unknown => "open",
     };
+    let body = html! {
+        header {
+            h1 { "Mooring note: " (name) }
+            p class={ "verdict " (class) } { (verdict.words) }
+            p { (assessment.trust_words()) }
+        }
+        (lines(assessment))
+        (warnings(assessment))
+        section {
+            h2 { "Motion and snaps" }
+            div.figures { @for (plot, words) in &plots { (figure(plot, words)) } }
+            (snaps(assessment))
+        }
+        @if let Some((picture, scan)) = &scanned {
+            section {
+                h2 { "Other waves" }
+                div.figures { (figure(picture, &scan.words())) }
+            }
+        }
+        (inputs_of(&assessment.prepared.structure))
+        (units(assessment))
+        (assumptions())
+    };
+    Ok(whole(&format!("Mooring note: {name}"), command, &body))
+}
+
+/// A page that needs nothing beside it.
+fn whole(title: &str, command: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Mooring note: " (name) }
+                title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
-                header {
-                    h1 { "Mooring note: " (name) }
-                    p class={ "verdict " (class) } { (verdict.words) }
-                    p { (assessment.trust_words()) }
-                }
-                (lines(assessment))
-                (warnings(assessment))
-                section {
-                    h2 { "Motion and snaps" }
-                    div.figures { @for (plot, words) in &plots { (figure(plot, words)) } }
-                    (snaps(assessment))
-                }
-                @if let Some((picture, scan)) = &scanned {
-                    section {
-                        h2 { "Other waves" }
-                        div.figures { (figure(picture, &scan.words())) }
-                    }
-                }
-                (inputs_of(&assessment.prepared.structure))
-                (units(assessment))
-                (assumptions())
+                (body)
                 footer {
                     p { "Made by snapload " (env!("CARGO_PKG_VERSION")) " with the command" }
                     p { code { (command) } }
@@ -77,7 +85,7 @@ pub fn page(
             }
         }
     };
-    Ok(page.into_string())
+    page.into_string()
 }
 
 fn figure(picture: &Picture, words: &str) -> Markup {

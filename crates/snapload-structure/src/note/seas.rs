@@ -1,9 +1,9 @@
 //! The page of many records of a sea.
 
-use super::{STYLE, assumptions, figure, inputs_of, plots};
+use super::{assumptions, figure, inputs_of, plots, whole};
 use crate::gumbel::Estimate;
 use crate::seas::Seas;
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 use snapload_figures::FigureError;
 
 /// The page. `command` is the command line that makes it again.
@@ -18,33 +18,18 @@ pub fn seas_page(name: &str, command: &str, seas: &Seas) -> Result<String, Figur
         Some(share) if share.count > 0 => "fails",
         Some(_) => "holds",
     };
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Sea note: " (name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header {
-                    h1 { "Sea note: " (name) }
-                    p class={ "verdict " (class) } { (seas.words()) }
-                }
-                (expected(seas))
-                section { h2 { "Distributions" } div.figures { @for (plot, words) in &plots { (figure(plot, words)) } } }
-                (lines(seas))
-                (inputs_of(&seas.prepared.structure))
-                (assumptions())
-                footer {
-                    p { "Made by snapload " (env!("CARGO_PKG_VERSION")) " with the command" }
-                    p { code { (command) } }
-                }
-            }
+    let body = html! {
+        header {
+            h1 { "Sea note: " (name) }
+            p class={ "verdict " (class) } { (seas.words()) }
         }
+        (expected(seas))
+        section { h2 { "Distributions" } div.figures { @for (plot, words) in &plots { (figure(plot, words)) } } }
+        (lines(seas))
+        (inputs_of(&seas.prepared.structure))
+        (assumptions())
     };
-    Ok(page.into_string())
+    Ok(whole(&format!("Sea note: {name}"), command, &body))
 }
 
 fn expected(seas: &Seas) -> Markup {
