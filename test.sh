@@ -38,6 +38,7 @@ mkdir -p "$target"
   }
 ) &
 installing=$!
+trap 'kill "$installing" 2>/dev/null || true' EXIT
 
 cargo fmt --all --check
 cargo clippy --workspace --all-targets --locked -- -D warnings
@@ -51,7 +52,5 @@ cp -f "$target/debug/lib_engine.so" python/snapload/_engine.abi3.so
 export PYTHONPATH=$PWD/python PYTHONDONTWRITEBYTECODE=1
 "$python" -m ruff check python docs/conf.py
 "$python" -m ruff format --check python docs/conf.py
-"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees" &
-manual=$!
+"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees"
 "$python" -m pytest
-wait "$manual"

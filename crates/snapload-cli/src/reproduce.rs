@@ -12,7 +12,7 @@ nothing else), the tables as CSV, and every figure as SVG with its data as CSV.
 Examples:
   snapload reproduce
       into the directory `reproduction`
-  snapload reproduce --out /tmp/chapter-6";
+  snapload reproduce --out chapter-6";
 
 /// Where to put it.
 #[derive(clap::Args)]

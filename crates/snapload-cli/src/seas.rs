@@ -30,7 +30,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
     /// How many records are run
-    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     seeds: u32,
     /// Write the answer as a page of HTML, or a row a record as CSV, by the name's ending
     #[arg(long, value_name = "FILE.html|FILE.csv")]

@@ -156,23 +156,22 @@ impl Prepared {
             .with_hint("leave start out to begin at rest in still water")
     }
 
-    /// Runs it in waves so many times as high and keeps what it comes to; none if `stop` says so on the way.
-    pub fn outcome(&self, height: f64, stop: impl Fn() -> bool) -> Option<Outcome> {
-        let mut simulation = self.begin(height).ok()?;
+    /// Runs it in waves so many times as high and keeps what it comes to.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if it can not start.
+    pub fn outcome(&self, height: f64) -> Result<Outcome, CaseError> {
+        let begun = self.begin(height);
+        let mut simulation = begun.map_err(|error| self.explain(error))?;
         let law = SnapLaw::new(&self.structure, &self.rest, &self.model);
         let mut tally = Tally::new(self, law);
-        let mut steps = 0u32;
         while let Some(step) = simulation.step() {
             tally.stretch(step.taut, step.t_end - step.t_start);
             for impact in step.impacts() {
                 tally.snap(&simulation, &impact);
             }
-            steps = steps.wrapping_add(1);
-            if steps.is_multiple_of(256) && stop() {
-                return None;
-            }
         }
-        Some(tally.finish(
+        Ok(tally.finish(
             simulation.time(),
             simulation.stop().unwrap_or(Stop::EndTime),
         ))
@@ -303,12 +302,12 @@ pub fn assess(
     };
     let neighbours = (0..count)
         .into_par_iter()
-        .filter_map(|index| {
-            let outcome = prepared.outcome(1.0 + NEIGHBOUR * side(index), || false);
+        .map(|index| {
+            let outcome = prepared.outcome(1.0 + NEIGHBOUR * side(index));
             watch();
             outcome
         })
-        .collect();
+        .collect::<Result<_, _>>()?;
     let mut assessment = Assessment {
         warnings,
         run,

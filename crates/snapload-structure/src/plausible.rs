@@ -150,11 +150,11 @@ pub fn warnings(structure: &Structure, z_m: f64) -> Vec<Warning> {
     }
     let stroke = wave.a_x_m_s2 / (wave.omega_rad_s * wave.omega_rad_s);
     let keulegan = 2.0 * PI * stroke / size;
-    if keulegan > 5.0 {
+    if keulegan > 5.0 && structure.body.drag_area_m2 == 0.0 {
         warn(
             "inertia (Keulegan-Carpenter)",
             format!(
-                "KC = {keulegan:.1} is above 5: drag, which is left out, is no longer small beside the inertia force"
+                "KC = {keulegan:.1} is above 5: drag is no longer small beside the inertia force, and drag_area is not given"
             ),
         );
     }

@@ -4,8 +4,8 @@ use crate::assess::{Outcome, Prepared, quantile};
 use crate::gumbel::Gumbel;
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use rayon::prelude::*;
-use snapload::CaseError;
 use snapload::analysis::Share;
+use snapload::{CaseError, Stop};
 
 /// What one record comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,15 +38,14 @@ pub fn seas(structure: Structure, count: u32, watch: impl Fn() + Sync) -> Result
     let prepared = Prepared::new(structure)?;
     let records = (0..u64::from(count))
         .into_par_iter()
-        .filter_map(|index| {
+        .map(|index| {
             let seed = sea.seed + index;
-            let outcome = prepared
-                .in_sea(IrregularSea { seed, ..sea })
-                .outcome(1.0, || false)?;
+            let record = prepared.in_sea(IrregularSea { seed, ..sea });
+            let outcome = record.outcome(1.0)?;
             watch();
-            Some(SeaOutcome { seed, outcome })
+            Ok(SeaOutcome { seed, outcome })
         })
-        .collect();
+        .collect::<Result<_, CaseError>>()?;
     Ok(Seas { prepared, records })
 }
 
@@ -87,6 +86,14 @@ impl Seas {
         self.in_three_hours(&self.speeds_m_s())
     }
 
+    /// Records that ended before their time, of whatever reason.
+    fn cut_short(&self) -> usize {
+        self.records
+            .iter()
+            .filter(|record| record.outcome.stop != Stop::EndTime)
+            .count()
+    }
+
     /// Records in which the body turned over or touched the floor.
     fn exceeding(&self) -> usize {
         self.records
@@ -99,7 +106,7 @@ impl Seas {
     fn in_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
         let snapping = largest.iter().filter(|value| **value > 0.0).count();
         let judged = self.prepared.structure.duration_s - self.prepared.structure.transient_s;
-        if judged <= 0.0 || snapping < largest.len() || self.exceeding() > 0 {
+        if judged <= 0.0 || snapping < largest.len() || self.cut_short() > 0 {
             return None;
         }
         Gumbel::fit(largest).map(|fit| fit.over_times(THREE_HOURS_S / judged))
@@ -187,6 +194,12 @@ impl Seas {
                 "In {} of {} records the body turns over or touches the floor; a distribution of the largest tension is therefore not given.",
                 self.exceeding(),
                 self.records.len()
+            ),
+            None if self.cut_short() > 0 => format!(
+                "{} of {} records ended after more than run.max_snaps = {} snaps, before their time; a distribution of the largest tension is therefore not given.",
+                self.cut_short(),
+                self.records.len(),
+                self.prepared.structure.max_snaps
             ),
             None if self.speeds_m_s().iter().all(|speed| *speed == 0.0) => {
                 "No line snaps in any of the records.".to_owned()

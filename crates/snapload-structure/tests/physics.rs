@@ -6,12 +6,18 @@ use std::f64::consts::PI;
 
 const EXAMPLE: &str = include_str!("../../../docs/examples/cylinder.toml");
 
-/// The force against differences of the velocity potential, φ = (g A/ω) cosh k(z + d)/cosh kd sin(kx − ωt + π/2) of a
-/// wave to +x, and its mirror image: right side up, right phase, right sign.
+/// Force and drag against differences of the velocity potential,
+/// φ = (g A/ω) cosh k(z + d)/cosh kd sin(kx − ωt + π/2) of a wave to +x, and its mirror image: right side up, right
+/// phase, right sign.
 #[test]
-fn wave_force_follows_from_the_potential() {
+fn wave_force_and_drag_follow_from_the_potential() {
     for (direction, side) in [("+x", 1.0), ("-x", -1.0)] {
-        let text = EXAMPLE.replace("[wave]", &format!("[wave]\ndirection = \"{direction}\""));
+        let text = EXAMPLE
+            .replace("[wave]", &format!("[wave]\ndirection = \"{direction}\""))
+            .replace(
+                "[body]",
+                "[body]\ndrag_area = 60\nlinear_damping = 5e3\nturning_damping = 7e4",
+            );
         let prepared = Prepared::new(Structure::parse("case", &text).unwrap()).unwrap();
         let (g, d, z) = (9.806_65, 10.0, prepared.rest.place_m[1]);
         let omega = 2.0 * PI / 6.0;
@@ -29,7 +35,31 @@ fn wave_force_follows_from_the_potential() {
         };
         // ρV (1 + C_a), with the numbers of the file.
         let inertia = 1025.0 * 141.37 + 144_904.0;
+        let scales = prepared.model.scales;
+        let drag = prepared.model.system.drag.as_ref().expect("it resists");
+        // Up at 0.2 m/s, to the left at 0.3, and turning; in the engine's picture y points down.
+        let (v, turning) = ([-0.3, 0.2], 0.1);
+        let state = State {
+            vx: v[0] / scales.speed_m_s(),
+            vy: -v[1] / scales.speed_m_s(),
+            vtheta: turning * scales.time_s,
+            ..State::default()
+        };
         for t in [0.0, 0.7, 1.9, 3.3, 5.1] {
+            let water = velocity(t);
+            let u = [water[0] - v[0], water[1] - v[1]];
+            let factor = 5e3 + 0.5 * 1025.0 * 60.0 * u[0].hypot(u[1]);
+            let [x, y, theta] = drag.at(t / scales.time_s, &state);
+            for (found, expected) in [(x, u[0]), (-y, u[1])] {
+                let (found, expected) = (scales.force_n * found, factor * expected);
+                assert!(
+                    (found - expected).abs() < 0.1,
+                    "{direction} {t}: {found} {expected}"
+                );
+            }
+            let inertia = prepared.structure.body.moment_of_inertia_kg_m2;
+            let moment = inertia * theta / scales.time_s.powi(2);
+            assert!((moment + 7e4 * turning).abs() < 1e-6, "{moment}");
             let (ahead, behind) = (velocity(t + h), velocity(t - h));
             let force = prepared.model.wave_force_n(t);
             for i in 0..2 {

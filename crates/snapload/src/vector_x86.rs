@@ -1,8 +1,8 @@
 //! Vectors in the registers of x86 processors: four doubles with AVX2, eight with AVX-512.
 //!
-//! `unsafe` here says only that the processor has the instructions. The proof is one for all of it: no
-//! function of these types is called but from the functions in [`crate::lanes`] that are compiled
-//! for these instructions, and those run only where the processor was asked for them.
+//! `unsafe` here says only that the processor has the instructions. The proof is one for all of it: a value of these
+//! types exists only in a fleet of [`crate::lanes`], and the two functions there that make such fleets ask the
+//! processor first. (That most of it is compiled with the instructions enabled is for speed.)
 #![expect(unsafe_code, reason = "the instructions of a processor; see above")]
 
 use super::{Bits, Vector};

@@ -60,7 +60,7 @@ pub fn page(
         }
         (inputs_of(&assessment.prepared.structure))
         (units(assessment))
-        (assumptions())
+        (assumptions(&assessment.prepared.structure))
     };
     Ok(whole(&format!("Mooring note: {name}"), command, &body))
 }
@@ -221,6 +221,7 @@ fn inputs_of(structure: &Structure) -> Markup {
             "Moment of inertia",
             format!("{:.0} kg m²", body.moment_of_inertia_kg_m2),
         ),
+        ("Drag and damping", resistance(structure)),
         (
             "Drawn with the centre at",
             format!("{} m", place(body.position_m)),
@@ -237,8 +238,17 @@ fn inputs_of(structure: &Structure) -> Markup {
             "Coefficient of restitution",
             structure.restitution.to_string(),
         ),
-        ("Time computed", format!("{:.0} s", structure.duration_s)),
+        (
+            "Time computed",
+            format!(
+                "{:.0} s, of which the first {:.0} s are not judged",
+                structure.duration_s, structure.transient_s
+            ),
+        ),
     ];
+    if let Some(start) = structure.start_m {
+        rows.push(("Begins at rest at", format!("{} m", place(start))));
+    }
     for line in &structure.lines {
         let own = |label: &str, value: Option<f64>, unit: &str, scale: f64| {
             value.map_or(format!("{label} not known"), |value| {
@@ -352,7 +362,32 @@ fn units(assessment: &Assessment) -> Markup {
     }
 }
 
-fn assumptions() -> Markup {
+/// What the water does to a body that moves through it.
+fn resistance(structure: &Structure) -> String {
+    let body = &structure.body;
+    let parts = [
+        ("C_d A =", body.drag_area_m2, "m²"),
+        ("linear", body.linear_damping_n_s_m, "N s/m"),
+        ("turning", body.turning_damping_n_m_s, "N m s"),
+    ];
+    let given: Vec<String> = parts
+        .into_iter()
+        .filter(|(_, value, _)| *value > 0.0)
+        .map(|(name, value, unit)| format!("{name} {value} {unit}"))
+        .collect();
+    if given.is_empty() {
+        "none".to_owned()
+    } else {
+        given.join(", ")
+    }
+}
+
+fn assumptions(structure: &Structure) -> Markup {
+    let drag = if resistance(structure) == "none" {
+        "neither drag nor damping"
+    } else {
+        "drag or damping only as given above, and none"
+    };
     html! {
         section {
             h2 { "Assumptions" }
@@ -361,8 +396,7 @@ fn assumptions() -> Markup {
                 li { "Lines are inextensible and massless until they snap. A snap takes no time; the body loses part of its closing speed \
                       by the coefficient of restitution." }
                 li { "Linear waves. The force is that of Froude and Krylov with added mass, ρV(1 + C" sub { "a" } ") times the acceleration \
-                      the water would have at the place of rest: it depends on time alone, not on where the body has moved, and there is \
-                      neither drag nor damping by waves that the body makes." }
+                      the water would have at the place of rest: it depends on time alone, not on where the body has moved, and there is " (drag) " by waves that the body makes." }
                 li { "An inextensible line gives an impulse, never a force. The snap tension is therefore estimated, by energy as \
                       T" sub { "0" } " + v √(k M/w) and for the first instant as v √(EA μ), with v the closing speed, M/w the mass the line has to \
                       stop, T" sub { "0" } " its tension at rest, k = EA/length, μ its mass per length." }

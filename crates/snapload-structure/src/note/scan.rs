@@ -71,7 +71,7 @@ fn one(structure: &Structure, wave: Wave) -> Option<f64> {
         ..structure.clone()
     };
     let prepared = Prepared::new(changed).ok()?;
-    let outcome = prepared.outcome(1.0, || false)?;
+    let outcome = prepared.outcome(1.0).ok()?;
     if outcome.stop.exceeds() {
         return None;
     }

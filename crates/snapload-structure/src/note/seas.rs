@@ -27,7 +27,7 @@ pub fn seas_page(name: &str, command: &str, seas: &Seas) -> Result<String, Figur
         section { h2 { "Distributions" } div.figures { @for (plot, words) in &plots { (figure(plot, words)) } } }
         (lines(seas))
         (inputs_of(&seas.prepared.structure))
-        (assumptions())
+        (assumptions(&seas.prepared.structure))
     };
     Ok(whole(&format!("Sea note: {name}"), command, &body))
 }

@@ -1,9 +1,8 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound is
 //! reached (chapter 6.4.2), and every other one that reaches it.
 
-use super::many::share;
-use crate::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
-use rayon::prelude::*;
+use super::outcomes;
+use crate::{Case, CaseError, Outcome, Parameters, Stop, Value};
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,24 +89,14 @@ impl CriticalForce {
     /// A [`CaseError`] if the case is not legal.
     pub fn scan(parameters: &Parameters, scan: ForceScan) -> Result<Self, CaseError> {
         let amplitudes: Vec<f64> = scan.amplitudes().collect();
-        let chunks = amplitudes.par_chunks(share(amplitudes.len()));
-        let outcomes: Vec<Vec<Outcome>> = chunks
-            .map(|chunk| {
-                let case = |f_o: &f64| {
-                    Case::new(Parameters {
-                        f_o: *f_o,
-                        ..*parameters
-                    })
-                };
-                let cases: Vec<Case> = chunk.iter().map(case).collect::<Result<_, _>>()?;
-                Ok(Lanes::best().outcomes(&cases).0)
+        let case = |f_o: &f64| {
+            Case::new(Parameters {
+                f_o: *f_o,
+                ..*parameters
             })
-            .collect::<Result<_, CaseError>>()?;
-        let outcomes: Vec<(f64, Outcome)> = amplitudes
-            .iter()
-            .copied()
-            .zip(outcomes.into_iter().flatten())
-            .collect();
+        };
+        let cases: Vec<Case> = amplitudes.iter().map(case).collect::<Result<_, _>>()?;
+        let outcomes: Vec<(f64, Outcome)> = amplitudes.into_iter().zip(outcomes(&cases)).collect();
         let first = outcomes.iter().find(|(_, outcome)| outcome.exceeds());
         let exceeding = outcomes
             .chunk_by(|a, b| a.1.exceeds() == b.1.exceeds())
