@@ -6,11 +6,13 @@ mod cases;
 mod completions;
 mod critical;
 mod doubt;
+mod elastic;
 mod failure;
 mod interrupt;
 mod json;
 mod keys;
 mod merge;
+mod moordyn;
 mod pictures;
 mod progress;
 mod reproduce;
@@ -67,6 +69,10 @@ enum Verb {
     Assess(assess::Args),
     /// Run a structure in many records of an irregular sea: the distribution of snaps and tensions
     Seas(seas::Args),
+    /// Run a structure on lines that stretch, beside the same on lines that do not
+    Elastic(elastic::Args),
+    /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
+    Moordyn(moordyn::Args),
     /// List the built-in cases
     Cases,
     /// Explain the keys of a case: meaning, default, what is allowed
@@ -86,6 +92,8 @@ fn main() -> ExitCode {
         Verb::Reproduce(args) => reproduce::run(&args),
         Verb::Assess(args) => assess::run(&args),
         Verb::Seas(args) => seas::run(&args),
+        Verb::Elastic(args) => elastic::run(&args),
+        Verb::Moordyn(args) => moordyn::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
         Verb::Completions(args) => completions::run(&args),

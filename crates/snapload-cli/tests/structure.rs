@@ -143,3 +143,89 @@ fn the_keys_are_listed() {
                 .and(contains("kg/m^3")),
         );
 }
+
+/// Both models of a line beside each other: the first snap comes before any line has pulled, and is the same in both.
+#[test]
+fn elastic_runs_both_ways() {
+    let room = room();
+    let short = [
+        "--set",
+        "run.duration=3",
+        "--set",
+        "run.start=[0.3, -4.2]",
+        "--set",
+        "wave.height=1.5",
+    ];
+    snapload(room.path())
+        .args(["elastic", "cylinder.toml", "--out", "motion.csv"])
+        .args(["--every", "0.1", "--json", "both.json"])
+        .args(short)
+        .assert()
+        .success()
+        .stdout(contains("pulls of the lines that stretch").and(contains("motion.csv")));
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(room.path().join("both.json")).unwrap()).unwrap();
+    let (pull, snap) = (&json["pulls"][0], &json["inextensible"]["snaps"][0]);
+    assert_eq!(pull["line"], snap["line"]);
+    let near = |a: &serde_json::Value, b: &serde_json::Value| {
+        (a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 1e-8
+    };
+    assert!(near(&pull["from_s"], &snap["t_s"]) && near(&pull["speed_m_s"], &snap["speed_m_s"]));
+    assert!((json["end_s"].as_f64().unwrap() - 3.0).abs() < 1e-9);
+    let motion = fs::read_to_string(room.path().join("motion.csv")).unwrap();
+    assert!(motion.starts_with("t_s,x_m,z_m,theta_rad,tension_1_n,tension_2_n\n"));
+    assert!((25..=32).contains(&motion.lines().count()));
+    snapload(room.path())
+        .args(["elastic", "cylinder.toml", "--stiffer", "0"])
+        .assert()
+        .code(2)
+        .stderr(contains("a number from 1e-6 to 1e9"));
+}
+
+#[test]
+fn moordyn_files_are_written_and_read() {
+    let room = room();
+    snapload(room.path())
+        .args(["moordyn", "write", "cylinder.toml", "--out", "lines.txt"])
+        .assert()
+        .success()
+        .stdout(contains("lines.txt"));
+    snapload(room.path())
+        .args(["moordyn", "read", "lines.txt", "--out", "again.toml"])
+        .assert()
+        .success();
+    let verdict = |file: &str| {
+        let assert = snapload(room.path())
+            .args(["assess", file, "--json", "-", "--neighbours", "0"])
+            .args(["--set", "run.duration=60"])
+            .assert()
+            .success();
+        let json: serde_json::Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+        json["verdict"].clone()
+    };
+    assert_eq!(verdict("cylinder.toml"), verdict("again.toml"));
+    let text = fs::read_to_string(room.path().join("lines.txt")).unwrap();
+    let bare: String = text
+        .lines()
+        .filter(|line| !line.starts_with("snapload:"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    fs::write(room.path().join("bare.txt"), &bare).unwrap();
+    snapload(room.path())
+        .args(["moordyn", "read", "bare.txt"])
+        .assert()
+        .success()
+        .stdout(contains(
+            "# Still to be given: body.width, run.restitution.",
+        ));
+    fs::write(
+        room.path().join("off.txt"),
+        bare.replace("3  Fixed  -3.593  0", "3  Fixed  -3.593  8"),
+    )
+    .unwrap();
+    snapload(room.path())
+        .args(["moordyn", "read", "off.txt"])
+        .assert()
+        .code(2)
+        .stderr(contains("point 3, Y = 8").and(contains("one vertical plane")));
+}

@@ -91,6 +91,9 @@ pub struct ElasticRun {
 /// of when the force is back at zero: e = exp(−2ζ arccos ζ/sqrt(1 − ζ²)), with arcosh and ζ² − 1 beyond ζ = 1
 /// (Schwager & Pöschel, *Granular Matter* 9 (2007) 465, eq. 17 and 18, in which β/ω₀ is ζ).
 pub fn damping_ratio(restitution: f64) -> f64 {
+    if restitution >= 1.0 {
+        return 0.0;
+    }
     let rebound = |ratio: f64| {
         let root = (1.0 - ratio * ratio).abs().sqrt();
         let angle = if ratio < 1.0 {
@@ -264,6 +267,8 @@ struct Found {
     /// Lines that have just taken hold or let go, and whose force is zero but for rounding.
     fresh: TautSet,
     change: Option<Change>,
+    /// The state at the end of the latest step, as the integrator keeps none when it is looked on.
+    reached: [f64; 6],
 }
 
 /// Where a line took hold or let go, found on the dense output of a step.
@@ -323,7 +328,7 @@ impl Solout<f64, [f64; 6]> for Watch<'_, '_> {
         &mut self,
         now: f64,
         before: f64,
-        _: &[f64; 6],
+        reached: &[f64; 6],
         start: &[f64; 6],
         dense: &mut I,
         _: &mut Solution<f64, [f64; 6]>,
@@ -352,6 +357,7 @@ impl Solout<f64, [f64; 6]> for Watch<'_, '_> {
             (self.see)(self.stretch.begin + s, &state);
             last = s;
         }
+        self.found.reached = *reached;
         ControlFlag::Continue
     }
 }
@@ -395,6 +401,7 @@ pub fn run_elastic(
         let mut found = Found {
             fresh,
             change: None,
+            reached: state.components(),
         };
         let watch = Watch {
             stretch: &stretch,
@@ -409,17 +416,19 @@ pub fn run_elastic(
             .solout(watch)
             .method(method())
             .solve();
-        let solved = match found.change {
+        solved.map_err(|error| gave_up(&error))?;
+        let reached = match found.change {
             Some(Change {
                 s, from: (s0, y0), ..
-            }) if s > s0 => IVP::ode(&stretch, s0, s, y0).method(method()).solve(),
-            _ => solved,
+            }) if s > s0 => {
+                let again = IVP::ode(&stretch, s0, s, y0).method(method()).solve();
+                let again = again.map_err(|error| gave_up(&error))?;
+                again.y.last().copied().unwrap_or(y0)
+            }
+            Some(Change { from: (_, y0), .. }) => y0,
+            None => found.reached,
         };
-        let reached = match solved {
-            Ok(solution) => solution.y.last().map(|y| State::from_components(*y)),
-            Err(error) => return Err(gave_up(&error)),
-        };
-        let Some(reached) = reached else { break };
+        let reached = State::from_components(reached);
         (state, fresh) = (reached, found.fresh);
         let Some(Change { line, s, .. }) = found.change else {
             t = until;

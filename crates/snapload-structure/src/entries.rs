@@ -230,6 +230,38 @@ impl Entries {
         });
     }
 
+    /// Gives one key a value.
+    pub(crate) fn give(
+        &mut self,
+        table: &'static str,
+        index: usize,
+        key: &'static str,
+        value: Value,
+        origin: &str,
+    ) -> Result<(), CaseError> {
+        let table = table_named(table)?;
+        let path = path_of(table, index, key);
+        let key = table.key(&path, key)?;
+        let value = checked(key, &path, value)?;
+        self.put(table.name, index, key.name, value, origin.to_owned());
+        Ok(())
+    }
+
+    /// One line more; returns its index.
+    pub(crate) fn add_line(&mut self) -> usize {
+        self.lines += 1;
+        self.lines - 1
+    }
+
+    /// What is given for a key.
+    pub(crate) fn given(&self, table: &str, index: usize, key: &str) -> Option<&Value> {
+        let entry = self.entries.iter().find(|entry| {
+            let place = &entry.place;
+            place.table == table && place.index == index && place.key == key
+        });
+        entry.map(|entry| &entry.value)
+    }
+
     /// How many lines there are.
     pub(crate) fn lines(&self) -> usize {
         self.lines
@@ -278,12 +310,9 @@ impl Fields<'_> {
     fn value(&self, key: &str) -> Result<Option<Value>, CaseError> {
         let path = self.path(key);
         let described = table_named(self.table)?.key(&path, key)?;
-        let given = self.entries.entries.iter().find(|entry| {
-            let place = &entry.place;
-            place.table == self.table && place.index == self.index && place.key == key
-        });
+        let given = self.entries.given(self.table, self.index, key);
         Ok(match (given, described.need) {
-            (Some(entry), _) => Some(entry.value.clone()),
+            (Some(value), _) => Some(value.clone()),
             (None, Need::Number(number)) => Some(Value::Number(number)),
             (None, Need::Count(count)) => Some(Value::Number(count as f64)),
             (None, Need::Word(word)) => Some(Value::Word(word.to_owned())),

@@ -171,7 +171,27 @@ fn energy_is_kept_or_lost() {
         }
         let end = energy(&motion.end);
         assert!(end <= first + 1e-9, "{}", end - first);
+        // To the end, or to the quarter turn at which it stops.
+        assert!(
+            (motion.end_s - 20.0).abs() < 1e-9 || motion.end.theta.abs() >= 1.57,
+            "{} s",
+            motion.end_s
+        );
         assert!(motion.pulls.len() > 6, "{}", motion.pulls.len());
         assert_eq!(first - end > 1e-6, lost, "{}", first - end);
+    }
+}
+
+/// A line that nothing disturbs holds the body at rest, as long as asked: δ = T_0/k, all the time, and the run has no end
+/// before its own.
+#[test]
+fn a_body_at_rest_stays() {
+    let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
+    let motion = run(&prepared, &springs(&prepared, 1e3).expect("springs"));
+    assert!((motion.end_s - 30.0).abs() < 1e-9, "{} s", motion.end_s);
+    assert_eq!(motion.looks.len() / 100, 6, "{}", motion.looks.len());
+    for (line, at_rest) in prepared.rest.tension_n.iter().enumerate() {
+        let last = motion.looks.last().expect("looks").tension_n[line];
+        assert!((last / at_rest - 1.0).abs() < 1e-3, "{last} {at_rest}");
     }
 }

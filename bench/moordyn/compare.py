@@ -1,0 +1,278 @@
+"""Lines that stretch in snapload and in MoorDyn, side by side: bench/moordyn/run calls this with the program's path.
+
+Writes results.json beside it and the tables in docs/elastic.md.
+"""
+
+import contextlib
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+import moordyn
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+EXAMPLE = "docs/examples/cylinder.toml"
+PAGE = ROOT / "docs" / "elastic.md"
+
+# The example, let go off its place of rest, for the time of the first pulls.
+OFF_REST = ["run.start=[0.3,-4.2]", "run.duration=4"]
+STILL = [*OFF_REST, "wave.height=0", "run.restitution=1"]
+WAVE = [*OFF_REST, "wave.height=1.5", "run.restitution=1"]
+DAMPED = [*OFF_REST, "wave.height=1.5", "run.restitution=0.5"]
+LIGHT = ["line.mass_per_length=0.1"]
+
+Pull = tuple[int, float, float, float]  # line, from, to, largest tension
+
+
+def snapload(program: str, verb: list[str], sets: list[str], *more: str) -> str:
+    arguments = [part for item in sets for part in ("--set", item)]
+    command = [program, *verb, EXAMPLE, *arguments, *more]
+    return subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+
+def elastic(program: str, sets: list[str], stiffer: float = 1.0) -> dict:
+    return json.loads(snapload(program, ["elastic"], sets, "--stiffer", str(stiffer), "--json", "-"))
+
+
+@contextlib.contextmanager
+def silent():
+    """MoorDyn prints the time at every step, from C++."""
+    kept = os.dup(1), os.dup(2)
+    with open(os.devnull, "w") as nothing:
+        os.dup2(nothing.fileno(), 1)
+        os.dup2(nothing.fileno(), 2)
+        try:
+            yield
+        finally:
+            os.dup2(kept[0], 1)
+            os.dup2(kept[1], 2)
+
+
+class Pulls:
+    """Finds the pulls in tensions that come step by step."""
+
+    def __init__(self, lines: int, threshold: float) -> None:
+        self.now: list[list[float] | None] = [None] * lines
+        self.threshold, self.done = threshold, []
+
+    def see(self, t: float, dt: float, tensions: list[float]) -> None:
+        for line, tension in enumerate(tensions):
+            pull = self.now[line]
+            if tension > self.threshold:
+                if pull is None:
+                    self.now[line] = [t - dt, tension]
+                else:
+                    pull[1] = max(pull[1], tension)
+            elif pull is not None:
+                self.done.append((line + 1, pull[0], t, pull[1]))
+                self.now[line] = None
+
+    def all(self, end: float) -> list[Pull]:
+        left = [(i + 1, p[0], end, p[1]) for i, p in enumerate(self.now) if p is not None]
+        return sorted([*self.done, *left], key=lambda pull: pull[1])
+
+
+def option(text: str, key: str) -> float:
+    return float(next(line.split()[0] for line in text.splitlines() if line.split()[1:2] == [key]))
+
+
+def table(text: str, header: str) -> list[list[str]]:
+    block = re.split(r"-{3,} *" + header + r" *-{3,}\n", text)[1].split("---")[0]
+    return [line.split() for line in block.strip().splitlines()[2:]]
+
+
+def alone(text: str, end: float, dt: float) -> tuple[list[Pull], float]:
+    """MoorDyn moves the body by itself, in still water."""
+    lines = len(table(text, "LINES"))
+    with tempfile.TemporaryDirectory() as folder, silent():
+        file = Path(folder) / "lines.txt"
+        file.write_text(text)
+        system = moordyn.Create(str(file))
+        moordyn.Init(system, [], [])
+        handles = [moordyn.GetLine(system, i + 1) for i in range(lines)]
+        pulls, t = Pulls(lines, 1.0), 0.0
+        begin = time.process_time()
+        while t < end - dt / 2:
+            moordyn.Step(system, [], [], t, dt)
+            t += dt
+            pulls.see(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
+        took = time.process_time() - begin
+        moordyn.Close(system)
+    return pulls.all(end), took
+
+
+def water(depth: float, z: float, height: float, period: float, g: float) -> tuple[float, float, float]:
+    """ω, and the largest accelerations of the water in x and z by linear theory at the level z."""
+    omega = 2 * math.pi / period
+    k = omega**2 / g
+    for _ in range(100):  # Newton's method
+        tanh = math.tanh(k * depth)
+        k -= (g * k * tanh - omega**2) / (g * tanh + g * k * depth * (1 - tanh**2))
+    factor = omega**2 * height / 2 / math.sinh(k * depth)
+    return omega, factor * math.cosh(k * (z + depth)), factor * math.sinh(k * (z + depth))
+
+
+def coupled(text: str, end: float, dt: float, wave: tuple[float, float, float]) -> tuple[list[Pull], float]:
+    """MoorDyn has the lines, and a velocity Verlet scheme here moves the body in the wave."""
+    words = table(text, "BODIES")[0]
+    x, z = float(words[2]), float(words[4])
+    mass, inertia, volume, added = (float(words[i]) for i in (8, 10, 11, 13))
+    rho, g = option(text, "rho"), option(text, "g")
+    moving = mass + added * rho * volume
+    omega, a_x, a_z = wave
+    points = {row[0]: row for row in table(text, "POINTS")}
+    bound = [row[3] for row in table(text, "LINES")]
+    arms = [(float(points[p][2]), float(points[p][4])) for p in bound]
+    # The body is no object of the file any more; its points are moved instead.
+    text = re.sub(r"-+ BODIES -+\n(.*\n){3}", "", text)
+    for point, (a, b) in zip(bound, arms, strict=True):
+        row = points[point]
+        new = [point, "Coupled", str(x + a), "0", str(z + b), *row[5:]]
+        text = text.replace("  ".join(row), "  ".join(new))
+
+    def free(t: float) -> tuple[float, float]:
+        per = rho * volume * (1 + added) / moving
+        up = (rho * volume - mass) * g / moving
+        return per * a_x * math.cos(omega * t), up - per * a_z * math.sin(omega * t)
+
+    # Counter-clockwise with z up: x' = x cos θ − z sin θ, z' = x sin θ + z cos θ.
+    def ends(s: np.ndarray) -> tuple[list[float], list[float]]:
+        cosine, sine = math.cos(s[2]), math.sin(s[2])
+        place, speed = [], []
+        for a, b in arms:
+            u, w = a * cosine - b * sine, a * sine + b * cosine
+            place += [s[0] + u, 0.0, s[1] + w]
+            speed += [s[3] - w * s[5], 0.0, s[4] + u * s[5]]
+        return place, speed
+
+    with tempfile.TemporaryDirectory() as folder, silent():
+        file = Path(folder) / "lines.txt"
+        file.write_text(text)
+        system = moordyn.Create(str(file))
+        state = np.array([x, z, 0.0, 0.0, 0.0, 0.0])
+        moordyn.Init(system, *ends(state))
+        handles = [moordyn.GetLine(system, i + 1) for i in range(len(arms))]
+        pulls, t = Pulls(len(arms), 1e3), 0.0
+        acceleration = np.array([*free(0.0), 0.0])
+        begin = time.process_time()
+        while t < end - dt / 2:
+            place, speed = ends(state)
+            force = np.array(moordyn.Step(system, place, speed, t, dt))
+            state[:3] += dt * state[3:] + dt * dt / 2 * acceleration
+            t += dt
+            cosine, sine = math.cos(state[2]), math.sin(state[2])
+            f_x, f_z = force[0::3].sum(), force[2::3].sum()
+            turning = sum(
+                (a * cosine - b * sine) * force[3 * i + 2] - (a * sine + b * cosine) * force[3 * i]
+                for i, (a, b) in enumerate(arms)
+            )
+            u, w = free(t)
+            new = np.array([u + f_x / moving, w + f_z / moving, turning / inertia])
+            state[3:] += dt / 2 * (acceleration + new)
+            acceleration = new
+            pulls.see(t, dt, [moordyn.GetLineFairTen(line) for line in handles])
+        took = time.process_time() - begin
+        moordyn.Close(system)
+    return pulls.all(end), took
+
+
+def compare(name: str, program: str, sets: list[str], segments: int, dt: float, by_itself: bool) -> dict:
+    own = elastic(program, sets)
+    text = snapload(program, ["moordyn", "write"], sets, "--segments", str(segments))
+    end = float(next(s for s in sets if s.startswith("run.duration=")).split("=")[1])
+    height = float(next(s for s in sets if s.startswith("wave.height=")).split("=")[1])
+    rest = json.loads(snapload(program, ["assess"], sets, "--neighbours", "0", "--no-scan", "--json", "-"))
+    z = rest["rest"]["z_m"] if "rest" in rest else float("nan")
+    if by_itself:
+        found, took = alone(text, end, dt)
+    else:
+        wave = water(option(text, "WtrDpth"), z, height, 6.0, option(text, "g"))
+        found, took = coupled(text, end, dt, wave)
+    pulls = [(p["line"], p["from_s"], p["to_s"], p["peak_n"]) for p in own["pulls"]]
+    # One is paired with one, line by line, in the order in which they come; slivers of a step or two are none.
+    found = [pull for pull in found if pull[2] - pull[1] > 5 * dt]
+    rows = []
+    for line in {pull[0] for pull in pulls}:
+        ours, theirs = ([p for p in of if p[0] == line] for of in (pulls, found))
+        rows += [{"snapload": a, "moordyn": b} for a, b in zip(ours, theirs, strict=False)]
+    rows.sort(key=lambda row: row["snapload"][1])
+    return {
+        "name": name, "set": sets, "segments": segments, "step_s": dt, "alone": by_itself,
+        "dtM_s": option(text, "dtM"), "pulls": rows,
+        "counts": {"snapload": len(pulls), "moordyn": len(found)},
+        "seconds": {"snapload": own["took_s"], "moordyn": took},
+    }  # fmt: skip
+
+
+def convergence(program: str) -> list[dict]:
+    rows = []
+    sets = [*OFF_REST, "wave.height=1.5", "run.restitution=1"]
+    for stiffer in (1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6):
+        report = elastic(program, sets, stiffer)
+        snaps = report["inextensible"]["snaps"][:3]
+        off = [
+            (pull["from_s"] - snap["t_s"], pull["speed_m_s"] - snap["speed_m_s"], pull["line"] == snap["line"])
+            for pull, snap in zip(report["pulls"], snaps, strict=False)
+        ]
+        rows.append({"stiffer": stiffer, "off": off, "seconds": report["took_s"]})
+    return rows
+
+
+def markdown(results: dict) -> tuple[str, str]:
+    first = "| stiffness × | second snap: time, speed off by | third snap: time, speed off by | computed in |\n"
+    first += "| --- | --- | --- | --- |\n"
+    for row in results["convergence"]:
+        cells = [f"{t:+.1e} s, {v:+.1e} m/s" if same else "another line" for t, v, same in row["off"][1:3]]
+        first += f"| {row['stiffer']:g} | {' | '.join(cells)} | {1e3 * row['seconds']:.1f} ms |\n"
+    second = ""
+    for case in results["cases"]:
+        second += f"**{case['name']}** (steps of {case['step_s']:g} s, `dtM` {case['dtM_s']:g} s; computed in "
+        second += f"{1e3 * case['seconds']['snapload']:.1f} ms by snapload, {case['seconds']['moordyn']:.2f} s by MoorDyn; "
+        second += f"{case['counts']['snapload']} and {case['counts']['moordyn']} pulls)\n\n"
+        second += "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) | off by |\n"
+        second += "| --- | --- | --- | --- | --- | --- |\n"
+        for row in case["pulls"]:
+            (line, a0, a1, a), (_, b0, b1, b) = row["snapload"], row["moordyn"]
+            second += f"| {line} | {a0:.3f} to {a1:.3f} | {b0:.3f} to {b1:.3f} | {a / 1e3:.0f} | {b / 1e3:.0f} | "
+            second += f"{100 * (b / a - 1):+.1f} % |\n"
+        second += "\n"
+    return first, second
+
+
+def into_page(name: str, text: str) -> None:
+    page = PAGE.read_text()
+    pattern = rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)"
+    PAGE.write_text(re.sub(pattern, lambda m: m[1] + "\n" + text.strip() + "\n\n" + m[2], page, flags=re.DOTALL))
+
+
+def main() -> None:
+    program = sys.argv[1] if os.path.sep in sys.argv[1] else f"./{sys.argv[1]}"
+    program = str(Path(program).resolve())
+    results = {
+        "moordyn": version("moordyn"),
+        "convergence": convergence(program),
+        "cases": [
+            compare("Still water, a spring each, MoorDyn by itself", program, [*STILL, *LIGHT], 1, 2e-4, True),
+            compare("A wave, a spring each", program, [*WAVE, *LIGHT], 1, 2e-4, False),
+            compare("A wave, the chain in ten segments", program, WAVE, 10, 2e-4, False),
+            compare("A wave, a spring and damper each, e = 0.5", program, [*DAMPED, *LIGHT], 1, 2e-4, False),
+        ],
+    }
+    (HERE / "results.json").write_text(json.dumps(results, indent=1) + "\n")
+    if PAGE.exists():
+        for name, text in zip(("convergence", "moordyn"), markdown(results), strict=True):
+            into_page(name, text)
+    print("\n".join(markdown(results)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,133 @@
+//! `snapload moordyn`: a structure's case from a MoorDyn file, and for MoorDyn.
+use crate::assess::{StructureArgs, told};
+use crate::case_input::read_text;
+use crate::failure::{Failure, print};
+use crate::json::refuse_directory;
+use crate::stage::Stage;
+use clap::Subcommand;
+use snapload_structure::{Structure, moordyn};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+const EXAMPLES: &str = "\
+Examples:
+  snapload moordyn read lines.txt --set body.width=3 --set run.restitution=0.5 --out case.toml
+      a case of the file's body and lines, with what MoorDyn files do not have given by hand
+  snapload moordyn write docs/examples/cylinder.toml --out lines.txt
+      the example for MoorDyn: each line one segment, a spring with the damper of the restitution
+  snapload moordyn write cylinder.toml --segments 20 --out lines.txt
+      lines with mass, in twenty segments each";
+
+/// From MoorDyn or for it.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    way: Way,
+}
+
+#[derive(Subcommand)]
+enum Way {
+    /// Read a MoorDyn v2 input file whose body and lines lie in one vertical plane
+    #[command(after_help = EXAMPLES)]
+    Read(Read),
+    /// Write a structure's case as an input file of MoorDyn v2
+    #[command(after_help = EXAMPLES)]
+    Write(Write),
+}
+
+#[derive(clap::Args)]
+struct Read {
+    /// Input file of MoorDyn v2
+    #[arg(value_name = "FILE.txt")]
+    file: PathBuf,
+    /// Give or change a key, such as wave.height=2 or body.width=3; may be repeated
+    #[arg(long, value_name = "TABLE.KEY=VALUE")]
+    set: Vec<String>,
+    /// Write the case to a file; without it, to standard output
+    #[arg(long, value_name = "CASE.toml")]
+    out: Option<PathBuf>,
+}
+
+#[derive(clap::Args)]
+struct Write {
+    #[command(flatten)]
+    input: StructureArgs,
+    /// Segments of each line; with one it is a spring with a damper, with more it has mass along its length
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    segments: u32,
+    /// Write to a file; without it, to standard output
+    #[arg(long, value_name = "LINES.txt")]
+    out: Option<PathBuf>,
+}
+
+/// Does it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    match &args.way {
+        Way::Read(args) => read(args),
+        Way::Write(args) => write(args),
+    }
+}
+
+fn read(args: &Read) -> Result<(), Failure> {
+    let name = args.file.display().to_string();
+    let reading = moordyn::read(&name, &read_text(&args.file)?).map_err(Failure::bad_input)?;
+    let moordyn::Reading { mut entries, notes } = reading;
+    for set in &args.set {
+        entries.set(set).map_err(Failure::bad_input)?;
+    }
+    let missing = entries.missing();
+    if missing.is_empty() {
+        Structure::from_entries(&entries).map_err(Failure::bad_input)?;
+    }
+    let mut text = format!("# From {}, an input file of MoorDyn.\n", one_line(&name));
+    for note in &notes {
+        let _ = writeln!(text, "# {}", one_line(note));
+    }
+    if !missing.is_empty() {
+        let _ = writeln!(text, "# Still to be given: {}.", missing.join(", "));
+    }
+    let _ = write!(text, "\n{}", entries.to_toml());
+    let Some(path) = &args.out else {
+        return print(&text);
+    };
+    let mut said = told("written", &put(path, &text)?);
+    for note in &notes {
+        said += &told("note", note);
+    }
+    if !missing.is_empty() {
+        let words = format!(
+            "{}: MoorDyn files do not have them; write them into the case, or give them by --set",
+            missing.join(", ")
+        );
+        said += &told("to give", &words);
+    }
+    print(&said)
+}
+
+fn write(args: &Write) -> Result<(), Failure> {
+    let (name, structure) = args.input.read()?;
+    let text = moordyn::write(&name, &structure, args.segments)
+        .map_err(|error| Failure::BadInput(format!("{name}: {error}")))?;
+    match &args.out {
+        None => print(&text),
+        Some(path) => print(&told("written", &put(path, &text)?)),
+    }
+}
+
+/// Puts a text into a file, whole or not at all, and says where.
+fn put(path: &Path, text: &str) -> Result<String, Failure> {
+    refuse_directory(path)?;
+    let parent = path
+        .parent()
+        .filter(|parent| !parent.as_os_str().is_empty());
+    let mut stage = Stage::default();
+    let room = stage.create_and_open(parent.unwrap_or(Path::new(".")))?;
+    stage.write(room, path.to_owned(), |out| out.write_all(text.as_bytes()))?;
+    stage.commit()?;
+    Ok(path.display().to_string())
+}
+
+fn one_line(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control()).collect()
+}
