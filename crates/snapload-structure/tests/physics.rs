@@ -57,8 +57,8 @@ fn wave_force_and_drag_follow_from_the_potential() {
                     "{direction} {t}: {found} {expected}"
                 );
             }
-            let inertia = prepared.structure.body.moment_of_inertia_kg_m2;
-            let moment = inertia * theta / scales.time_s.powi(2);
+            let about = prepared.structure.body.moment_of_inertia_kg_m2;
+            let moment = about * theta / scales.time_s.powi(2);
             assert!((moment + 7e4 * turning).abs() < 1e-6, "{moment}");
             let (ahead, behind) = (velocity(t + h), velocity(t - h));
             let force = prepared.model.wave_force_n(t);
