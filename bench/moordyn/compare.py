@@ -90,7 +90,7 @@ def table(text: str, header: str) -> list[list[str]]:
     return [line.split() for line in block.strip().splitlines()[2:]]
 
 
-def alone(text: str, end: float, dt: float) -> tuple[list[Pull], float]:
+def alone(text: str, end: float, dt: float, threshold: float) -> tuple[list[Pull], float]:
     """MoorDyn moves the body by itself, in still water."""
     lines = len(table(text, "LINES"))
     with tempfile.TemporaryDirectory() as folder, silent():
@@ -99,7 +99,7 @@ def alone(text: str, end: float, dt: float) -> tuple[list[Pull], float]:
         system = moordyn.Create(str(file))
         moordyn.Init(system, [], [])
         handles = [moordyn.GetLine(system, i + 1) for i in range(lines)]
-        pulls, t = Pulls(lines, 1.0), 0.0
+        pulls, t = Pulls(lines, threshold), 0.0
         begin = time.process_time()
         while t < end - dt / 2:
             moordyn.Step(system, [], [], t, dt)
@@ -121,7 +121,9 @@ def water(depth: float, z: float, height: float, period: float, g: float) -> tup
     return omega, factor * math.cosh(k * (z + depth)), factor * math.sinh(k * (z + depth))
 
 
-def coupled(text: str, end: float, dt: float, wave: tuple[float, float, float]) -> tuple[list[Pull], float]:
+def coupled(
+    text: str, end: float, dt: float, threshold: float, wave: tuple[float, float, float]
+) -> tuple[list[Pull], float]:
     """MoorDyn has the lines, and a velocity Verlet scheme here moves the body in the wave."""
     words = table(text, "BODIES")[0]
     x, z = float(words[2]), float(words[4])
@@ -161,7 +163,7 @@ def coupled(text: str, end: float, dt: float, wave: tuple[float, float, float]) 
         state = np.array([x, z, 0.0, 0.0, 0.0, 0.0])
         moordyn.Init(system, *ends(state))
         handles = [moordyn.GetLine(system, i + 1) for i in range(len(arms))]
-        pulls, t = Pulls(len(arms), 1e3), 0.0
+        pulls, t = Pulls(len(arms), threshold), 0.0
         acceleration = np.array([*free(0.0), 0.0])
         begin = time.process_time()
         while t < end - dt / 2:
@@ -185,29 +187,43 @@ def coupled(text: str, end: float, dt: float, wave: tuple[float, float, float]) 
     return pulls.all(end), took
 
 
-def compare(name: str, program: str, sets: list[str], segments: int, dt: float, by_itself: bool) -> dict:
+def overlap(one: Pull, other: Pull) -> float:
+    return min(one[2], other[2]) - max(one[1], other[1]) if one[0] == other[0] else -math.inf
+
+
+def compare(
+    name: str,
+    program: str,
+    sets: list[str],
+    dt: float,
+    *,
+    segments: int = 1,
+    threshold: float = 1.0,
+    by_itself: bool = False,
+    finer: float = 1.0,
+) -> dict:
     own = elastic(program, sets)
     text = snapload(program, ["moordyn", "write"], sets, "--segments", str(segments))
+    inner = option(text, "dtM") / finer
+    text = re.sub(r"\S+(  dtM)", rf"{inner:.3g}\1", text)
     end = float(next(s for s in sets if s.startswith("run.duration=")).split("=")[1])
     height = float(next(s for s in sets if s.startswith("wave.height=")).split("=")[1])
     rest = json.loads(snapload(program, ["assess"], sets, "--neighbours", "0", "--no-scan", "--json", "-"))
     z = rest["rest"]["z_m"] if "rest" in rest else float("nan")
     if by_itself:
-        found, took = alone(text, end, dt)
+        found, took = alone(text, end, dt, threshold)
     else:
         wave = water(option(text, "WtrDpth"), z, height, 6.0, option(text, "g"))
-        found, took = coupled(text, end, dt, wave)
+        found, took = coupled(text, end, dt, threshold, wave)
     pulls = [(p["line"], p["from_s"], p["to_s"], p["peak_n"]) for p in own["pulls"]]
-    # One is paired with one, line by line, in the order in which they come; slivers of a step or two are none.
-    found = [pull for pull in found if pull[2] - pull[1] > 5 * dt]
     rows = []
-    for line in {pull[0] for pull in pulls}:
-        ours, theirs = ([p for p in of if p[0] == line] for of in (pulls, found))
-        rows += [{"snapload": a, "moordyn": b} for a, b in zip(ours, theirs, strict=False)]
-    rows.sort(key=lambda row: row["snapload"][1])
+    for ours in pulls:
+        theirs = max(found, key=lambda pull: overlap(ours, pull), default=None)
+        known = theirs is not None and overlap(ours, theirs) > 0
+        rows.append({"snapload": ours, "moordyn": theirs if known else None})
     return {
         "name": name, "set": sets, "segments": segments, "step_s": dt, "alone": by_itself,
-        "dtM_s": option(text, "dtM"), "pulls": rows,
+        "threshold_n": threshold, "dtM_s": option(text, "dtM"), "pulls": rows,
         "counts": {"snapload": len(pulls), "moordyn": len(found)},
         "seconds": {"snapload": own["took_s"], "moordyn": took},
     }  # fmt: skip
@@ -231,19 +247,24 @@ def markdown(results: dict) -> tuple[str, str]:
     first = "| stiffness × | second snap: time, speed off by | third snap: time, speed off by | computed in |\n"
     first += "| --- | --- | --- | --- |\n"
     for row in results["convergence"]:
-        cells = [f"{t:+.1e} s, {v:+.1e} m/s" if same else "another line" for t, v, same in row["off"][1:3]]
+        cells = [f"{t:+.1e} s, {v:+.1e} m/s" if same else "of another line" for t, v, same in row["off"][1:3]]
+        cells += ["not reached"] * (2 - len(cells))
         first += f"| {row['stiffer']:g} | {' | '.join(cells)} | {1e3 * row['seconds']:.1f} ms |\n"
     second = ""
     for case in results["cases"]:
         second += f"**{case['name']}** (steps of {case['step_s']:g} s, `dtM` {case['dtM_s']:g} s; computed in "
         second += f"{1e3 * case['seconds']['snapload']:.1f} ms by snapload, {case['seconds']['moordyn']:.2f} s by MoorDyn; "
-        second += f"{case['counts']['snapload']} and {case['counts']['moordyn']} pulls)\n\n"
+        second += f"{case['counts']['snapload']} and {case['counts']['moordyn']} pulls above {case['threshold_n'] / 1e3:g} kN)\n\n"
         second += "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) | off by |\n"
         second += "| --- | --- | --- | --- | --- | --- |\n"
         for row in case["pulls"]:
-            (line, a0, a1, a), (_, b0, b1, b) = row["snapload"], row["moordyn"]
-            second += f"| {line} | {a0:.3f} to {a1:.3f} | {b0:.3f} to {b1:.3f} | {a / 1e3:.0f} | {b / 1e3:.0f} | "
-            second += f"{100 * (b / a - 1):+.1f} % |\n"
+            line, a0, a1, a = row["snapload"]
+            second += f"| {line} | {a0:.3f} to {a1:.3f} | "
+            if row["moordyn"] is None:
+                second += f"none | {a / 1e3:.0f} | | |\n"
+                continue
+            _, b0, b1, b = row["moordyn"]
+            second += f"{b0:.3f} to {b1:.3f} | {a / 1e3:.0f} | {b / 1e3:.0f} | {100 * (b / a - 1):+.1f} % |\n"
         second += "\n"
     return first, second
 
@@ -261,10 +282,11 @@ def main() -> None:
         "moordyn": version("moordyn"),
         "convergence": convergence(program),
         "cases": [
-            compare("Still water, a spring each, MoorDyn by itself", program, [*STILL, *LIGHT], 1, 2e-4, True),
-            compare("A wave, a spring each", program, [*WAVE, *LIGHT], 1, 2e-4, False),
-            compare("A wave, the chain in ten segments", program, WAVE, 10, 2e-4, False),
-            compare("A wave, a spring and damper each, e = 0.5", program, [*DAMPED, *LIGHT], 1, 2e-4, False),
+            compare("Still water, a spring each, MoorDyn by itself", program, [*STILL, *LIGHT], 2e-4, by_itself=True),
+            compare("A wave, a spring each", program, [*WAVE, *LIGHT], 2e-4),
+            compare("The same with a tenth of MoorDyn's step", program, [*WAVE, *LIGHT], 1e-4, finer=10.0),
+            compare("A wave, the chain in ten segments", program, WAVE, 1e-4, segments=10, threshold=5e4),
+            compare("A wave, a spring and damper each, e = 0.5", program, [*DAMPED, *LIGHT], 1e-4),
         ],
     }
     (HERE / "results.json").write_text(json.dumps(results, indent=1) + "\n")

@@ -272,13 +272,12 @@ fn summary(name: &str, both: &Both, written: &[PathBuf]) -> String {
     };
     let e = structure.restitution;
     format!(
-        "{name}: {} lines {stiffer}, dampers for e = {e} (zeta = {:.3}), {:.6} s in {:.2} s of computing\n{text}",
+        "{name}: {} lines {stiffer}, dampers for e = {e} (zeta = {:.3}), {} s computed in {:.3} s\n{text}",
         structure.lines.len(),
         damping_ratio(e),
-        elastic.end_s,
+        (elastic.end_s * 1e3).round() / 1e3,
         both.elastic_took_s
     )
-    .replace(".000000 s in", " s in")
 }
 
 fn pull_words(pull: &Pull) -> String {

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 use snapload::analysis::{Trust, Witness};
-use snapload::{CaseError, Playback, Simulation, StartError, State, Stop, Trajectory};
+use snapload::{CaseError, Playback, Simulation, StartError, State, Step, Stop, Trajectory};
 
 /// An impact slower than this lets its line stay taut, in the engine's units (docs/model.md section 6).
 const V_STICK: f64 = 1e-6;
@@ -41,7 +41,7 @@ pub struct LineOutcome {
     pub speed_m_s: f64,
     /// The largest estimate of tension in a snap \[N\].
     pub peak_n: Option<f64>,
-    /// The largest tension while the line stays taut, where it was looked for \[N\].
+    /// The largest tension while the line stays taut \[N\].
     pub held_n: f64,
     /// The part of the whole time without tension.
     pub slack_fraction: f64,
@@ -166,7 +166,7 @@ impl Prepared {
         let law = SnapLaw::new(&self.structure, &self.rest, &self.model);
         let mut tally = Tally::new(self, law);
         while let Some(step) = simulation.step() {
-            tally.stretch(step.taut, step.t_end - step.t_start);
+            tally.stretch(&simulation, &step);
             for impact in step.impacts() {
                 tally.snap(&simulation, &impact);
             }
@@ -201,10 +201,17 @@ impl<'a> Tally<'a> {
         }
     }
 
-    fn stretch(&mut self, taut: snapload::TautSet, time: f64) {
+    fn stretch(&mut self, simulation: &Simulation, step: &Step) {
         for (line, slack) in self.slack.iter_mut().enumerate() {
-            if !taut.contains(line) {
-                *slack += time;
+            if !step.taut.contains(line) {
+                *slack += step.t_end - step.t_start;
+            }
+        }
+        let scales = &self.prepared.model.scales;
+        if step.t_end * scales.time_s >= self.prepared.structure.transient_s {
+            let tensions = simulation.largest_tensions(step);
+            for (line, tension) in self.lines.iter_mut().zip(tensions) {
+                line.held_n = line.held_n.max(tension * scales.force_n);
             }
         }
     }
@@ -277,7 +284,7 @@ pub fn assess(
     watch: impl Fn() + Sync,
 ) -> Result<Assessment, CaseError> {
     let prepared = Prepared::new(structure)?;
-    let warnings = warnings(&prepared.structure, prepared.rest.place_m[1]);
+    let warnings = warnings(&prepared.structure, &prepared.rest);
     let simulation = prepared
         .begin(1.0)
         .map_err(|error| prepared.explain(error))?;
@@ -287,14 +294,13 @@ pub fn assess(
     let mut snaps = Vec::new();
     let run = Trajectory::record_watched(simulation, |simulation, step| {
         witness.follow(simulation, step);
-        tally.stretch(step.taut, step.t_end - step.t_start);
+        tally.stretch(simulation, step);
         for impact in step.impacts() {
             snaps.push(tally.snap(simulation, &impact));
         }
     });
     watch();
-    let mut outcome = tally.finish(run.end().t, run.end().reason);
-    held(&prepared, &run, &mut outcome);
+    let outcome = tally.finish(run.end().t, run.end().reason);
     let count = if matches!(prepared.structure.water, Water::Still) {
         0
     } else {
@@ -329,20 +335,6 @@ fn side(index: u32) -> f64 {
     let mut generator = ChaCha8Rng::seed_from_u64(1);
     generator.set_stream(u64::from(index));
     (generator.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0
-}
-
-/// The largest tension of each line while it stays taut.
-fn held(prepared: &Prepared, run: &Trajectory, outcome: &mut Outcome) {
-    let mut playback = Playback::new(run);
-    for look in 0..=LOOKS {
-        let motion = playback.at(run.end().t * f64::from(look) / f64::from(LOOKS));
-        if motion.t * prepared.model.scales.time_s < prepared.structure.transient_s {
-            continue;
-        }
-        for (line, tension) in outcome.lines.iter_mut().zip(motion.tensions) {
-            line.held_n = line.held_n.max(tension * prepared.model.scales.force_n);
-        }
-    }
 }
 
 impl Assessment {

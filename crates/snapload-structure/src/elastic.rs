@@ -35,6 +35,9 @@ const LOOKS: u32 = 16;
 /// A force below zero by less than this, where a line has just taken hold or let go, is rounding.
 const NOISE: f64 = 1e-12;
 
+/// Less restitution takes a damper that is all there is of the line.
+const LEAST_RESTITUTION: f64 = 0.01;
+
 /// A line as spring and damper, in the engine's units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spring {
@@ -129,6 +132,13 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
     let Prepared {
         structure, model, ..
     } = prepared;
+    if structure.restitution < LEAST_RESTITUTION {
+        let shown = structure.restitution;
+        let allowed = format!("{LEAST_RESTITUTION} or more for lines that stretch");
+        return Err(CaseError::value("run.restitution", shown, allowed).with_hint(
+            "a damper for less pulls many times harder at first touch than the spring ever does",
+        ));
+    }
     let ratio = damping_ratio(structure.restitution);
     let rest = model.at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
     let unit = model.scales.force_n / model.scales.length_m;

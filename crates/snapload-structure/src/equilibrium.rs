@@ -62,7 +62,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         return Err(nowhere(structure));
     }
     let place_m = model.scales.to_si([best.x, best.y]);
-    let top = place_m[1] + structure.body.height_m / 2.0;
+    let top = place_m[1] + structure.body.half_height_m(best.theta);
     if top > 0.0 {
         let allowed = format!(
             "lines that hold the body under water; with these it rises until its top is {top:.2} m above the still water"

@@ -12,6 +12,8 @@ pub struct Gumbel {
     pub scale: f64,
     /// Size of the sample.
     pub count: usize,
+    /// ln k, for the largest of k as many as the sample's: the location moves on by α ln k.
+    pub log_times: f64,
 }
 
 /// A value with its standard error.
@@ -47,18 +49,24 @@ impl Gumbel {
             location: b0 - EULER * scale,
             scale,
             count,
+            log_times: 0.0,
         })
     }
 
     /// The value that a part `p` of all stays below, with the asymptotic standard error of this fit:
     ///
     /// ```text
-    /// x = ξ + α y,    var x = α²/n (1.1128 + 0.4574 y + 0.8046 y²),    y = −ln(−ln p)
+    /// x = ξ + α y,    var x = α²/n (1.1128 + 0.4574 y + 0.8046 y²),    y = −ln(−ln p) + ln k
     /// ```
     ///
     /// Source: J. R. M. Hosking, J. R. Wallis and E. F. Wood, *Technometrics* 27 (1985) 251, for shape 0.
     pub fn quantile(&self, p: f64) -> Estimate {
-        let y = reduced(p);
+        self.at(reduced(p))
+    }
+
+    /// The value at a reduced variate of the sample's own distribution, beyond ln k.
+    fn at(&self, y: f64) -> Estimate {
+        let y = y + self.log_times;
         let variance = 1.1128 + 0.4574 * y + 0.8046 * y * y;
         Estimate {
             value: self.location + self.scale * y,
@@ -66,20 +74,16 @@ impl Gumbel {
         }
     }
 
-    /// The expected value ξ + γα, whose estimate is the sample's mean.
+    /// The expected value, which is at y = γ + ln k.
     pub fn mean(&self) -> Estimate {
-        let deviation = self.scale * std::f64::consts::PI / 6.0_f64.sqrt();
-        Estimate {
-            value: self.location + EULER * self.scale,
-            error: deviation / (self.count as f64).sqrt(),
-        }
+        self.at(EULER)
     }
 
     /// The distribution of the largest over so many times the time, taken as independent: ξ + α ln(times).
     #[must_use]
     pub fn over_times(&self, times: f64) -> Self {
         Self {
-            location: self.location + self.scale * times.ln(),
+            log_times: self.log_times + times.ln(),
             ..*self
         }
     }
@@ -112,6 +116,7 @@ mod tests {
             location,
             scale,
             count,
+            log_times: 0.0,
         };
         for p in [0.1, 0.5, 0.9, 0.99] {
             let values: Vec<f64> = fits.iter().map(|fit| fit.quantile(p).value).collect();

@@ -1,5 +1,6 @@
 //! What can not be (errors), and what is outside the range in which the theory holds (warnings).
 
+use crate::equilibrium::Equilibrium;
 use crate::structure::{Structure, Water};
 use crate::wave::LinearWave;
 use snapload::CaseError;
@@ -75,12 +76,23 @@ pub(crate) fn check(structure: &Structure) -> Result<(), CaseError> {
     Ok(())
 }
 
-/// The rules of thumb that a structure breaks, as it rests at the level `z_m`.
-pub fn warnings(structure: &Structure, z_m: f64) -> Vec<Warning> {
+/// The rules of thumb that a structure breaks, as it rests.
+pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
     let mut found = Vec::new();
     let mut warn = |rule: &'static str, message: String| found.push(Warning { rule, message });
     let body = &structure.body;
-    let (top, bottom) = (z_m + body.height_m / 2.0, z_m - body.height_m / 2.0);
+    let z_m = rest.place_m[1];
+    let half = body.half_height_m(rest.theta_rad);
+    let (top, bottom) = (z_m + half, z_m - half);
+    if rest.indeterminate {
+        warn(
+            "shared loads",
+            "more lines are taut at rest than hold the body: which of them carries how much depends on their stiffness, which the \
+             inextensible line does not know. Tensions and slack times of single lines are those of one way to share, and a run \
+             may come to a stand"
+                .to_owned(),
+        );
+    }
     let depth = structure.site.depth_m;
     let size = body.width_m.max(body.height_m);
     if top > 0.0 {

@@ -112,8 +112,7 @@ impl Seas {
         Gumbel::fit(largest).map(|fit| fit.over_times(THREE_HOURS_S / judged))
     }
 
-    /// The share of records in which a line's breaking load is reached in a snap, or the body turns over or touches the
-    /// floor; none if tensions or breaking loads are not known.
+    /// The share of records in which a line's breaking load is reached, or the body turns over or touches the floor; none if tensions or breaking loads are not known.
     pub fn failing(&self) -> Option<Share> {
         let fails = |outcome: &Outcome| -> Option<bool> {
             let all: Option<Vec<f64>> = outcome

@@ -19,7 +19,7 @@ use crate::model::{Model, Scales};
 use crate::structure::Structure;
 use snapload::{Impact, System};
 
-/// A slower snap is the line settling down, not a load: it is counted, not listed \[m/s\].
+/// A slower snap is the line settling down, not a load: it is neither counted nor listed \[m/s\].
 pub const SLOWEST_M_S: f64 = 0.01;
 
 /// A line snapping taut.

@@ -60,6 +60,17 @@ pub struct LineSi {
     pub breaking_load_n: Option<f64>,
 }
 
+impl BodySi {
+    /// Half of its size in z, turned by θ \[m\].
+    pub fn half_height_m(&self, theta_rad: f64) -> f64 {
+        let (sine, cosine) = theta_rad.sin_cos();
+        match self.outline {
+            Outline::Circle => self.width_m / 2.0,
+            Outline::Rectangle => (self.width_m * sine.abs() + self.height_m * cosine.abs()) / 2.0,
+        }
+    }
+}
+
 impl LineSi {
     /// Spring rate k = EA/length \[N/m\].
     pub fn spring_rate_n_m(&self) -> Option<f64> {

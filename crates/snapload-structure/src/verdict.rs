@@ -76,6 +76,10 @@ impl Assessment {
                 Standing::Breaks,
                 format!("Line {} would break: the estimated tension is {u:.2} of its breaking load.", line + 1),
             ),
+            _ if outcome.stop == Stop::ImpactLimit => (
+                Standing::Unknown,
+                "Whether a line breaks is not known.".to_owned(),
+            ),
             Some((line, u)) if !unknown => (
                 Standing::Holds,
                 format!("No line breaks: the largest estimated tension, in line {}, is {u:.2} of its breaking load, without any factor of safety.", line + 1),
@@ -157,6 +161,13 @@ impl Assessment {
             return single;
         };
         let irregular = matches!(self.prepared.structure.water, Water::Sea(_));
+        let failing = self.neighbours.iter().filter(|n| n.stop.exceeds()).count();
+        if failing > 0 {
+            return format!(
+                "{single} Of {} neighbours in waves that differ by at most 1e-6 of their height {failing} turn over or touch the floor.",
+                self.neighbours.len()
+            );
+        }
         let advice = if spread[2] > 1.02 * spread[0] {
             "Single peaks mean little here; take the distribution."
         } else if irregular {
@@ -175,7 +186,12 @@ impl Assessment {
 
     /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none \[N\].
     pub fn spread(&self) -> Option<[f64; 3]> {
-        let mut peaks: Vec<f64> = self.neighbours.iter().filter_map(Outcome::peak_n).collect();
+        let lines = &self.prepared.structure.lines;
+        if lines.iter().any(|line| line.stiffness_n.is_none()) {
+            return None;
+        }
+        let peak = |outcome: &Outcome| outcome.peak_n().unwrap_or(0.0);
+        let mut peaks: Vec<f64> = self.neighbours.iter().map(peak).collect();
         peaks.sort_by(f64::total_cmp);
         Some([
             quantile(&peaks, 0.05)?,

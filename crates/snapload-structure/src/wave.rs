@@ -51,11 +51,11 @@ impl LinearWave {
 
 /// The wave number k > 0 \[1/m\] with ω² = g k tanh kd, to rounding.
 ///
-/// Newton's method on q tanh q = ω²d/g =: c for q = kd, from a start above the root, where the function is convex
-/// for q ≥ 1 and the steps do not overshoot; a dozen reach the rounding from any depth.
+/// Newton's method on q tanh q = ω²d/g =: c for q = kd, from the larger of both limits; a dozen steps reach the
+/// rounding from any depth.
 pub fn wave_number(omega_rad_s: f64, depth_m: f64, gravity_m_s2: f64) -> f64 {
     let c = omega_rad_s * omega_rad_s * depth_m / gravity_m_s2;
-    // Both limits, shallow q = sqrt(c) and deep q = c, joined from above.
+    // Both limits, shallow q = sqrt(c) and deep q = c.
     let mut q = c.sqrt().max(c);
     for _ in 0..40 {
         let tanh = q.tanh();

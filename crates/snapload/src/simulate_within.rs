@@ -6,6 +6,7 @@ use crate::contact::Contact;
 use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
 use crate::real::{Real, length};
+use crate::taut_set::MAX_CABLES;
 use std::borrow::Cow;
 
 /// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
@@ -128,6 +129,17 @@ impl<T: Real> Simulation<T> {
             .map(|k| self.system.top(&state(width * k as f64)))
             .fold(step.start.y, T::max)
             + bend * width * width * 0.125
+    }
+
+    /// The largest tension of each cable along the latest step, as it is at seventeen instants evenly spaced \[F\].
+    pub fn largest_tensions(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+        let s = step.t_end - step.t_start;
+        let mut largest = [T::ZERO; MAX_CABLES];
+        for cable in step.taut.iter() {
+            let tension = |k: usize| self.series.tension(cable, s * (k as f64 / 16.0));
+            largest[cable] = (0..=16).map(tension).fold(T::ZERO, T::max);
+        }
+        largest
     }
 
     /// How far the latest expansion of taut motion may be used.
