@@ -197,7 +197,7 @@ fn moordyn_files_are_written_and_read() {
     let verdict = |file: &str| {
         let assert = snapload(room.path())
             .args(["assess", file, "--json", "-", "--neighbours", "0"])
-            .args(["--set", "run.duration=90"])
+            .args(["--set", "run.duration=60", "--set", "run.transient=10"])
             .assert()
             .success();
         let json: serde_json::Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
