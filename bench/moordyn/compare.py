@@ -1,4 +1,4 @@
-"""Lines that stretch in snapload and in MoorDyn, side by side: bench/moordyn/run calls this with the program's path.
+"""Lines that stretch in snapload and in MoorDyn, side by side; bench/moordyn/run calls this with the program.
 
 Writes results.json beside it and the tables in docs/elastic.md.
 """
@@ -247,16 +247,19 @@ def markdown(results: dict) -> tuple[str, str]:
     first = "| stiffness × | second snap: time, speed off by | third snap: time, speed off by | computed in |\n"
     first += "| --- | --- | --- | --- |\n"
     for row in results["convergence"]:
-        cells = [f"{t:+.1e} s, {v:+.1e} m/s" if same else "of another line" for t, v, same in row["off"][1:3]]
+        cells = [
+            f"{t:+.1e} s, {v:+.1e} m/s" if same else "of another line" for t, v, same in row["off"][1:3]
+        ]
         cells += ["not reached"] * (2 - len(cells))
         first += f"| {row['stiffer']:g} | {' | '.join(cells)} | {1e3 * row['seconds']:.1f} ms |\n"
     second = ""
     for case in results["cases"]:
+        took, counts = case["seconds"], case["counts"]
         second += f"**{case['name']}** (steps of {case['step_s']:g} s, `dtM` {case['dtM_s']:g} s; computed in "
-        second += f"{1e3 * case['seconds']['snapload']:.1f} ms by snapload, {case['seconds']['moordyn']:.2f} s by MoorDyn; "
-        second += f"{case['counts']['snapload']} and {case['counts']['moordyn']} pulls above {case['threshold_n'] / 1e3:g} kN)\n\n"
-        second += "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) | off by |\n"
-        second += "| --- | --- | --- | --- | --- | --- |\n"
+        second += f"{1e3 * took['snapload']:.1f} ms by snapload, {took['moordyn']:.2f} s by MoorDyn; "
+        second += f"{counts['snapload']} and {counts['moordyn']} pulls above {case['threshold_n'] / 1e3:g} kN)\n\n"
+        second += "| line | pulls, snapload (s) | pulls, MoorDyn (s) | peak, snapload (kN) | peak, MoorDyn (kN) "
+        second += "| off by |\n| --- | --- | --- | --- | --- | --- |\n"
         for row in case["pulls"]:
             line, a0, a1, a = row["snapload"]
             second += f"| {line} | {a0:.3f} to {a1:.3f} | "
@@ -272,7 +275,8 @@ def markdown(results: dict) -> tuple[str, str]:
 def into_page(name: str, text: str) -> None:
     page = PAGE.read_text()
     pattern = rf"(<!-- {name} -->\n).*?(<!-- /{name} -->)"
-    PAGE.write_text(re.sub(pattern, lambda m: m[1] + "\n" + text.strip() + "\n\n" + m[2], page, flags=re.DOTALL))
+    filled = re.sub(pattern, lambda m: f"{m[1]}\n{text.strip()}\n\n{m[2]}", page, flags=re.DOTALL)
+    PAGE.write_text(filled)
 
 
 def main() -> None:
@@ -282,7 +286,13 @@ def main() -> None:
         "moordyn": version("moordyn"),
         "convergence": convergence(program),
         "cases": [
-            compare("Still water, a spring each, MoorDyn by itself", program, [*STILL, *LIGHT], 2e-4, by_itself=True),
+            compare(
+                "Still water, a spring each, MoorDyn by itself",
+                program,
+                [*STILL, *LIGHT],
+                2e-4,
+                by_itself=True,
+            ),
             compare("A wave, a spring each", program, [*WAVE, *LIGHT], 2e-4),
             compare("The same with a tenth of MoorDyn's step", program, [*WAVE, *LIGHT], 1e-4, finer=10.0),
             compare("A wave, the chain in ten segments", program, WAVE, 1e-4, segments=10, threshold=5e4),

@@ -119,7 +119,7 @@ fn report(name: &str, seas: &Seas) -> Value {
     let estimate = |e: Estimate| json!({ "value": e.value, "standard_error": e.error });
     let gumbel = |fit: Option<Gumbel>| {
         fit.map(|fit| json!({
-            "location": fit.location, "scale": fit.scale, "records": fit.count,
+            "location": fit.location + fit.scale * fit.log_times, "scale": fit.scale, "records": fit.count,
             "mean": estimate(fit.mean()), "median": estimate(fit.quantile(0.5)), "quantile_90": estimate(fit.quantile(0.9)),
         }))
     };

@@ -118,13 +118,18 @@ mod tests {
             count,
             log_times: 0.0,
         };
-        for p in [0.1, 0.5, 0.9, 0.99] {
-            let values: Vec<f64> = fits.iter().map(|fit| fit.quantile(p).value).collect();
+        // As the sample is, and for the largest of six and of a quarter as many.
+        for (p, times) in [0.1, 0.5, 0.9, 0.99]
+            .into_iter()
+            .flat_map(|p| [(p, 1.0), (p, 6.0), (p, 0.25)])
+        {
+            let over = |fit: &Gumbel| fit.over_times(times);
+            let values: Vec<f64> = fits.iter().map(|fit| over(fit).quantile(p).value).collect();
             let mean = values.iter().sum::<f64>() / f64::from(samples);
             let spread = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>()
                 / f64::from(samples))
             .sqrt();
-            let expected = known.quantile(p);
+            let expected = over(&known).quantile(p);
             // The mean of 4000 fits is known to error/63, their spread to 1.2 %.
             assert!(
                 (mean - expected.value).abs() < 5.0 * expected.error / 63.0,
@@ -143,6 +148,7 @@ mod tests {
             location: 3.0,
             scale: 0.5,
             count: 10,
+            log_times: 0.0,
         };
         let eight = one.over_times(8.0);
         // P_8(x) = P_1(x)^8.

@@ -253,10 +253,10 @@ fn what_is_not_planar_or_not_supported_is_told() {
         (
             "POINT PROPERTIES",
             "things",
-            &["lines.txt: section POINTS = (missing)"],
+            &["lines.txt: section POINTS (missing)"],
         ),
-        ("- LINES -", "- strings -", &["section LINES = (missing)"]),
-        ("LINE TYPES", "ropes", &["section LINE TYPES = (missing)"]),
+        ("- LINES -", "- strings -", &["section LINES (missing)"]),
+        ("LINE TYPES", "ropes", &["section LINE TYPES (missing)"]),
         (
             "1    free ",
             "1    pinned ",
@@ -290,7 +290,7 @@ fn what_is_not_planar_or_not_supported_is_told() {
         (
             "16.0      20      -",
             "",
-            &["line 23: line 1, UnstrLen = (missing)", "column 5"],
+            &["line 23: line 1, UnstrLen (missing)", "column 5"],
         ),
         (
             "AttachA  AttachB  UnstrLen  NumSegs",

@@ -20,7 +20,7 @@ const COURANT: f64 = 0.2;
 /// mass. A line of one segment is then the spring of `docs/elastic.md`, with the damper of the restitution as BA; in
 /// lines of several segments that damper would be far too stiff for the masses between, and they get MoorDyn's customary 0.8
 /// of critical instead. The keys that MoorDyn has no place for stand in the front matter, from which
-/// [`crate::moordyn::read()`] takes them.
+/// [`super::read()`] takes them.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness or mass, or the structure rests nowhere.
