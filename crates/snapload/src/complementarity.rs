@@ -36,7 +36,7 @@ pub(crate) fn solve<T: Real>(
             let [x, y] = solve_pair(pair, [q[i], q[j]]);
             (z[i], z[j]) = (x, y);
         }
-        _ => z = eliminate(set, w, q),
+        _ => z = eliminate_and_refine(set, w, q),
     }
     z
 }
@@ -64,7 +64,28 @@ fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
     z
 }
 
-/// The same by elimination in the order of the cables, for three and more.
+/// The same for three and more, what is left over put in twice again: of three cables that are almost dependent the
+/// tensions are large, and their sum has to leave the body where it is.
+fn eliminate_and_refine<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> PerCable<T> {
+    let mut z = eliminate(set, &w, q);
+    for _ in 0..2 {
+        let mut left = [T::ZERO; MAX_CABLES];
+        for i in set.iter() {
+            left[i] = set.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j]);
+        }
+        let more = eliminate(set, &w, &left);
+        for i in set.iter() {
+            z[i] += more[i];
+        }
+    }
+    z
+}
+
+/// By elimination in the order of the cables.
 fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
     let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
     let mut z = *q;

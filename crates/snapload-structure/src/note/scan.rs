@@ -86,7 +86,7 @@ impl Scan {
     /// Its caption.
     pub(super) fn words(&self) -> String {
         format!(
-            "The largest utilisation by a snap (or the fastest snap, where strengths are not known) in other regular waves, each \
+            "The largest utilisation (or the fastest snap, where strengths are not known) in other regular waves, each \
              run for {LENGTH:.0} periods. Grazing and chaos make such maps uneven: read regions, not single cells."
         )
     }
