@@ -1,6 +1,7 @@
 //! Three, four and more cables: what must be true of every run.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use snapload::{
     Body, Cable, Forcing, Harmonic, Impact, Playback, Shape, Simulation, State, Stop, StopRules,
     System, Trajectory,
@@ -105,7 +106,11 @@ fn holds(run: &Trajectory) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig {
+        cases: 300,
+        rng_seed: RngSeed::Fixed(1999),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn laws_hold_with_many_cables(system in systems(true)) {
