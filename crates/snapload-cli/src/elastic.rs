@@ -1,7 +1,7 @@
 //! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
 use crate::assess::{StructureArgs, told};
 use crate::failure::{Failure, print};
-use crate::json::{Json, refuse_directory};
+use crate::json::{Json, room_of};
 use crate::stage::Stage;
 use serde_json::{Value, json};
 use snapload_structure::{
@@ -9,7 +9,7 @@ use snapload_structure::{
 };
 use std::fmt::Write as _;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 const EXAMPLES: &str = "\
@@ -82,16 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let json = Json::open(&mut stage, args.json.as_deref())?;
     let out = match &args.out {
         None => None,
-        Some(path) => {
-            refuse_directory(path)?;
-            let parent = path
-                .parent()
-                .filter(|parent| !parent.as_os_str().is_empty());
-            Some((
-                stage.create_and_open(parent.unwrap_or(Path::new(".")))?,
-                path,
-            ))
-        }
+        Some(path) => Some((room_of(&mut stage, path)?, path)),
     };
     let prepared =
         Prepared::new(structure).map_err(|e| Failure::BadInput(format!("{name}: {e}")))?;
