@@ -2,7 +2,7 @@
 use crate::assess::{StructureArgs, told};
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
-use crate::json::refuse_directory;
+use crate::json::room_of;
 use crate::stage::Stage;
 use clap::Subcommand;
 use snapload_structure::{Structure, moordyn};
@@ -117,12 +117,8 @@ fn write(args: &Write) -> Result<(), Failure> {
 
 /// Puts a text into a file, whole or not at all, and says where.
 fn put(path: &Path, text: &str) -> Result<String, Failure> {
-    refuse_directory(path)?;
-    let parent = path
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty());
     let mut stage = Stage::default();
-    let room = stage.create_and_open(parent.unwrap_or(Path::new(".")))?;
+    let room = room_of(&mut stage, path)?;
     stage.write(room, path.to_owned(), |out| out.write_all(text.as_bytes()))?;
     stage.commit()?;
     Ok(path.display().to_string())
