@@ -12,7 +12,7 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 /// The standard sweep: force amplitudes 0.01 to 0.31, as many as here.
-const SWEEP: u32 = 1024;
+const SWEEP: u32 = 20_000;
 
 fn case(parameters: Parameters) -> Case {
     Case::new(parameters).expect("the cases of the benchmark are legal")
@@ -76,6 +76,7 @@ fn many_runs(c: &mut Criterion) {
     let cases = sweep();
     let mut group = c.benchmark_group("sweep");
     group.throughput(Throughput::Elements(u64::from(SWEEP)));
+    group.sample_size(10);
     for lanes in Lanes::available() {
         group.bench_function(format!("{lanes:?}"), |b| {
             b.iter(|| lanes.outcomes(black_box(&cases)));

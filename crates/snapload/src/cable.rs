@@ -1,7 +1,7 @@
 //! A cable: its gap, its normal and its lever arm.
 
 use crate::State;
-use crate::lane::{Lane, Turn, combined, dot, length, quarter_turn, select2, sum};
+use crate::lane::{Lane, Turn, combined, cross, dot, length, quarter_turn, select2, sum};
 use crate::real::Real;
 
 /// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
@@ -125,7 +125,7 @@ impl<T: Real> Cable<T> {
         let n = [span[0] / self.length, span[1] / self.length];
         let normal = Normal {
             n,
-            arm: lever[0] * n[1] - lever[1] * n[0],
+            arm: cross(lever, n),
         };
         let (along, across) = (lever[0] / self.length, lever[1] / self.length);
         let stretch = T::ONE / self.length;
@@ -219,7 +219,7 @@ impl<L: Lane> Cable<L> {
         let n = [span[0] / self.length, span[1] / self.length];
         Normal {
             n,
-            arm: lever[0] * n[1] - lever[1] * n[0],
+            arm: cross(lever, n),
         }
     }
 

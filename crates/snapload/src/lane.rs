@@ -142,6 +142,12 @@ pub(crate) fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
     a[0] * b[0] + a[1] * b[1]
 }
 
+/// x v − y u of two plane vectors.
+#[inline(always)]
+pub(crate) fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
+    a[0] * b[1] - a[1] * b[0]
+}
+
 /// Length of a plane vector.
 #[inline(always)]
 pub(crate) fn length<L: Lane>(a: [L; 2]) -> L {

@@ -120,6 +120,17 @@ pub(crate) fn convolve_tail<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: us
     sum_of_products(&a.0[1..=k], &b.0[..k])
 }
 
+/// Σ a_j a_{k−j}, 0 < j < k: the k-th coefficient of a square without 2 a_0 a_k. Each product comes twice.
+pub(crate) fn square_tail<T: Real>(a: &Polynomial<T>, k: usize) -> T {
+    let pairs = (k - 1) / 2;
+    let twice = sum_of_products(&a.0[1..=pairs], &a.0[k - pairs..k]) * 2.0;
+    if k % 2 == 0 {
+        twice + a.0[k / 2].squared()
+    } else {
+        twice
+    }
+}
+
 /// The first list's entries times the second's in reverse: four sums that take turns and are added at the
 /// end, as a processor can do several at once.
 fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {

@@ -7,7 +7,7 @@
 //! an add.
 
 use crate::elementary;
-pub(crate) use crate::lane::{dot, length, quarter_turn};
+pub(crate) use crate::lane::{cross, dot, length, quarter_turn};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

@@ -6,10 +6,22 @@
 //! (ẍ, ÿ) = f(t) − Σ T_i n_i,   θ̈ = −Σ T_i s_i / I,   g̈_i = 0 for the taut cables i
 //! ```
 //!
-//! With the tensions eliminated it reads W T = b, W_ij = n_i·n_j + s_i s_j / I,
-//! b_i = n_i·f + |Ṗ_i|²/r_i − θ̇² n_i·ρ_i. All of it is polynomial in x, y, θ, sin θ, cos θ, so the
-//! coefficients of the motion's Taylor series follow one after the other from those before, the
-//! matrix W at the start being the only one to solve with. One text serves every taut set, parallel
+//! All of it is polynomial in x, y, θ, sin θ, cos θ and the tensions, so the coefficients of their Taylor
+//! series follow one after the other. With the motion known to order k + 1 and the tensions to k − 1,
+//!
+//! ```text
+//! (k+1)(k+2) (x, y)_{k+2} = f_k − Σ q_{i,k},   (k+1)(k+2) θ_{k+2} = −Σ (ρ_i × q_i)_k / I,   q_i = T_i n_i
+//! ```
+//!
+//! are linear in the T_{i,k}, and so is the coefficient of order k + 2 of |P_i − A_i|² = r_i², the constraint:
+//!
+//! ```text
+//! Σ_j W_ij T_{j,k} = n_i·a + s_i α + (k+1)(k+2) b_i,   W_ij = n_i·n_j + s_i s_j / I
+//! ```
+//!
+//! with W, n and s at the start, a and α the accelerations but for T_k, and b_i what bends the path whatever the
+//! accelerations are: n_i·ρ_i of the orders of θ below k + 2, and Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0
+//! this is the centripetal term, b_i = |Ṗ_i|²/2r_i − θ̇² n_i·ρ_i/2. One text serves every taut set, parallel
 //! cables and b ≠ 0 among them; the gaps of the slack cables and the tensions come out as
 //! polynomials on the step, in which [`crate::event`] finds events with the guarantee it has in flight.
 //!
@@ -24,8 +36,8 @@ use crate::complementarity::{PerCable, solve};
 use crate::contact::{Contact, Contacts};
 use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
-use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail};
-use crate::real::{Real, dot};
+use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail, square_tail};
+use crate::real::{Real, cross, dot};
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
@@ -33,21 +45,33 @@ use crate::{State, System, TautSet};
 /// themselves, only stay below rounding of this \[L\], \[rad\].
 const STILL: f64 = 1e-12;
 
-/// Series of one cable's geometry: a pair of polynomials each for ρ and d = P − A, the gap, and where
-/// taut the tension, the normal n = d/r and the arm s.
+/// Series of one cable's geometry: pairs of polynomials for ρ, for d = P − A, and where taut for n = d/r and
+/// T n; the gap where slack, the tension where taut.
 #[derive(Clone, Copy, Debug, Default)]
 struct Line<T: Real> {
     lever: [Polynomial<T>; 2],
     span: [Polynomial<T>; 2],
-    /// Ṗ.
-    velocity: [Polynomial<T>; 2],
     normal: [Polynomial<T>; 2],
-    arm: Polynomial<T>,
-    /// n·ρ.
-    reach: Polynomial<T>,
+    pull: [Polynomial<T>; 2],
     gap: Polynomial<T>,
     tension: Polynomial<T>,
-    load: Polynomial<T>,
+}
+
+impl<T: Real> Line<T> {
+    /// n at the start.
+    fn normal(&self) -> [T; 2] {
+        [self.normal[0][0], self.normal[1][0]]
+    }
+
+    /// s = ρ × n at the start.
+    fn arm(&self) -> T {
+        cross([self.lever[0][0], self.lever[1][0]], self.normal())
+    }
+
+    /// (ρ × T n)_k.
+    fn moment(&self, k: usize) -> T {
+        convolve(&self.lever[0], &self.pull[1], k) - convolve(&self.lever[1], &self.pull[0], k)
+    }
 }
 
 /// The Taylor expansion of a motion with a fixed set of taut cables.
@@ -60,17 +84,12 @@ pub(crate) struct Series<T: Real> {
     theta: Polynomial<T>,
     sine: Polynomial<T>,
     cosine: Polynomial<T>,
-    /// θ̇ and θ̇².
-    theta_rate: Polynomial<T>,
-    spin: Polynomial<T>,
     /// The forces, drag included.
     force: [Polynomial<T>; 2],
     /// θ̈ by drag.
     turning: Polynomial<T>,
     drag: DragSeries<T>,
     lines: Vec<Line<T>>,
-    /// W_ij of taut cables, symmetric: entry (i, j) with i ≤ j.
-    coupling: Vec<Polynomial<T>>,
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
@@ -94,13 +113,10 @@ impl<T: Real> Series<T> {
             theta: Polynomial::default(),
             sine: Polynomial::default(),
             cosine: Polynomial::default(),
-            theta_rate: Polynomial::default(),
-            spin: Polynomial::default(),
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
             lines: vec![Line::default(); cables],
-            coupling: vec![Polynomial::default(); cables * cables],
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
             tops: [Polynomial::default(); 4],
@@ -131,26 +147,21 @@ impl<T: Real> Series<T> {
         (self.y[0], self.y[1]) = (start.y, start.vy);
         (self.theta[0], self.theta[1]) = (start.theta, start.vtheta);
         (self.sine[0], self.cosine[0]) = start.theta.sin_cos();
-        for line in 0..self.cables {
-            self.extend_geometry(system, line, 0);
-            let span = system.cables[line].span(start);
-            for (series, value) in self.lines[line].span.iter_mut().zip(span) {
+        self.extend_geometry(system, 0);
+        for (line, cable) in self.lines.iter_mut().zip(&system.cables) {
+            for (series, value) in line.span.iter_mut().zip(cable.span(start)) {
                 series[0] = value;
             }
-            self.extend_normal(system, line, 0);
         }
+        self.extend_normals(system, 0);
+        (self.sine[1], self.cosine[1]) = self.rotation(1);
+        self.extend_geometry(system, 1);
+        self.extend_normals(system, 1);
         for k in 0..ORDER - 1 {
-            self.extend_rotation(k + 1);
-            self.theta_rate[k] = self.theta[k + 1] * (k + 1) as f64;
-            self.spin[k] = convolve(&self.theta_rate, &self.theta_rate, k);
-            for line in 0..self.cables {
-                self.extend_geometry(system, line, k + 1);
-            }
-            for line in self.taut.iter() {
-                self.extend_normal(system, line, k + 1);
-            }
             self.extend_drag(system, k);
             self.extend_motion(system, k);
+            self.extend_geometry(system, k + 2);
+            self.extend_normals(system, k + 2);
         }
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
@@ -167,7 +178,7 @@ impl<T: Real> Series<T> {
             let (watch, function, order) = if self.taut.contains(cable) {
                 (Watch::Tension(cable), line.tension.negated(), ORDER - 2)
             } else {
-                (Watch::Gap(cable), line.gap, ORDER - 1)
+                (Watch::Gap(cable), line.gap, ORDER)
             };
             if !function.stays_negative(step, order) {
                 self.watched.push((watch, function, order));
@@ -183,8 +194,8 @@ impl<T: Real> Series<T> {
             }
         }
         for top in &self.tops[..self.tops_count] {
-            if !top.stays_negative(step, ORDER - 1) {
-                self.watched.push((Watch::Top, *top, ORDER - 1));
+            if !top.stays_negative(step, ORDER) {
+                self.watched.push((Watch::Top, *top, ORDER));
             }
         }
     }
@@ -211,100 +222,90 @@ impl<T: Real> Series<T> {
         for (force, drag) in self.force.iter_mut().zip(found) {
             force[k] += drag;
         }
-        self.turning[k] = -(drag.turning * self.theta_rate[k]);
+        self.turning[k] = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
     }
 
-    /// sin θ and cos θ to order k from θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
-    fn extend_rotation(&mut self, k: usize) {
+    /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
+    fn rotation(&self, k: usize) -> (T, T) {
         let (mut sine, mut cosine) = (T::ZERO, T::ZERO);
         for j in 1..=k {
             let weight = self.theta[j] * j as f64;
             sine += weight * self.cosine[k - j];
             cosine -= weight * self.sine[k - j];
         }
-        self.sine[k] = sine / k as f64;
-        self.cosine[k] = cosine / k as f64;
+        (sine / k as f64, cosine / k as f64)
     }
 
-    /// ρ and d of one cable to order k; d but for its constant.
-    fn extend_geometry(&mut self, system: &System<T>, cable: usize, k: usize) {
-        let lever = system.cables[cable].lever(self.sine[k], self.cosine[k]);
+    /// ρ and d of every cable to order k; d but for its constant.
+    fn extend_geometry(&mut self, system: &System<T>, k: usize) {
         let centre = [self.x[k], self.y[k]];
-        let line = &mut self.lines[cable];
-        for i in 0..2 {
-            line.lever[i][k] = lever[i];
-            line.span[i][k] = centre[i] + lever[i];
-            if k > 0 {
-                line.velocity[i][k - 1] = line.span[i][k] * k as f64;
+        for (line, cable) in self.lines.iter_mut().zip(&system.cables) {
+            let lever = cable.lever(self.sine[k], self.cosine[k]);
+            for i in 0..2 {
+                line.lever[i][k] = lever[i];
+                line.span[i][k] = centre[i] + lever[i];
             }
         }
     }
 
-    /// n, s and n·ρ to order k.
-    fn extend_normal(&mut self, system: &System<T>, cable: usize, k: usize) {
-        let length = system.cables[cable].length();
-        let line = &mut self.lines[cable];
-        for i in 0..2 {
-            line.normal[i][k] = line.span[i][k] / length;
+    /// n of the taut cables to order k.
+    fn extend_normals(&mut self, system: &System<T>, k: usize) {
+        for cable in self.taut.iter() {
+            let line = &mut self.lines[cable];
+            for i in 0..2 {
+                line.normal[i][k] = line.span[i][k] / system.cables[cable].length();
+            }
         }
-        line.arm[k] = convolve(&line.lever[0], &line.normal[1], k)
-            - convolve(&line.lever[1], &line.normal[0], k);
-        line.reach[k] = convolve(&line.normal[0], &line.lever[0], k)
-            + convolve(&line.normal[1], &line.lever[1], k);
     }
 
-    /// The k-th coefficients of the tensions, hence those of order k + 2 of the motion.
+    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
     fn extend_motion(&mut self, system: &System<T>, k: usize) {
         let inverse_inertia = system.body.inverse_inertia();
         let taut = self.taut;
-        for i in taut.iter() {
-            self.lines[i].load[k] = self.load(system, i, k);
-            for j in taut.iter().filter(|&j| j >= i) {
-                let (a, b) = (&self.lines[i], &self.lines[j]);
-                self.coupling[i * self.cables + j][k] = convolve(&a.normal[0], &b.normal[0], k)
-                    + convolve(&a.normal[1], &b.normal[1], k)
-                    + convolve(&a.arm, &b.arm, k) * inverse_inertia;
+        // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
+        self.theta[k + 2] = T::ZERO;
+        let (sine, cosine) = self.rotation(k + 2);
+        let orders = ((k + 1) * (k + 2)) as f64;
+
+        let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
+        for cable in taut.iter() {
+            let line = &mut self.lines[cable];
+            for i in 0..2 {
+                line.pull[i][k] = convolve_tail(&line.normal[i], &line.tension, k);
+                accel[i] -= line.pull[i][k];
             }
+            accel[2] -= line.moment(k) * inverse_inertia;
         }
         let mut right = [T::ZERO; MAX_CABLES];
-        for i in taut.iter() {
-            right[i] = taut.iter().fold(self.lines[i].load[k], |sum, j| {
-                sum - convolve_tail(self.coupling(i, j), &self.lines[j].tension, k)
-            });
+        for cable in taut.iter() {
+            let line = &self.lines[cable];
+            let lever = system.cables[cable].lever(sine, cosine);
+            let [u, v] = &line.span;
+            let bend = (square_tail(u, k + 2) + square_tail(v, k + 2))
+                / (system.cables[cable].length() * 2.0)
+                + dot(line.normal(), lever);
+            right[cable] =
+                dot(line.normal(), [accel[0], accel[1]]) + line.arm() * accel[2] + bend * orders;
         }
-        let tension = solve(taut, |i, j| self.coupling(i, j)[0], &right);
-        let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
-        for i in taut.iter() {
-            let line = &mut self.lines[i];
-            line.tension[k] = tension[i];
-            accel[0] -= convolve(&line.tension, &line.normal[0], k);
-            accel[1] -= convolve(&line.tension, &line.normal[1], k);
-            accel[2] -= convolve(&line.tension, &line.arm, k) * inverse_inertia;
-        }
-        let factor = T::ONE / ((k + 1) * (k + 2)) as f64;
-        self.x[k + 2] = accel[0] * factor;
-        self.y[k + 2] = accel[1] * factor;
-        self.theta[k + 2] = accel[2] * factor;
-    }
-
-    fn coupling(&self, i: usize, j: usize) -> &Polynomial<T> {
-        &self.coupling[i.min(j) * self.cables + i.max(j)]
-    }
-
-    /// b_i = n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ to order k, with the f and θ̈ of forces and drag.
-    fn load(&self, system: &System<T>, cable: usize, k: usize) -> T {
-        let line = &self.lines[cable];
-        let push = convolve(&line.normal[0], &self.force[0], k)
-            + convolve(&line.normal[1], &self.force[1], k);
-        let push = if system.drag.is_some() {
-            push + convolve(&line.arm, &self.turning, k)
-        } else {
-            push
+        let coupling = |i: usize, j: usize| {
+            let (a, b) = (&self.lines[i], &self.lines[j]);
+            dot(a.normal(), b.normal()) + a.arm() * b.arm() * inverse_inertia
         };
-        let [u, v] = &line.velocity;
-        let speed = convolve(u, u, k) + convolve(v, v, k);
-        let centripetal = convolve(&self.spin, &line.reach, k);
-        push + speed / system.cables[cable].length() - centripetal
+        let tension = solve(taut, coupling, &right);
+        for cable in taut.iter() {
+            let line = &mut self.lines[cable];
+            line.tension[k] = tension[cable];
+            for (i, normal) in line.normal().into_iter().enumerate() {
+                line.pull[i][k] += normal * tension[cable];
+                accel[i] -= normal * tension[cable];
+            }
+            accel[2] -= line.arm() * tension[cable] * inverse_inertia;
+        }
+        self.x[k + 2] = accel[0] / orders;
+        self.y[k + 2] = accel[1] / orders;
+        self.theta[k + 2] = accel[2] / orders;
+        self.sine[k + 2] = sine + self.theta[k + 2] * self.cosine[0];
+        self.cosine[k + 2] = cosine - self.theta[k + 2] * self.sine[0];
     }
 
     /// g = d·d − r² of the slack cables, with the first coefficients as they are known.
@@ -312,9 +313,10 @@ impl<T: Real> Series<T> {
         for cable in (0..self.cables).filter(|&cable| !self.taut.contains(cable)) {
             let contact = self.contacts[cable];
             let line = &mut self.lines[cable];
-            for k in 1..ORDER {
-                line.gap[k] = convolve(&line.span[0], &line.span[0], k)
-                    + convolve(&line.span[1], &line.span[1], k);
+            let [u, v] = &line.span;
+            for k in 1..=ORDER {
+                let ends = (u[0] * u[k] + v[0] * v[k]) * 2.0;
+                line.gap[k] = square_tail(u, k) + square_tail(v, k) + ends;
             }
             line.gap[0] = contact.gap;
             if contact.resting {
@@ -330,7 +332,7 @@ impl<T: Real> Series<T> {
         let (outline, radius) = system.body.outline();
         for [px, py] in outline.points() {
             let top = &mut self.tops[self.tops_count];
-            for k in 0..ORDER {
+            for k in 0..=ORDER {
                 top[k] = self.y[k] + *px * self.sine[k] + *py * self.cosine[k];
             }
             top[0] = top[0] + radius - level;
@@ -385,7 +387,7 @@ impl<T: Real> Series<T> {
 
     /// The gap of a slack cable a time `s` after the start.
     pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
-        let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER - 1);
+        let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER);
         Contact {
             gap: value,
             error: self.contacts[cable].error + noise,
@@ -401,15 +403,13 @@ impl<T: Real> Series<T> {
 
     /// g and ġ of a slack cable a time `s` after the start.
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
-        let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER - 1);
+        let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER);
         (gap, rate)
     }
 
     /// Bound on |g̈| of a slack cable over the step.
     pub(crate) fn gap_bend(&self, cable: usize) -> T {
-        self.lines[cable]
-            .gap
-            .derivative_bound(2, self.step, ORDER - 1)
+        self.lines[cable].gap.derivative_bound(2, self.step, ORDER)
     }
 
     /// Bounds on |ÿ| and |θ̈| over the step.
@@ -429,7 +429,7 @@ impl<T: Real> Series<T> {
     fn gap_jet(&self, cable: usize, s: T) -> Jet<T> {
         let gap = &self.lines[cable].gap;
         let contact = &self.contacts[cable];
-        let jet = self.jet(Watch::Gap(cable), gap, ORDER - 1, s);
+        let jet = self.jet(Watch::Gap(cable), gap, ORDER, s);
         if s > T::ZERO {
             return Jet {
                 noise: jet.noise + contact.error,
@@ -442,7 +442,7 @@ impl<T: Real> Series<T> {
             resting: contact.resting,
             jerk: gap[3] * 6.0,
             fourth: if contact.resting {
-                gap.derivative_bound(4, self.step, ORDER - 1)
+                gap.derivative_bound(4, self.step, ORDER)
             } else {
                 T::ZERO
             },
