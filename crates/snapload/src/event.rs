@@ -149,13 +149,13 @@ pub(crate) fn first_crossing<T: Real>(
     motion: &impl Watched<T>,
     t: T,
     horizon: T,
-    jets: &mut Jets<T>,
 ) -> Option<Crossing<T>> {
+    let mut jets = Jets::new();
     let mut s = T::ZERO;
     loop {
         jets.clear();
-        motion.watch(s, jets);
-        if let Some(crossing) = located(jets, t, s) {
+        motion.watch(s, &mut jets);
+        if let Some(crossing) = located(&jets, t, s) {
             return (crossing.s <= horizon).then_some(crossing);
         }
         if s >= horizon {

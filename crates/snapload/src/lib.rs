@@ -43,6 +43,7 @@ mod lanes;
 mod mooring;
 mod named;
 mod outcome;
+mod pair;
 mod parameters;
 mod playback;
 mod polynomial;

@@ -40,7 +40,7 @@ impl<'a> Playback<'a> {
             run,
             segment: None,
             flight: Flight::new(run.system(), None, None),
-            series: Series::new(run.system(), None),
+            series: Series::new(None),
         }
     }
 

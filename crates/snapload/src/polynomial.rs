@@ -77,26 +77,23 @@ impl<T: Real> Polynomial<T> {
         bound
     }
 
-    /// The longest length up to `step`, by halves of an octave, on which the last two powers are below
+    /// The longest length up to `step`, which is at most 1, by halves of an octave, on which the last two powers are below
     /// a twentieth of a rounding of `scale`, or of the largest of the others where that is more.
     ///
     /// The constant does not count: where a motion has just begun to leave a place at which it
     /// could stay, its last terms are small against the place and yet not converged.
     pub(crate) fn converged_within(&self, mut step: T, order: usize, scale: T) -> T {
         let tolerance = T::EPSILON * 0.05;
+        let tail = [self.0[order - 1].abs(), self.0[order].abs()];
+        // A step is at most 1, so no term is larger than its coefficient.
+        let inner = &self.0[1..order - 1];
+        let ceiling = inner.iter().fold(scale, |most, c| most.max(c.abs()));
         while step > T::EPSILON {
-            let mut power = T::ONE;
-            let (mut largest, mut last) = (scale, T::ZERO);
-            for (k, coefficient) in self.0.iter().enumerate().take(order + 1) {
-                let term = coefficient.abs() * power;
-                if k + 1 >= order {
-                    last = last.max(term);
-                } else if k > 0 {
-                    largest = largest.max(term);
-                }
-                power = power * step;
-            }
-            if last <= largest * tolerance {
+            let power = power(step, order - 1);
+            let last = (tail[0] * power).max(tail[1] * power * step);
+            if last <= scale * tolerance
+                || last <= ceiling * tolerance && last <= largest(inner, step, scale) * tolerance
+            {
                 break;
             }
             step = step * 0.7;
@@ -108,6 +105,28 @@ impl<T: Real> Polynomial<T> {
     pub(crate) fn negated(&self) -> Self {
         Self(self.0.map(|c| -c))
     }
+}
+
+/// x^n by repeated squaring.
+fn power<T: Real>(x: T, n: usize) -> T {
+    let (mut power, mut square, mut left) = (T::ONE, x, n);
+    while left > 0 {
+        if left % 2 == 1 {
+            power = power * square;
+        }
+        square = square * square;
+        left /= 2;
+    }
+    power
+}
+
+/// The largest of |c_1| x, |c_2| x², …, and of `least`.
+fn largest<T: Real>(coefficients: &[T], x: T, least: T) -> T {
+    let mut power = T::ONE;
+    coefficients.iter().fold(least, |most, c| {
+        power = power * x;
+        most.max(c.abs() * power)
+    })
 }
 
 /// Σ a_j b_{k−j}, the k-th coefficient of a product.

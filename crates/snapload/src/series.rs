@@ -78,7 +78,6 @@ impl<T: Real> Line<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T: Real> {
     taut: TautSet,
-    cables: usize,
     x: Polynomial<T>,
     y: Polynomial<T>,
     theta: Polynomial<T>,
@@ -102,12 +101,10 @@ pub(crate) struct Series<T: Real> {
 }
 
 impl<T: Real> Series<T> {
-    /// An expansion not yet made, with room for the cables of `system`.
-    pub(crate) fn new(system: &System<T>, rotation_limit: Option<T>) -> Self {
-        let cables = system.cables.len();
+    /// An expansion not yet made. Room for the cables comes with the first that is, as most runs make none.
+    pub(crate) fn new(rotation_limit: Option<T>) -> Self {
         Self {
             taut: TautSet::SLACK,
-            cables,
             x: Polynomial::default(),
             y: Polynomial::default(),
             theta: Polynomial::default(),
@@ -116,7 +113,7 @@ impl<T: Real> Series<T> {
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
-            lines: vec![Line::default(); cables],
+            lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
             tops: [Polynomial::default(); 4],
@@ -139,6 +136,7 @@ impl<T: Real> Series<T> {
     ) {
         self.taut = taut;
         self.contacts = *contacts;
+        self.lines.resize(system.cables.len(), Line::default());
         for (cable, tether) in system.cables.iter().enumerate() {
             self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
         }
@@ -173,7 +171,7 @@ impl<T: Real> Series<T> {
     fn choose_watched(&mut self) {
         let step = self.step;
         self.watched.clear();
-        for cable in 0..self.cables {
+        for cable in 0..self.lines.len() {
             let line = &self.lines[cable];
             let (watch, function, order) = if self.taut.contains(cable) {
                 (Watch::Tension(cable), line.tension.negated(), ORDER - 2)
@@ -310,7 +308,7 @@ impl<T: Real> Series<T> {
 
     /// g = d·d − r² of the slack cables, with the first coefficients as they are known.
     fn expand_gaps(&mut self) {
-        for cable in (0..self.cables).filter(|&cable| !self.taut.contains(cable)) {
+        for cable in (0..self.lines.len()).filter(|&cable| !self.taut.contains(cable)) {
             let contact = self.contacts[cable];
             let line = &mut self.lines[cable];
             let [u, v] = &line.span;

@@ -2,7 +2,7 @@
 
 use crate::bounce::UNMOVED;
 use crate::contact::{Contact, Contacts};
-use crate::event::{Crossing, Jets, Reached, first_crossing};
+use crate::event::{Crossing, Reached, first_crossing};
 use crate::extremes::Extremes;
 use crate::flight::Flight;
 use crate::impact::{Shock, impact};
@@ -24,8 +24,8 @@ const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
-/// It allocates when it is made and not after, has no randomness and reads no clock: the same system,
-/// rules and start give the same bits.
+/// It allocates when it is made and when a cable is first taut, and not after; it has no randomness and reads no
+/// clock: the same system, rules and start give the same bits.
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
     system: System<T>,
@@ -44,7 +44,6 @@ pub struct Simulation<T: Real = f64> {
     flight: Flight<T>,
     /// In a place of its own: it is large, and a simulation that is handed on moves.
     series: Box<Series<T>>,
-    jets: Jets<T>,
     extremes: Extremes<T>,
     impacts: u64,
     /// Steps of no length since time last moved on.
@@ -140,8 +139,7 @@ impl<T: Real> Simulation<T> {
         let start = start::prepare(&system, &rules, t, &state)?;
         Ok(Self {
             flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
-            series: Box::new(Series::new(&system, rules.rotation_limit)),
-            jets: Jets::new(),
+            series: Box::new(Series::new(rules.rotation_limit)),
             extremes: Extremes::at(&start.state),
             mooring: Mooring::of(&system, &rules, v_stick),
             departure: None,
@@ -261,7 +259,7 @@ impl<T: Real> Simulation<T> {
                 &self.before,
                 &self.contacts,
             );
-            first_crossing(&self.flight, self.t, horizon, &mut self.jets)
+            first_crossing(&self.flight, self.t, horizon)
         } else {
             self.series.begin(
                 &self.system,
@@ -272,7 +270,7 @@ impl<T: Real> Simulation<T> {
                 self.rules.upper_bound,
             );
             horizon = horizon.min(self.series.step());
-            first_crossing(&*self.series, self.t, horizon, &mut self.jets)
+            first_crossing(&*self.series, self.t, horizon)
         };
         crossing.unwrap_or(Crossing {
             s: horizon,

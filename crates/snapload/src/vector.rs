@@ -10,17 +10,20 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 /// Doubles that can be looked at and set one by one.
 pub(crate) trait Vector: Doubles<Mask: Bits> {
     /// How many.
-    const WIDTH: usize;
+    const WIDTH: usize = <Self::Mask as Bits>::WIDTH;
     fn get(&self, lane: usize) -> f64;
     fn set(&mut self, lane: usize, value: f64);
 }
 
 /// A mask as bits, that of the first lane lowest.
 pub(crate) trait Bits: Mask {
+    /// How many lanes.
+    const WIDTH: usize;
     fn bits(self) -> u32;
 }
 
 impl Bits for bool {
+    const WIDTH: usize = 1;
     #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self)
@@ -28,7 +31,6 @@ impl Bits for bool {
 }
 
 impl Vector for f64 {
-    const WIDTH: usize = 1;
     fn get(&self, _: usize) -> f64 {
         *self
     }
@@ -53,6 +55,7 @@ impl<const N: usize> Mask for PortableMask<N> {
 }
 
 impl<const N: usize> Bits for PortableMask<N> {
+    const WIDTH: usize = N;
     #[inline(always)]
     fn bits(self) -> u32 {
         (0..N).fold(0, |bits, k| bits | u32::from(self.0[k]) << k)
@@ -146,7 +149,6 @@ impl<const N: usize> Doubles for Portable<N> {
 }
 
 impl<const N: usize> Vector for Portable<N> {
-    const WIDTH: usize = N;
     fn get(&self, lane: usize) -> f64 {
         self.0[lane]
     }

@@ -35,6 +35,7 @@ impl Mask for Avx2Mask {
 }
 
 impl Bits for Avx2Mask {
+    const WIDTH: usize = 4;
     #[inline(always)]
     fn bits(self) -> u32 {
         // SAFETY: the processor has AVX, as the head of this file says.
@@ -80,6 +81,7 @@ impl Mask for Avx512Mask {
 }
 
 impl Bits for Avx512Mask {
+    const WIDTH: usize = 8;
     #[inline(always)]
     fn bits(self) -> u32 {
         u32::from(self.0)
@@ -187,7 +189,6 @@ macro_rules! vector {
         }
 
         impl Vector for $type {
-            const WIDTH: usize = $width;
             fn get(&self, lane: usize) -> f64 {
                 self.to_array()[lane]
             }
