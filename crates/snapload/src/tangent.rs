@@ -338,7 +338,7 @@ fn add_row<const M: usize>(block: &mut Block<M>, to: usize, row: &[f64; M], fact
 }
 
 /// A linear function of the state, of every deviation.
-fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
+pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
     let mut sum = [0.0; M];
     for (row, factor) in block.iter().zip(factors) {
         for (sum, entry) in sum.iter_mut().zip(row) {

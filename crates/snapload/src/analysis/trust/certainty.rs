@@ -18,7 +18,7 @@ impl Certainty {
         while witness.horizon().is_none()
             && let Some(step) = simulation.step()
         {
-            witness.follow(&simulation, &step);
+            witness.follow_spread(&simulation, &step);
         }
         Self {
             horizon: witness.horizon(),

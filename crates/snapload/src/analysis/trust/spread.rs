@@ -1,6 +1,12 @@
 //! The spread of deviations: independent ones, added up.
 
 use crate::Deviation;
+use crate::tangent::{Block, combined};
+
+/// How many parts the start and rounding have: as many as a deviation has components.
+const PARTS: usize = 7;
+/// So many columns: one more stays zero, as eight fill a processor's registers.
+pub(super) const COLUMNS: usize = PARTS + 1;
 
 /// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one standard
 /// deviation long.
@@ -10,8 +16,8 @@ use crate::Deviation;
 /// the parts still have their digits.
 #[derive(Clone, Debug)]
 pub(super) struct Spread {
-    /// For the start and for rounding.
-    pub(super) parts: [Deviation; 7],
+    /// For the start and for rounding: a row for each component, a column for each part.
+    pub(super) parts: Block<COLUMNS>,
     /// For each uncertain parameter.
     pub(super) columns: Vec<Deviation>,
 }
@@ -22,9 +28,9 @@ const LOST: f64 = 1e30;
 impl Spread {
     /// One part along each component, so long.
     pub(super) fn along_components(sizes: &Deviation) -> Self {
-        let mut parts = [[0.0; 7]; 7];
-        for (i, (part, size)) in parts.iter_mut().zip(sizes).enumerate() {
-            part[i] = *size;
+        let mut parts = [[0.0; COLUMNS]; 7];
+        for (i, (row, size)) in parts.iter_mut().zip(sizes).enumerate() {
+            row[i] = *size;
         }
         Self {
             parts,
@@ -32,12 +38,15 @@ impl Spread {
         }
     }
 
-    /// The same after a linear map of deviations.
-    pub(super) fn mapped(&self, map: impl Fn(&Deviation) -> Deviation) -> Self {
-        Self {
-            parts: self.parts.map(|part| map(&part)),
-            columns: self.columns.iter().map(map).collect(),
-        }
+    /// The same after a linear map of deviations, which the parameters' have been through already.
+    pub(super) fn carried(
+        &self,
+        map: impl FnOnce(&mut Block<COLUMNS>),
+        columns: Vec<Deviation>,
+    ) -> Self {
+        let mut parts = self.parts;
+        map(&mut parts);
+        Self { parts, columns }
     }
 
     /// Adds independent noise to the components.
@@ -48,85 +57,126 @@ impl Spread {
         // Fourteen parts, made seven again by turning them into each other (Householder's reflections), which
         // leaves the covariance as it is: component by component, all but one are rid of it. Noise of a later
         // component can not have it.
-        let mut all = [[0.0; 7]; 14];
-        all[..7].copy_from_slice(&self.parts);
-        for (i, size) in noise.iter().enumerate() {
-            all[7 + i][i] = *size;
+        let mut all = [[0.0; 2 * PARTS]; 7];
+        for (i, (row, part)) in all.iter_mut().zip(&self.parts).enumerate() {
+            row[..PARTS].copy_from_slice(&part[..PARTS]);
+            row[PARTS + i] = noise[i];
         }
         for i in 0..7 {
-            let turned = &mut all[i..i + 8];
-            let length = turned.iter().map(|part| part[i] * part[i]).sum::<f64>();
-            let length = length.sqrt().copysign(-turned[0][i]);
-            if length == 0.0 {
-                continue;
-            }
-            let mut mirror = [0.0; 8];
-            for (m, part) in mirror.iter_mut().zip(turned.iter()) {
-                *m = part[i] / length;
-            }
-            mirror[0] -= 1.0;
-            for j in i..7 {
-                let along: f64 = mirror
-                    .iter()
-                    .zip(turned.iter())
-                    .map(|(m, p)| m * p[j])
-                    .sum();
-                for (part, m) in turned.iter_mut().zip(mirror) {
-                    part[j] += m * along / mirror[0];
-                }
-            }
+            let [pivot, below @ ..] = &mut all[i..] else {
+                break;
+            };
+            reflect(i, pivot, below);
         }
-        self.parts.copy_from_slice(&all[..7]);
+        for (part, row) in self.parts.iter_mut().zip(&all) {
+            part[..PARTS].copy_from_slice(&row[..PARTS]);
+        }
     }
 
     /// Whether nothing is known any more.
     pub(super) fn is_lost(&self) -> bool {
-        let mut all = self.parts.iter().chain(&self.columns).flatten();
-        !all.all(|component| component.abs() < LOST)
+        let small = |component: &f64| component.abs() < LOST;
+        let parts = self
+            .parts
+            .as_flattened()
+            .iter()
+            .fold(true, |all, part| all & small(part));
+        !(parts && self.columns.iter().flatten().all(small))
+    }
+
+    /// Variance of component i.
+    pub(super) fn variance(&self, i: usize) -> f64 {
+        let columns: f64 = self
+            .columns
+            .iter()
+            .map(|column| column[i] * column[i])
+            .sum();
+        dot(&self.parts[i], &self.parts[i]) + columns
     }
 
     /// Standard deviation of component i.
     pub(super) fn of_component(&self, i: usize) -> f64 {
-        self.over_parts(|part| part[i])
+        self.variance(i).sqrt()
     }
 
     /// Standard deviation of a linear function of the state.
     pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {
-        self.over_parts(|part| direction.iter().zip(part).map(|(l, w)| l * w).sum())
+        let parts = combined(&self.parts, direction);
+        let along =
+            |column: &Deviation| -> f64 { direction.iter().zip(column).map(|(l, w)| l * w).sum() };
+        let columns: f64 = self
+            .columns
+            .iter()
+            .map(|column| along(column).powi(2))
+            .sum();
+        (dot(&parts, &parts) + columns).sqrt()
     }
 
     /// A bound on the standard deviation of a linear function of the position with coefficients of these sizes.
     pub(super) fn at_most(&self, coefficients: [f64; 3]) -> f64 {
         (0..3).map(|i| coefficients[i] * self.of_component(i)).sum()
     }
+}
 
-    fn over_parts(&self, of: impl Fn(&Deviation) -> f64) -> f64 {
-        let all = self.parts.iter().chain(&self.columns);
-        all.map(|part| of(part).powi(2)).sum::<f64>().sqrt()
+/// Turns the eight parts from the i-th on into each other, so that only the first of them has anything in row i.
+fn reflect(i: usize, pivot: &mut [f64; 2 * PARTS], below: &mut [[f64; 2 * PARTS]]) {
+    let Some(pivot) = pivot[i..].first_chunk_mut::<COLUMNS>() else {
+        return;
+    };
+    let length = dot(pivot, pivot).sqrt().copysign(-pivot[0]);
+    if length == 0.0 {
+        return;
     }
+    let mut mirror = pivot.map(|component| component / length);
+    mirror[0] -= 1.0;
+    let scale = 1.0 / mirror[0];
+    *pivot = [0.0; COLUMNS];
+    pivot[0] = length;
+    for row in below {
+        let Some(row) = row[i..].first_chunk_mut::<COLUMNS>() else {
+            return;
+        };
+        let along = dot(&mirror, row) * scale;
+        for (entry, m) in row.iter_mut().zip(mirror) {
+            *entry += m * along;
+        }
+    }
+}
+
+/// Σ a_k b_k, as four sums that a processor can do at once.
+fn dot(a: &[f64; COLUMNS], b: &[f64; COLUMNS]) -> f64 {
+    let mut sums = [0.0; 4];
+    for k in 0..4 {
+        sums[k] = a[k] * b[k] + a[k + 4] * b[k + 4];
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn covariance(parts: &[Deviation]) -> [[f64; 7]; 7] {
-        let mut sum = [[0.0; 7]; 7];
-        for part in parts {
-            for (i, row) in sum.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry += part[i] * part[j];
+    fn covariance(parts: &Block<COLUMNS>) -> [[f64; 7]; 7] {
+        parts.map(|row| parts.map(|other| dot(&row, &other)))
+    }
+
+    /// A map of deviations, of a block of them.
+    fn each(map: impl Fn(&Deviation) -> Deviation) -> impl Fn(&mut Block<COLUMNS>) {
+        move |block| {
+            for column in 0..COLUMNS {
+                let mapped = map(&block.map(|row| row[column]));
+                for (row, entry) in block.iter_mut().zip(mapped) {
+                    row[column] = entry;
                 }
             }
         }
-        sum
     }
 
     #[test]
     fn noise_adds_its_squares_and_nothing_else() {
         let mut spread = Spread::along_components(&[1.0, 2.0, 0.0, 0.5, 3.0, 1e-9, 0.0]);
         let noise = [0.1, 0.0, 0.3, 1.0, 1e-12, 2.0, 0.7];
-        spread = spread.mapped(|part| {
+        let mix = each(|part| {
             let mut mixed = *part;
             for i in 0..6 {
                 mixed[i + 1] += 0.7 * part[i];
@@ -134,6 +184,7 @@ mod tests {
             }
             mixed
         });
+        spread = spread.carried(mix, Vec::new());
         let before = covariance(&spread.parts);
         spread.add_noise(&noise);
         let after = covariance(&spread.parts);
@@ -155,11 +206,12 @@ mod tests {
     /// A direction that is known 1e12 times better than the others stays so, where a covariance has no digit left of it.
     #[test]
     fn what_is_known_well_is_not_lost_among_the_rest() {
-        let mut spread = Spread::along_components(&[1e-9; 7]).mapped(|part| {
+        let nearly_one = each(|part| {
             let mut known = *part;
             known[1] = part[0] + 1e-12 * part[1];
             known
         });
+        let mut spread = Spread::along_components(&[1e-9; 7]).carried(nearly_one, Vec::new());
         spread.add_noise(&[0.0; 7]);
         let apart = spread.along(&[1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
         assert!((apart / 1e-21 - 1.0).abs() < 1e-3, "{apart:e}");

@@ -4,6 +4,7 @@ use super::losses::{Closing, loss, loss_at_start, may_run_out_of_time};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
+use crate::tangent::{Block, combined};
 use crate::{Case, CaseError, Deviation, Dual, Simulation, State, Step, StepMap, Tangent, Value};
 
 /// An impact that magnifies more than this is told.
@@ -58,13 +59,11 @@ impl Witness {
             impact: 1,
             loss,
         });
-        let mut spread = spread.mapped(|w| {
-            let mut projected = *w;
-            for (component, row) in projected.iter_mut().zip(&projection) {
-                *component = row.iter().zip(w).map(|(p, w)| p * w).sum();
-            }
-            projected
-        });
+        let project = |block: &mut Block<_>| {
+            let projected = projection.map(|row| combined(block, &row));
+            block[..6].copy_from_slice(&projected);
+        };
+        let mut spread = spread.carried(project, Vec::new());
         spread.add_noise(&rounding(simulation.state(), simulation.time()));
         Self {
             tolerance,
@@ -103,8 +102,13 @@ impl Witness {
 
     /// Takes in the step that `simulation` has just made.
     pub fn follow(&mut self, simulation: &Simulation, step: &Step) {
-        let map = self.tangent.of_step(simulation, step);
+        let map = self.follow_spread(simulation, step);
         self.frame.follow(&map);
+    }
+
+    /// Takes in the step, but for the exponents, which the horizon does not depend on.
+    pub(super) fn follow_spread(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
+        let map = self.tangent.of_step(simulation, step);
         self.end = step.t_end;
         let rows = step.impacts().count();
         let closing = Closing::of(simulation, step, &map);
@@ -116,6 +120,7 @@ impl Witness {
             self.carry(simulation, step, &map, closing)
         };
         self.errors.extend(std::iter::repeat_n(error, rows));
+        map
     }
 
     /// Past an event that neighbours may not share, or with no digit left, nothing is known.
@@ -133,19 +138,16 @@ impl Witness {
         closing: Option<Closing>,
     ) -> f64 {
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
-        let stage = |spread: &Spread, i: usize, f: &dyn Fn(&Deviation) -> Deviation| Spread {
-            columns: columns.iter().map(|column| column[i]).collect(),
-            ..spread.mapped(f)
-        };
-        let along = stage(&self.spread, 0, &|w| map.along(w));
+        let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
+        let along = self.spread.carried(|w| map.carry_along(w), column(0));
         if let Some(loss) = loss(simulation, step, map, &along, closing) {
             self.lose(step, loss);
         }
-        let met = stage(&along, 1, &|w| map.meet(w));
+        let met = along.carried(|w| map.carry_to_meet(w), column(1));
         if may_run_out_of_time(simulation, step, &met) {
             self.lose(step, Loss::StopRule);
         }
-        let mut after = stage(&met, 2, &|w| map.through(w));
+        let mut after = met.carried(|w| map.carry_through(w), column(2));
         let error =
             relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
         after.add_noise(&rounding(&step.after, step.t_end));
@@ -248,11 +250,12 @@ impl KeyDoubt {
 
 /// The largest standard deviation of time and state, of each relative to its value where that is above 1.
 fn relative(spread: &Spread, state: &State, t: f64) -> f64 {
-    let values = state.components().into_iter().chain([t]);
-    values
-        .enumerate()
-        .map(|(i, value)| spread.of_component(i) / value.abs().max(1.0))
-        .fold(0.0, f64::max)
+    let [x, y, theta, vx, vy, vtheta] = state.components();
+    let mut largest = 0.0_f64;
+    for (i, value) in [x, y, theta, vx, vy, vtheta, t].into_iter().enumerate() {
+        largest = largest.max(spread.variance(i) / (value * value).max(1.0));
+    }
+    largest.sqrt()
 }
 
 /// What rounding adds to a state and its time in one step.
