@@ -14,7 +14,7 @@ const FREEDOMS: usize = 3;
 /// Impulses are shared among so many cables at most, as every set of them is tried.
 const MOST_SHARED: usize = 8;
 /// A normal velocity below this part of the largest is the same.
-const SHARED: f64 = 1e-9;
+pub(crate) const SHARED: f64 = 1e-9;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
 const NEARLY_ONE_LINE: f64 = 4.5;
 
@@ -48,7 +48,7 @@ pub(crate) fn solve<T: Real>(
 /// what is left over.
 fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
     let determinant = a * c - b * b;
-    if determinant <= a * c * (T::EPSILON * NEARLY_ONE_LINE) {
+    if in_line([a, b, c]) {
         return [q[0] / a, T::ZERO];
     }
     let cramer = |q: [T; 2]| {
@@ -64,6 +64,11 @@ fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
         z = [z[0] + more[0], z[1] + more[1]];
     }
     z
+}
+
+/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to rounding.
+fn in_line<T: Real>([a, b, c]: [T; 3]) -> bool {
+    a * c - b * b <= a * c * (T::EPSILON * NEARLY_ONE_LINE)
 }
 
 /// The same for three and more, what is left over put in twice again: of three cables that are almost dependent the
@@ -170,14 +175,14 @@ pub(crate) fn complementary<T: Real>(
 /// each set S of them the least norm is z = W y with W W y = W z over S, since the rows of G that z may use are
 /// those of W's range; of the sets without a negative impulse the one of least norm is the answer.
 ///
-/// Up to two cables, sets without dependent cables, and more than [`MOST_SHARED`] are returned as they are.
+/// Sets without dependent cables, and more than [`MOST_SHARED`], are returned as they are.
 pub(crate) fn least_norm<T: Real>(
     held: TautSet,
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
     z: PerCable<T>,
 ) -> PerCable<T> {
-    if held.len() <= 2 {
+    if held.len() < 2 {
         return z;
     }
     let product =
@@ -190,8 +195,7 @@ pub(crate) fn least_norm<T: Real>(
         .iter()
         .filter(|&i| (product(i, &z) - q[i]).abs() <= close)
         .collect();
-    let independent = tight.len() <= FREEDOMS && independent(tight, &w);
-    if !(3..=MOST_SHARED).contains(&tight.len()) || independent {
+    if tight.len() > MOST_SHARED || independent(tight, &w) {
         return z;
     }
     let norm = |z: &PerCable<T>| tight.iter().fold(T::ZERO, |sum, i| sum + z[i] * z[i]);
@@ -232,7 +236,14 @@ fn spread<T: Real>(
 }
 
 /// Whether no cable's constraint depends on those of the others.
-fn independent<T: Real>(set: TautSet, w: &impl Fn(usize, usize) -> T) -> bool {
+pub(crate) fn independent<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T) -> bool {
+    let mut cables = set.iter();
+    match (cables.next(), cables.next(), set.len()) {
+        (_, None, _) => return true,
+        (Some(i), Some(j), 2) => return !in_line([w(i, i), w(i, j), w(j, j)]),
+        (.., count) if count > FREEDOMS => return false,
+        _ => {}
+    }
     let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
     for i in set.iter() {
         for j in set.iter() {
@@ -326,7 +337,7 @@ mod tests {
             }
         }
 
-        /// Two cables, and three that do not depend on each other, keep every bit.
+        /// Cables that do not depend on each other keep every bit.
         #[test]
         fn independent_cables_keep_their_impulses(
             rows in prop::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 1..4),
@@ -337,20 +348,21 @@ mod tests {
             let mut load = [0.0; MAX_CABLES];
             load[..3].copy_from_slice(&q);
             let (z, _) = complementary(set, w, &load);
-            if rows.len() < 3 || independent(set, &w) {
+            if independent(set, w) {
                 prop_assert_eq!(least_norm(set, w, &load, z), z);
             }
         }
     }
 
+    /// Two equal constraints: the pair can hold what one can, each of them half.
     #[test]
-    fn twins_share_no_load_twice() {
-        // Two equal constraints: the pair can hold what one can.
-        let (z, _) = complementary(TautSet::only(0).with(1), |_, _| 2.0, &{
-            let mut q = [0.0; MAX_CABLES];
-            (q[0], q[1]) = (3.0, 3.0);
-            q
-        });
+    fn twins_share_evenly_and_no_load_twice() {
+        let pair = TautSet::only(0).with(1);
+        let mut q = [0.0; MAX_CABLES];
+        (q[0], q[1]) = (3.0, 3.0);
+        let (z, _) = complementary(pair, |_, _| 2.0, &q);
         assert_eq!(z[0] + z[1], 1.5);
+        let shared = least_norm(pair, |_, _| 2.0, &q, z);
+        assert!((shared[0] - 0.75).abs() < 1e-15 && (shared[1] - 0.75).abs() < 1e-15);
     }
 }

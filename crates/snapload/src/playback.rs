@@ -4,7 +4,7 @@ use crate::complementarity::PerCable;
 use crate::contact::Contact;
 use crate::flight::Flight;
 use crate::series::Series;
-use crate::taut::tensions;
+use crate::taut::{Hold, tensions};
 use crate::taut_set::MAX_CABLES;
 use crate::trajectory::Trajectory;
 use crate::{State, TautSet};
@@ -80,8 +80,8 @@ impl<'a> Playback<'a> {
         if system.flies_freely(segment.taut) {
             self.flight.begin(system, t, start, start, &contacts);
         } else {
-            self.series
-                .begin(system, t, start, &contacts, segment.taut, None);
+            let hold = Hold::of(system, t, start, segment.taut);
+            self.series.begin(system, t, start, &contacts, hold, None);
         }
         self.segment = Some(index);
     }

@@ -143,7 +143,7 @@ pub(crate) fn convolve_tail<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: us
 pub(crate) fn square_tail<T: Real>(a: &Polynomial<T>, k: usize) -> T {
     let pairs = (k - 1) / 2;
     let twice = sum_of_products(&a.0[1..=pairs], &a.0[k - pairs..k]) * 2.0;
-    if k % 2 == 0 {
+    if k.is_multiple_of(2) {
         twice + a.0[k / 2].squared()
     } else {
         twice

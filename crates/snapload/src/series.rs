@@ -38,12 +38,16 @@ use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail, square_tail};
 use crate::real::{Real, cross, dot};
+use crate::taut::Hold;
 use crate::taut_set::MAX_CABLES;
-use crate::{State, System, TautSet};
+use crate::{State, System};
 
 /// A motion by less than this along a step counts as rest: its terms need not converge among
 /// themselves, only stay below rounding of this \[L\], \[rad\].
 const STILL: f64 = 1e-12;
+
+/// A taut cable that carries nothing may be off its length by so many times what a resting one may.
+const HELD: f64 = 64.0;
 
 /// Series of one cable's geometry: pairs of polynomials for ρ, for d = P − A, and where taut for n = d/r and
 /// T n; the gap where slack, the tension where taut.
@@ -77,7 +81,7 @@ impl<T: Real> Line<T> {
 /// The Taylor expansion of a motion with a fixed set of taut cables.
 #[derive(Clone, Debug)]
 pub(crate) struct Series<T: Real> {
-    taut: TautSet,
+    hold: Hold,
     x: Polynomial<T>,
     y: Polynomial<T>,
     theta: Polynomial<T>,
@@ -104,7 +108,7 @@ impl<T: Real> Series<T> {
     /// An expansion not yet made. Room for the cables comes with the first that is, as most runs make none.
     pub(crate) fn new(rotation_limit: Option<T>) -> Self {
         Self {
-            taut: TautSet::SLACK,
+            hold: Hold::default(),
             x: Polynomial::default(),
             y: Polynomial::default(),
             theta: Polynomial::default(),
@@ -131,10 +135,10 @@ impl<T: Real> Series<T> {
         t: T,
         start: &State<T>,
         contacts: &Contacts<T>,
-        taut: TautSet,
+        hold: Hold,
         upper_bound: Option<T>,
     ) {
-        self.taut = taut;
+        self.hold = hold;
         self.contacts = *contacts;
         self.lines.resize(system.cables.len(), Line::default());
         for (cable, tether) in system.cables.iter().enumerate() {
@@ -164,16 +168,30 @@ impl<T: Real> Series<T> {
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
+        self.hold.taut = hold
+            .taut
+            .iter()
+            .filter(|&cable| self.holds(cable))
+            .collect();
         self.choose_watched();
+    }
+
+    /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
+    fn holds(&self, cable: usize) -> bool {
+        self.hold.carrying.contains(cable)
+            || self.lines[cable].gap.derivative_bound(0, self.step, ORDER)
+                <= self.touch[cable] * HELD
     }
 
     /// Leaves out what provably is not reached within the step.
     fn choose_watched(&mut self) {
         let step = self.step;
         self.watched.clear();
-        for cable in 0..self.lines.len() {
+        let Hold { taut, carrying } = self.hold;
+        let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
+        for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
             let line = &self.lines[cable];
-            let (watch, function, order) = if self.taut.contains(cable) {
+            let (watch, function, order) = if carrying.contains(cable) {
                 (Watch::Tension(cable), line.tension.negated(), ORDER - 2)
             } else {
                 (Watch::Gap(cable), line.gap, ORDER)
@@ -246,9 +264,9 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// n of the taut cables to order k.
+    /// n of the carrying cables to order k.
     fn extend_normals(&mut self, system: &System<T>, k: usize) {
-        for cable in self.taut.iter() {
+        for cable in self.hold.carrying.iter() {
             let line = &mut self.lines[cable];
             for i in 0..2 {
                 line.normal[i][k] = line.span[i][k] / system.cables[cable].length();
@@ -259,23 +277,23 @@ impl<T: Real> Series<T> {
     /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
     fn extend_motion(&mut self, system: &System<T>, k: usize) {
         let inverse_inertia = system.body.inverse_inertia();
-        let taut = self.taut;
+        let carrying = self.hold.carrying;
         // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
         self.theta[k + 2] = T::ZERO;
         let (sine, cosine) = self.rotation(k + 2);
         let orders = ((k + 1) * (k + 2)) as f64;
 
         let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
-        for cable in taut.iter() {
+        for cable in carrying.iter() {
             let line = &mut self.lines[cable];
-            for i in 0..2 {
+            for (i, accel) in accel[..2].iter_mut().enumerate() {
                 line.pull[i][k] = convolve_tail(&line.normal[i], &line.tension, k);
-                accel[i] -= line.pull[i][k];
+                *accel -= line.pull[i][k];
             }
             accel[2] -= line.moment(k) * inverse_inertia;
         }
         let mut right = [T::ZERO; MAX_CABLES];
-        for cable in taut.iter() {
+        for cable in carrying.iter() {
             let line = &self.lines[cable];
             let lever = system.cables[cable].lever(sine, cosine);
             let [u, v] = &line.span;
@@ -289,8 +307,8 @@ impl<T: Real> Series<T> {
             let (a, b) = (&self.lines[i], &self.lines[j]);
             dot(a.normal(), b.normal()) + a.arm() * b.arm() * inverse_inertia
         };
-        let tension = solve(taut, coupling, &right);
-        for cable in taut.iter() {
+        let tension = solve(carrying, coupling, &right);
+        for cable in carrying.iter() {
             let line = &mut self.lines[cable];
             line.tension[k] = tension[cable];
             for (i, normal) in line.normal().into_iter().enumerate() {
@@ -306,9 +324,9 @@ impl<T: Real> Series<T> {
         self.cosine[k + 2] = cosine - self.theta[k + 2] * self.sine[0];
     }
 
-    /// g = d·d − r² of the slack cables, with the first coefficients as they are known.
+    /// g = d·d − r² of the other cables, with the first coefficients as they are known.
     fn expand_gaps(&mut self) {
-        for cable in (0..self.lines.len()).filter(|&cable| !self.taut.contains(cable)) {
+        for cable in (0..self.lines.len()).filter(|&cable| !self.hold.carrying.contains(cable)) {
             let contact = self.contacts[cable];
             let line = &mut self.lines[cable];
             let [u, v] = &line.span;
@@ -344,7 +362,7 @@ impl<T: Real> Series<T> {
     /// A rounding of the tension turns a body of small inertia by ε T (ρ/I) h²/2, which moves the
     /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
     fn choose_step(&self, system: &System<T>) -> T {
-        let light = self.taut.iter().fold(T::ONE, |w, cable| {
+        let light = self.hold.carrying.iter().fold(T::ONE, |w, cable| {
             let fairlead = system.cables[cable].fairlead();
             w.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia())
         });
@@ -353,12 +371,17 @@ impl<T: Real> Series<T> {
         let mut step = [&self.x, &self.y, &self.theta]
             .iter()
             .fold(longest, |step, p| p.converged_within(step, ORDER, still));
-        for cable in self.taut.iter() {
+        for cable in self.hold.carrying.iter() {
             let tension = &self.lines[cable].tension;
             let scale = (tension[0].abs() + 1.0) * 20.0;
             step = tension.converged_within(step, ORDER - 2, scale);
         }
         step
+    }
+
+    /// The cables that are taut within the step, and those of them that carry.
+    pub(crate) fn hold(&self) -> Hold {
+        self.hold
     }
 
     /// How far the expansion may be used.

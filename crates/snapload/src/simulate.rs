@@ -10,7 +10,7 @@ use crate::mooring::{Moment, Mooring};
 use crate::real::{Real, length};
 use crate::series::Series;
 use crate::start::{self, StartError};
-use crate::taut::{normal_acceleration, project_position, project_velocity, taut_next};
+use crate::taut::{Hold, normal_acceleration, project_position, project_velocity, taut_next};
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
 
@@ -35,7 +35,7 @@ pub struct Simulation<T: Real = f64> {
     state: State<T>,
     /// The state before the latest event.
     before: State<T>,
-    taut: TautSet,
+    hold: Hold,
     contacts: Contacts<T>,
     /// The system as [`crate::bounce`] takes it; none where it has not two cables and one harmonic.
     mooring: Option<Mooring<T>>,
@@ -149,7 +149,7 @@ impl<T: Real> Simulation<T> {
             t,
             state: start.state,
             before: start.state,
-            taut: start.taut,
+            hold: start.hold,
             contacts: start.contacts,
             impacts: 0,
             standstill: 0,
@@ -185,7 +185,7 @@ impl<T: Real> Simulation<T> {
 
     /// The taut cables.
     pub fn taut(&self) -> TautSet {
-        self.taut
+        self.hold.taut
     }
 
     /// Why the motion has stopped, if it has.
@@ -214,11 +214,12 @@ impl<T: Real> Simulation<T> {
         if self.stop.is_some() {
             return None;
         }
-        let (t_start, start, taut) = (self.t, self.state, self.taut);
+        let (t_start, start, mut taut) = (self.t, self.state, self.hold.taut);
         let (event, shock) = match self.next_bounce() {
             Some(bounce) => self.take(&bounce),
             None => {
                 let crossing = self.next_crossing();
+                taut = self.hold.taut;
                 self.advance(&crossing);
                 self.before = self.state;
                 let event = self.event(crossing.reached);
@@ -232,7 +233,7 @@ impl<T: Real> Simulation<T> {
             taut,
             t_end: self.t,
             after: self.state,
-            taut_after: self.taut,
+            taut_after: self.hold.taut,
             stop: self.stop,
             before: self.before,
             event,
@@ -251,7 +252,7 @@ impl<T: Real> Simulation<T> {
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
     fn next_crossing(&mut self) -> Crossing<T> {
         let mut horizon = self.rules.t_end - self.t;
-        let crossing = if self.system.flies_freely(self.taut) {
+        let crossing = if self.system.flies_freely(self.hold.taut) {
             self.flight.begin(
                 &self.system,
                 self.t,
@@ -266,9 +267,10 @@ impl<T: Real> Simulation<T> {
                 self.t,
                 &self.state,
                 &self.contacts,
-                self.taut,
+                self.hold,
                 self.rules.upper_bound,
             );
+            self.hold = self.series.hold();
             horizon = horizon.min(self.series.step());
             first_crossing(&*self.series, self.t, horizon)
         };
@@ -282,7 +284,7 @@ impl<T: Real> Simulation<T> {
     /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
     fn advance(&mut self, crossing: &Crossing<T>) {
         let s = crossing.s;
-        let free = self.system.flies_freely(self.taut);
+        let free = self.system.flies_freely(self.hold.taut);
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
         if free {
             let forcing = &self.system.forcing;
@@ -304,7 +306,7 @@ impl<T: Real> Simulation<T> {
             self.series.state(s)
         };
         for cable in 0..self.system.cables.len() {
-            self.contacts[cable] = if self.taut.contains(cable) {
+            self.contacts[cable] = if self.hold.taut.contains(cable) {
                 Contact::RESTING
             } else if crossing.reached.gaps.contains(cable) {
                 Contact::CLOSED
@@ -321,7 +323,7 @@ impl<T: Real> Simulation<T> {
         }
         let closed = self.closed();
         project_position(&self.system, &mut self.state, closed);
-        project_velocity(&self.system, &mut self.state, self.taut);
+        project_velocity(&self.system, &mut self.state, self.hold.taut);
     }
 
     /// The cables whose gap is zero, known and not evaluated.
@@ -374,18 +376,19 @@ impl<T: Real> Simulation<T> {
         let candidates = slow.union(at_rest);
         let mut halted = shock.after;
         project_velocity(&self.system, &mut halted, candidates);
-        self.taut = taut_next(&self.system, self.t, &halted, candidates);
-        project_velocity(&self.system, &mut self.state, self.taut);
+        let unloaded = TautSet::SLACK;
+        self.hold = taut_next(&self.system, self.t, &halted, candidates, unloaded);
+        project_velocity(&self.system, &mut self.state, self.hold.taut);
 
         for cable in closed.iter() {
-            let resting = self.taut.contains(cable) || at_rest.contains(cable);
+            let resting = self.hold.taut.contains(cable) || at_rest.contains(cable);
             self.contacts[cable] = if resting {
                 Contact::RESTING
             } else {
                 Contact::CLOSED
             };
         }
-        self.check_rules(struck.intersection(self.taut));
+        self.check_rules(struck.intersection(self.hold.taut));
         shock
     }
 
@@ -433,11 +436,11 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
+    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero, but for those that others
+    /// hold closed.
     fn release(&mut self, released: TautSet) {
-        let before = self.taut;
-        let kept = released.iter().fold(before, TautSet::without);
-        self.taut = taut_next(&self.system, self.t, &self.state, kept);
+        let kept = released.iter().fold(self.hold.taut, TautSet::without);
+        self.hold = taut_next(&self.system, self.t, &self.state, kept, released);
         self.check_rules(TautSet::SLACK);
     }
 
@@ -446,7 +449,7 @@ impl<T: Real> Simulation<T> {
         let y = self.state.y;
         let low = self.rules.settled_below.is_some_and(|height| y < height);
         let high = self.rules.sliding_above.is_some_and(|height| y >= height);
-        if low && (!stuck.is_empty() || self.taut.len() >= 2) {
+        if low && (!stuck.is_empty() || self.hold.taut.len() >= 2) {
             self.stop = Some(Stop::Settled);
         } else if high && !stuck.is_empty() {
             self.stop = Some(Stop::SlidingStart);
@@ -475,6 +478,7 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let others: TautSet = self
+            .hold
             .taut
             .iter()
             .filter(|&cable| !cables.contains(cable))

@@ -27,7 +27,7 @@ impl<T: Real> Simulation<T> {
     /// The motion as [`bounce`] takes it; none if a cable is taut or at rest.
     pub(crate) fn moment(&self) -> Option<Moment<T>> {
         let [first, second, ..] = &self.contacts;
-        if !self.taut.is_empty() || first.resting || second.resting {
+        if !self.hold.taut.is_empty() || first.resting || second.resting {
             return None;
         }
         Some(Moment {

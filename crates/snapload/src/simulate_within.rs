@@ -6,6 +6,7 @@ use crate::contact::Contact;
 use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
 use crate::real::{Real, length};
+use crate::taut::tensions;
 use crate::taut_set::MAX_CABLES;
 use std::borrow::Cow;
 
@@ -136,7 +137,14 @@ impl<T: Real> Simulation<T> {
         let s = step.t_end - step.t_start;
         let mut largest = [T::ZERO; MAX_CABLES];
         for cable in step.taut.iter() {
-            let tension = |k: usize| self.series.tension(cable, s * (k as f64 / 16.0));
+            let tension = |k: usize| {
+                let s = s * (k as f64 / 16.0);
+                if self.series.hold().carrying == step.taut {
+                    return self.series.tension(cable, s);
+                }
+                let t = step.t_start + s;
+                tensions(&self.system, t, &self.series.state(s), step.taut)[cable]
+            };
             largest[cable] = (0..=16).map(tension).fold(T::ZERO, T::max);
         }
         largest

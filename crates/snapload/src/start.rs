@@ -2,7 +2,7 @@
 
 use crate::contact::{Contact, Contacts};
 use crate::real::Real;
-use crate::taut::{project_position, project_velocity, taut_next};
+use crate::taut::{Hold, project_position, project_velocity, taut_next};
 use crate::taut_set::MAX_CABLES;
 use crate::trajectory::Stop;
 use crate::{Cable, State, StopRules, System, TautSet};
@@ -41,7 +41,7 @@ pub enum StartError {
 /// A legal start.
 pub(crate) struct Start<T> {
     pub(crate) state: State<T>,
-    pub(crate) taut: TautSet,
+    pub(crate) hold: Hold,
     pub(crate) contacts: Contacts<T>,
     pub(crate) stop: Option<Stop>,
 }
@@ -110,15 +110,15 @@ pub(crate) fn prepare<T: Real>(
             Contact::evaluated(system, cable, &state)
         };
     }
-    let taut = taut_next(system, t, &state, resting);
+    let hold = taut_next(system, t, &state, resting, TautSet::SLACK);
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);
     let low = rules.settled_below.is_some_and(|height| state.y < height);
-    let settled = (low && taut.len() >= 2 && !snaps).then_some(Stop::Settled);
+    let settled = (low && hold.taut.len() >= 2 && !snaps).then_some(Stop::Settled);
     Ok(Start {
         state,
-        taut,
+        hold,
         contacts,
         stop: stop.or(settled),
     })

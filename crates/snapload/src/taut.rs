@@ -1,32 +1,82 @@
 //! Which cables stay taut, and what they carry.
 
-use crate::complementarity::{PerCable, complementary, solve};
+use crate::complementarity::{PerCable, SHARED, complementary, independent, least_norm, solve};
 use crate::real::Real;
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System, TautSet};
 
-/// The set of cables that are taut from now on, among closed ones without normal velocity, by the
-/// complementarity problem on accelerations (docs/model.md section 6):
+/// The mode of motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Hold {
+    /// The taut cables.
+    pub(crate) taut: TautSet,
+    /// Of these, as few as make up the motion, none of them depending on others. The rest, such as the twin of a taut
+    /// cable, stays closed with them.
+    pub(crate) carrying: TautSet,
+}
+
+impl Hold {
+    /// Of cables that are known to be taut.
+    pub(crate) fn of<T: Real>(system: &System<T>, t: T, state: &State<T>, taut: TautSet) -> Self {
+        let normals = system.normals(state, taut);
+        let inverse_inertia = system.body.inverse_inertia();
+        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        if independent(taut, w) {
+            let carrying = taut;
+            return Self { taut, carrying };
+        }
+        let (load, _) = load(system, t, state, taut);
+        let (_, carrying) = complementary(taut, w, &load);
+        Self { taut, carrying }
+    }
+}
+
+/// The cables that are taut from now on, among closed ones without normal velocity, by the complementarity problem on
+/// accelerations (docs/model.md section 6):
 ///
 /// ```text
 /// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T
 /// ```
+///
+/// The problem is solved with as few of `candidates` as will do. Others of them that these hold closed as well are
+/// taut, too; so are those of `unloaded`, which carry nothing.
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
     candidates: TautSet,
-) -> TautSet {
+    unloaded: TautSet,
+) -> Hold {
     if candidates.is_empty() {
-        return TautSet::SLACK;
+        return Hold::default();
     }
-    let (load, normals) = load(system, t, state, candidates);
+    let all = candidates.union(unloaded);
+    let (load, normals) = load(system, t, state, all);
     let inverse_inertia = system.body.inverse_inertia();
     let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-    complementary(candidates, w, &load).1
+    let (tension, carrying) = complementary(candidates, w, &load);
+    let held_as_well = |&cable: &usize| {
+        let pulls = |j: usize| w(cable, j) * tension[j];
+        let left = carrying.iter().fold(load[cable], |sum, j| sum - pulls(j));
+        let size = carrying
+            .iter()
+            .fold(load[cable].abs(), |sum, j| sum + pulls(j).abs());
+        left.abs() <= size * T::from_decimal(SHARED) && !independent(carrying.with(cable), w)
+    };
+    let others = all.iter().filter(|&cable| !carrying.contains(cable));
+    let as_well: TautSet = if carrying.is_empty() {
+        TautSet::SLACK
+    } else {
+        others.filter(held_as_well).collect()
+    };
+    let taut = carrying.union(as_well);
+    Hold { taut, carrying }
 }
 
 /// The tensions of the taut cables: W T = b.
+///
+/// Where more cables are taut than the body has freedoms for, or one lies along another, these are the tensions of the
+/// least norm: those of cables that are stretched by the same force per length.
 pub(crate) fn tensions<T: Real>(
     system: &System<T>,
     t: T,
@@ -35,11 +85,12 @@ pub(crate) fn tensions<T: Real>(
 ) -> PerCable<T> {
     let (load, normals) = load(system, t, state, taut);
     let inverse_inertia = system.body.inverse_inertia();
-    solve(
-        taut,
-        |i, j| normals[i].coupling(&normals[j], inverse_inertia),
-        &load,
-    )
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    if independent(taut, w) {
+        return solve(taut, w, &load);
+    }
+    let (tension, _) = complementary(taut, w, &load);
+    least_norm(taut, w, &load, tension)
 }
 
 /// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).

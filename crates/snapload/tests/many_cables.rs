@@ -2,9 +2,10 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
+use snapload::analysis::{Doubt, trusted_run};
 use snapload::{
-    Body, Cable, Forcing, Harmonic, Impact, Playback, Shape, Simulation, State, Stop, StopRules,
-    System, Trajectory,
+    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Playback, Shape, Simulation, State,
+    Stop, StopRules, System, Trajectory, named_case,
 };
 
 /// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much longer than their
@@ -158,4 +159,106 @@ fn parallel_tethers_share_an_impact_evenly() {
     }
     assert_eq!(run.end().reason, Stop::EndTime);
     assert!(run.end().state.vy.abs() < 1e-9 && run.end().state.theta.abs() < 1e-9);
+}
+
+/// Every line doubled: a pair moves the body as one line does, and each of the pair carries half, at impacts and while
+/// taut. The cases slide and rock, and lines come taut and go slack.
+#[test]
+fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
+    for code in ["sliding-example", "rocking-example", "1910001000-359"] {
+        let case = Case::new(named_case(code)?.parameters)?;
+        let simulation = case.simulation();
+        let mut twins = simulation.system().clone();
+        twins.cables = twins.cables.iter().flat_map(|c| [*c, *c]).collect();
+        let rules = *simulation.rules();
+        let v_stick = case.parameters().v_stick;
+        let start = *simulation.state();
+        let single = Trajectory::record(simulation);
+        let double = Simulation::new(twins, rules, v_stick, 0.0, start).expect("the same start");
+        let double = Trajectory::record(double);
+
+        // Rounding differs, and grows from impact to impact; what is compared is certain.
+        let (_, trust) = trusted_run(&case, &Doubt::default())?;
+        let sure = trust.horizon.map_or(f64::INFINITY, |h| h.t);
+        let mut pairs = double.impacts().chunks_exact(2);
+        let mut compared = 0;
+        for (one, known) in single.impacts().iter().zip(&trust.errors) {
+            let Some([a, b]) = pairs.next() else {
+                panic!("{code}: impacts are missing from {} on", one.t)
+            };
+            if one.t >= sure || *known > 1e-6 {
+                break;
+            }
+            assert_eq!([a.cable, b.cable], [2 * one.cable, 2 * one.cable + 1]);
+            for twin in [a, b] {
+                let off = (twin.impulse - 0.5 * one.impulse).abs();
+                assert!(off < 1e-6 * (1.0 + one.impulse), "{code}: {off:e}");
+                assert!((twin.t - one.t).abs() < 1e-6);
+            }
+            compared += 1;
+        }
+        assert!(compared > 20, "{code}: {compared}");
+
+        let (mut one, mut two) = (Playback::new(&single), Playback::new(&double));
+        let mut carried = 0;
+        for k in 0..2000 {
+            let t = single.end().t.min(sure) * f64::from(k) / 2000.0;
+            let (one, two) = (one.at(t), two.at(t));
+            if one.taut.len() * 2 != two.taut.len() {
+                // The instant of a change of mode is not the same to the last digit.
+                continue;
+            }
+            for cable in one.taut.iter() {
+                for twin in [2 * cable, 2 * cable + 1] {
+                    let off = (two.tensions[twin] - 0.5 * one.tensions[cable]).abs();
+                    assert!(off < 1e-5, "{code} at {t}: {off:e}");
+                    carried += 1;
+                }
+            }
+        }
+        assert!(
+            code == "1910001000-359" || carried > 100,
+            "{code}: {carried}"
+        );
+    }
+    Ok(())
+}
+
+/// Four equal parallel tethers, let go from the side: the body swings as a point on one tether does, and each carries
+/// a quarter of what that one does. No two of them alone could.
+#[test]
+fn parallel_tethers_swing_as_one_pendulum() {
+    let swing = |lines: &[f64]| {
+        let tether = |x: f64| Cable::taut_at_rest([0.0, -1.0], [x, 0.0], 1.0);
+        let system = System {
+            body: Body::rigid(Shape::Circle { radius: 0.3 }, 0.05),
+            cables: lines.iter().map(|x| tether(*x)).collect(),
+            forcing: Forcing {
+                constant: [0.0, -1.0],
+                harmonics: Vec::new(),
+            },
+            drag: None,
+            restitution: 0.5,
+        };
+        let start = State {
+            x: 0.6,
+            y: 0.2,
+            ..State::default()
+        };
+        run(system, 10.0, start)
+    };
+    let (one, four) = (swing(&[0.0]), swing(&[-0.3, -0.1, 0.1, 0.3]));
+    assert_eq!(four.end().reason, Stop::EndTime);
+    assert!(four.impacts().is_empty());
+    let (mut one, mut four) = (Playback::new(&one), Playback::new(&four));
+    for k in 0..=1000 {
+        let (one, four) = (one.at(f64::from(k) * 0.01), four.at(f64::from(k) * 0.01));
+        assert!((one.state.x - four.state.x).abs() < 1e-12);
+        assert!((one.energy - four.energy).abs() < 1e-12);
+        assert_eq!(four.taut.len(), 4);
+        for cable in 0..4 {
+            let off = four.tensions[cable] - 0.25 * one.tensions[0];
+            assert!(off.abs() < 1e-9, "{off:e}");
+        }
+    }
 }
