@@ -62,8 +62,10 @@ fn snap(snap: &Snap) -> Value {
         "impulse_n_s": snap.impulse_n_s,
         "energy_lost_j": snap.energy_lost_j,
         "effective_mass_kg": snap.effective_mass_kg,
+        "effective_speed_m_s": snap.effective_speed_m_s,
         "energy_peak_n": snap.energy_peak_n,
         "front_n": snap.front_n,
+        "peak_n": snap.peak_n,
         "utilisation": snap.utilisation,
     })
 }

@@ -9,7 +9,9 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 use snapload::analysis::{Trust, Witness};
-use snapload::{CaseError, Playback, Simulation, StartError, State, Step, Stop, Trajectory};
+use snapload::{
+    CaseError, Impact, Playback, Simulation, StartError, State, Step, Stop, Trajectory,
+};
 
 /// An impact slower than this lets its line stay taut, in the engine's units (docs/model.md section 6).
 const V_STICK: f64 = 1e-6;
@@ -167,9 +169,7 @@ impl Prepared {
         let mut tally = Tally::new(self, law);
         while let Some(step) = simulation.step() {
             tally.stretch(&simulation, &step);
-            for impact in step.impacts() {
-                tally.snap(&simulation, &impact);
-            }
+            tally.snaps(&simulation, &step);
         }
         Ok(tally.finish(
             simulation.time(),
@@ -216,19 +216,24 @@ impl<'a> Tally<'a> {
         }
     }
 
-    fn snap(&mut self, simulation: &Simulation, impact: &snapload::Impact) -> Snap {
-        let snap = self.law.snap(simulation.system(), impact);
-        if snap.counts() && snap.t_s >= self.prepared.structure.transient_s {
+    fn snaps(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
+        let impacts: Vec<Impact> = step.impacts().collect();
+        let snaps = self.law.snaps(simulation.system(), &impacts);
+        let judged =
+            |snap: &&Snap| snap.counts() && snap.t_s >= self.prepared.structure.transient_s;
+        for snap in snaps.iter().filter(judged) {
             let line = &mut self.lines[snap.line];
-            line.snaps += 1;
-            line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
-            self.speeds_m_s.push(snap.speed_m_s);
-            if let Some(peak) = snap.peak_n() {
+            if !snap.is_jolt() {
+                line.snaps += 1;
+                line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
+                self.speeds_m_s.push(snap.speed_m_s);
+            }
+            if let Some(peak) = snap.peak_n {
                 line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
                 self.peaks_n.push(peak);
             }
         }
-        snap
+        snaps
     }
 
     fn finish(mut self, end: f64, stop: Stop) -> Outcome {
@@ -295,9 +300,7 @@ pub fn assess(
     let run = Trajectory::record_watched(simulation, |simulation, step| {
         witness.follow(simulation, step);
         tally.stretch(simulation, step);
-        for impact in step.impacts() {
-            snaps.push(tally.snap(simulation, &impact));
-        }
+        snaps.extend(tally.snaps(simulation, step));
     });
     watch();
     let outcome = tally.finish(run.end().t, run.end().reason);

@@ -121,7 +121,7 @@ impl Assessment {
         let hardest = early.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
         match hardest {
             Some(snap) if snap.speed_m_s > self.outcome.speed_m_s() && snap.counts() => {
-                let about = snap.peak_n().map_or(String::new(), |peak| {
+                let about = snap.peak_n.map_or(String::new(), |peak| {
                     format!(", about {:.0} kN", peak / 1e3)
                 });
                 format!(

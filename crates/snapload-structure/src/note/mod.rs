@@ -127,7 +127,7 @@ fn lines(assessment: &Assessment) -> Markup {
                 } }
             } }
             p.small {
-                "Held: the largest tension while the line stays taut. Snap tension: the larger of two estimates (see Assumptions). "
+                "Held: the largest tension while the line stays taut. Snap tension: the estimated peak (see Assumptions). "
                 "Utilisation: the larger of held and snap tension over the breaking load, without any factor of safety. Snaps slower "
                 "than 1 cm/s are lines settling down and are not counted; snaps before t = "
                 (format!("{:.0}", structure.transient_s)) " s are not judged, as the waves begin at once on a body at rest. The run "
@@ -162,7 +162,7 @@ fn snaps(assessment: &Assessment) -> Markup {
         .iter()
         .filter(|snap| snap.counts() && snap.t_s >= transient)
         .collect();
-    hardest.sort_by(|a, b| b.speed_m_s.total_cmp(&a.speed_m_s));
+    hardest.sort_by(|a, b| b.effective_speed_m_s.total_cmp(&a.effective_speed_m_s));
     let all = hardest.len();
     hardest.truncate(LISTED);
     hardest.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
@@ -175,15 +175,16 @@ fn snaps(assessment: &Assessment) -> Markup {
             div.wide { table {
                 thead { tr {
                     th { "t" br; "s" } th { "line" } th { "speed" br; "m/s" } th { "impulse" br; "kN s" } th { "energy lost" br; "kJ" }
-                    th { "effective mass" br; "t" } th { "by energy" br; "kN" } th { "first instant" br; "kN" } th { "utilisation" } th {}
+                    th { "effective mass" br; "t" } th { "spring" br; "kN" } th { "first instant" br; "kN" } th { "peak" br; "kN" } th { "utilisation" } th {}
                 } }
                 tbody { @for snap in &hardest { tr {
                     td { (format!("{:.2}", snap.t_s)) } td { (snap.line + 1) } td { (format!("{:.3}", snap.speed_m_s)) }
                     td { (format!("{:.1}", snap.impulse_n_s / 1e3)) } td { (format!("{:.2}", snap.energy_lost_j / 1e3)) }
                     td { (format!("{:.0}", snap.effective_mass_kg / 1e3)) } td { (maybe_kilo(snap.energy_peak_n)) }
-                    td { (maybe_kilo(snap.front_n)) }
+                    td { (maybe_kilo(snap.front_n)) } td { (maybe_kilo(snap.peak_n)) }
                     td { (snap.utilisation.map_or("not known".to_owned(), |u| format!("{u:.2}"))) }
                     td {
+                        @if snap.is_jolt() { "passed on to a taut line " }
                         @if horizon.is_some_and(|horizon| snap.t_s > horizon) { "past the horizon" }
                     }
                 } } }
@@ -397,9 +398,11 @@ fn assumptions(structure: &Structure) -> Markup {
                       by the coefficient of restitution." }
                 li { "Linear waves. The force is that of Froude and Krylov with added mass, ρV(1 + C" sub { "a" } ") times the acceleration \
                       the water would have at the place of rest: it depends on time alone, not on where the body has moved, and there is " (drag) " by waves that the body makes." }
-                li { "An inextensible line gives an impulse, never a force. The snap tension is therefore estimated, by energy as \
-                      T" sub { "0" } " + v √(k M/w) and for the first instant as v √(EA μ), with v the closing speed, M/w the mass the line has to \
-                      stop, T" sub { "0" } " its tension at rest, k = EA/length, μ its mass per length." }
+                li { "An inextensible line gives an impulse, never a force. The snap tension is therefore estimated: as a spring, \
+                      T" sub { "0" } " + u √(k m); for the first instant, u √(EA μ); and for the peak as the sum of both with the line's own \
+                      mass added to m, or the spring alone where the line's mass is not known. u is the speed that the line has to stop, the \
+                      closing speed where one line snaps by itself, m the mass, T" sub { "0" } " its tension at rest, k = EA/length, μ its mass per \
+                      length." }
                 li { "Properties of lines by type and diameter are typical values (Orcina, OrcaFlex documentation, pages Chain and \
                       Rope/wire), not those of a product." }
             }

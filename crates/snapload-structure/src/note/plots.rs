@@ -132,7 +132,7 @@ fn over_time(description: &str, label: &str, range: Range, layers: Vec<Layer>) -
 
 fn peaks(assessment: &Assessment) -> Plot {
     let structure = &assessment.prepared.structure;
-    let known = assessment.snaps.iter().all(|snap| snap.peak_n().is_some());
+    let known = assessment.snaps.iter().all(|snap| snap.peak_n.is_some());
     let shade = Layer::Shade {
         from: f64::NEG_INFINITY,
         to: structure.transient_s,
@@ -147,7 +147,7 @@ fn peaks(assessment: &Assessment) -> Plot {
         let points = of_line.map(|snap| {
             [
                 snap.t_s,
-                snap.peak_n().map_or(snap.speed_m_s, |peak| peak / 1e3),
+                snap.peak_n.map_or(snap.speed_m_s, |peak| peak / 1e3),
             ]
         });
         layers.push(Layer::Markers {
