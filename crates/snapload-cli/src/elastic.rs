@@ -4,6 +4,7 @@ use crate::failure::{Failure, print};
 use crate::json::{Json, room_of};
 use crate::stage::Stage;
 use serde_json::{Value, json};
+use snapload::Impact;
 use snapload_structure::{
     ElasticRun, Prepared, Pull, Snap, SnapLaw, Spring, damping_ratio, run_elastic, springs,
 };
@@ -135,12 +136,13 @@ fn inextensible(prepared: &Prepared) -> (Vec<Snap>, Vec<f64>) {
                 *slack += step.t_end - step.t_start;
             }
         }
-        for impact in step.impacts() {
-            let snap = law.snap(simulation.system(), &impact);
-            if snap.counts() {
-                snaps.push(snap);
-            }
-        }
+        let impacts: Vec<Impact> = step.impacts().collect();
+        let found = law.snaps(simulation.system(), &impacts);
+        snaps.extend(
+            found
+                .into_iter()
+                .filter(|snap| snap.counts() && !snap.is_jolt()),
+        );
     }
     let end = simulation.time().max(f64::MIN_POSITIVE);
     (snaps, slack.into_iter().map(|time| time / end).collect())

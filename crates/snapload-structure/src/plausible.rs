@@ -88,8 +88,8 @@ pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
         warn(
             "shared loads",
             "more lines are taut at rest than hold the body: which of them carries how much depends on their stiffness, which the \
-             inextensible line does not know. Tensions and slack times of single lines are those of one way to share, and a run \
-             may come to a stand"
+             inextensible line does not know. They share as lines of equal stiffness that lie side by side do, with the least sum \
+             of squares"
                 .to_owned(),
         );
     }

@@ -281,3 +281,35 @@ fn lines_that_share_a_snap_share_its_energy() {
         assert!((pair / (one[0] / 2.0_f64.sqrt()) - 1.0).abs() < 1e-9);
     }
 }
+
+/// Every line doubled, in waves in which all go slack: the run goes on to its end, and each line of a pair does what the
+/// other does.
+#[test]
+fn double_lines_run_to_the_end_and_share_evenly() {
+    let line = |side: f64| {
+        format!(
+            "[[line]]\nanchor = [{}, -10]\nfairlead = [{}, -4.561]\nlength = 6\ntype = \"studless chain\"\ndiameter = 0.038\n",
+            3.593 * side,
+            1.061 * side
+        )
+    };
+    let text = format!(
+        "[body]\nwidth = 3\ndisplaced_volume = 141.37\nmass = 72452\nadded_mass = 144904\nmoment_of_inertia = 163017\n\
+         position = [0, -3.5]\n[site]\ndepth = 10\n[wave]\nheight = 2\nperiod = 6\n[run]\nrestitution = 0.5\n\
+         duration = 400\n{}{}{}{}",
+        line(1.0),
+        line(1.0),
+        line(-1.0),
+        line(-1.0)
+    );
+    let assessment = assess(Structure::parse("double", &text).unwrap(), 3, || {}).unwrap();
+    for outcome in assessment.neighbours.iter().chain([&assessment.outcome]) {
+        assert_eq!(outcome.stop, snapload::Stop::EndTime);
+        for pair in outcome.lines.chunks(2) {
+            assert_eq!(pair[0].snaps, pair[1].snaps);
+            assert!(pair[0].snaps > 10);
+            assert!((pair[0].held_n / pair[1].held_n - 1.0).abs() < 1e-6);
+            assert!((pair[0].peak_n.unwrap() / pair[1].peak_n.unwrap() - 1.0).abs() < 1e-6);
+        }
+    }
+}

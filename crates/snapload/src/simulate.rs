@@ -10,7 +10,9 @@ use crate::mooring::{Moment, Mooring};
 use crate::real::{Real, length};
 use crate::series::Series;
 use crate::start::{self, StartError};
-use crate::taut::{Hold, normal_acceleration, project_position, project_velocity, taut_next};
+use crate::taut::{
+    Hold, normal_acceleration, project_position, project_velocity, taut_next, unloaded,
+};
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
 
@@ -48,6 +50,8 @@ pub struct Simulation<T: Real = f64> {
     impacts: u64,
     /// Steps of no length since time last moved on.
     standstill: u64,
+    /// Slow snaps in a row, slower than `v_stick`.
+    slow_snaps: u32,
     last: LastImpacts<T>,
     stop: Option<Stop>,
     t_limit: Option<T>,
@@ -153,6 +157,7 @@ impl<T: Real> Simulation<T> {
             contacts: start.contacts,
             impacts: 0,
             standstill: 0,
+            slow_snaps: 0,
             last: LastImpacts {
                 cables: TautSet::SLACK,
                 v_n: T::ZERO,
@@ -373,7 +378,12 @@ impl<T: Real> Simulation<T> {
             .iter()
             .filter(|&cable| self.unmoved(&shock, cable, struck))
             .collect();
-        let candidates = slow.union(at_rest);
+        self.slow_snaps = if slow == struck {
+            self.slow_snaps + 1
+        } else {
+            0
+        };
+        let candidates = slow.union(at_rest).union(self.caught(&shock, closed));
         let mut halted = shock.after;
         project_velocity(&self.system, &mut halted, candidates);
         let unloaded = TautSet::SLACK;
@@ -390,6 +400,16 @@ impl<T: Real> Simulation<T> {
         }
         self.check_rules(struck.intersection(self.hold.taut));
         shock
+    }
+
+    /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
+    /// ones that leave by less: those snaps accumulate, and all of them may stick.
+    fn caught(&self, shock: &Shock<T>, closed: TautSet) -> TautSet {
+        if self.slow_snaps < CONVERGING {
+            return TautSet::SLACK;
+        }
+        let slow = |&cable: &usize| shock.v_after[cable].abs() < self.v_stick;
+        closed.iter().filter(slow).collect()
     }
 
     /// Whether a closed cable has no normal velocity after the shock. A struck one was closing; if its
@@ -436,11 +456,33 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero, but for those that others
-    /// hold closed.
+    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero. Where others hold closed as
+    /// well, those that share in nothing leave, and the load goes over to the rest.
     fn release(&mut self, released: TautSet) {
-        let kept = released.iter().fold(self.hold.taut, TautSet::without);
-        self.hold = taut_next(&self.system, self.t, &self.state, kept, released);
+        let Hold { taut, carrying } = self.hold;
+        let without = |gone: TautSet| gone.iter().fold(taut, TautSet::without);
+        let idle = if taut == carrying {
+            released
+        } else {
+            unloaded(&self.system, self.t, &self.state, taut)
+        };
+        self.hold = if idle.is_empty() {
+            taut_next(
+                &self.system,
+                self.t,
+                &self.state,
+                without(released),
+                released,
+            )
+        } else {
+            taut_next(
+                &self.system,
+                self.t,
+                &self.state,
+                without(idle),
+                TautSet::SLACK,
+            )
+        };
         self.check_rules(TautSet::SLACK);
     }
 

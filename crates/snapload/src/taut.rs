@@ -93,6 +93,21 @@ pub(crate) fn tensions<T: Real>(
     least_norm(taut, w, &load, tension)
 }
 
+/// The taut cables that carry nothing, to rounding of forces of size 1.
+pub(crate) fn unloaded<T: Real>(
+    system: &System<T>,
+    t: T,
+    state: &State<T>,
+    taut: TautSet,
+) -> TautSet {
+    let tension = tensions(system, t, state, taut);
+    let largest = taut
+        .iter()
+        .fold(T::ONE, |most, cable| most.max(tension[cable]));
+    let none = |&cable: &usize| tension[cable] <= largest * T::from_decimal(SHARED);
+    taut.iter().filter(none).collect()
+}
+
 /// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).
 pub(crate) fn acceleration<T: Real>(
     system: &System<T>,

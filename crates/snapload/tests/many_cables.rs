@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::analysis::{Doubt, trusted_run};
 use snapload::{
-    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Playback, Shape, Simulation, State,
-    Stop, StopRules, System, Trajectory, named_case,
+    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Parameters, Playback, Shape,
+    Simulation, State, Stop, StopRules, System, Trajectory, named_case,
 };
 
 /// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much longer than their
@@ -165,8 +165,23 @@ fn parallel_tethers_share_an_impact_evenly() {
 /// taut. The cases slide and rock, and lines come taut and go slack.
 #[test]
 fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
-    for code in ["sliding-example", "rocking-example", "1910001000-359"] {
-        let case = Case::new(named_case(code)?.parameters)?;
+    // One begins with both cables taut.
+    let rocking = Parameters {
+        y: 0.0,
+        a: 0.3,
+        stop_when_settled: false,
+        t_end: 4.0,
+        ..Parameters::STANDARD
+    };
+    let named = |code| Ok::<_, CaseError>((code, named_case(code)?.parameters));
+    let cases = [
+        named("sliding-example")?,
+        named("1910001000-359")?,
+        ("rocking", rocking),
+    ];
+    let mut carried = 0;
+    for (code, parameters) in cases {
+        let case = Case::new(parameters)?;
         let simulation = case.simulation();
         let mut twins = simulation.system().clone();
         twins.cables = twins.cables.iter().flat_map(|c| [*c, *c]).collect();
@@ -197,10 +212,9 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
             }
             compared += 1;
         }
-        assert!(compared > 20, "{code}: {compared}");
+        assert!(code == "rocking" || compared > 20, "{code}: {compared}");
 
         let (mut one, mut two) = (Playback::new(&single), Playback::new(&double));
-        let mut carried = 0;
         for k in 0..2000 {
             let t = single.end().t.min(sure) * f64::from(k) / 2000.0;
             let (one, two) = (one.at(t), two.at(t));
@@ -216,16 +230,13 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
                 }
             }
         }
-        assert!(
-            code == "1910001000-359" || carried > 20,
-            "{code}: {carried}"
-        );
     }
+    assert!(carried > 1000, "{carried}");
     Ok(())
 }
 
 /// Four equal parallel tethers, let go from the side: the body swings as a point on one tether does, and each carries
-/// a quarter of what that one does. No two of them alone could.
+/// a quarter of what that one does.
 #[test]
 fn parallel_tethers_swing_as_one_pendulum() {
     let swing = |lines: &[f64]| {
