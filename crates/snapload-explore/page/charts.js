@@ -1,0 +1,268 @@
+// θ, v_n, tensions and energy against time, under one time cursor.
+
+import { Frame, drawAxes, drawColumn, drawMark, prepare, span, stroke, ticks } from "./plot.js";
+import { fixed, number } from "./words.js";
+
+const LEFT = 50;
+const RIGHT = 10;
+const NEAR_PX = 9;
+
+export const CHARTS = [
+  { id: "theta", symbol: "θ", unit: "rad", name: "Rotation" },
+  { id: "snaps", symbol: "vₙ", unit: "L/T", name: "Normal velocity of each snap" },
+  { id: "tensions", symbol: "T", unit: "F", name: "Tensions" },
+  { id: "energy", symbol: "E", unit: "F L", name: "Energy" },
+];
+
+const READ = {
+  theta: (run, moment) => `${fixed(moment.theta, 4)} rad`,
+  snaps: (run, moment) => latestSnap(run, moment.t),
+  tensions: (run, moment) => moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
+  energy: (run, moment) => `${fixed(moment.energy, 5)} F L`,
+};
+
+function latestSnap(run, t) {
+  const i = run.impactsWithin(0, t)[0];
+  return i === undefined ? "none yet" : `${number(run.impacts.v_n[i], 4)} L/T, latest`;
+}
+
+/** Everything there is to say of an impact, in a line. */
+export function impactWords(run, i) {
+  const { cable, v_n, impulse, digits, t } = run.impacts;
+  const known = Number.isFinite(digits[i]) ? `, ${Math.max(0, Math.floor(digits[i]))} digits known` : "";
+  return `impact ${i + 1} of cable ${cable[i]} at t = ${number(t[i], 6)}: vₙ ${number(v_n[i])}, impulse ${number(impulse[i])}${known}`;
+}
+
+export class Charts {
+  /** `shown` gives run, time and time window; `onJump` is told where a chart was clicked. */
+  constructor(root, { colours, onJump, onHover, onZoom }) {
+    Object.assign(this, { colours, onJump, onHover, onZoom, run: null, hover: null, parts: [] });
+    for (const chart of CHARTS) this.parts.push(this.#build(root, chart));
+    this.frames = new Map();
+    this.drag = null;
+  }
+
+  #build(root, chart) {
+    const figure = document.createElement("figure");
+    figure.className = "chart";
+    figure.innerHTML = `<figcaption><span class="chart-name">${chart.name} <i>${chart.symbol}</i>
+      <span class="unit">[${chart.unit}]</span></span><output class="reading"></output></figcaption>
+      <div class="stack"><canvas class="base" role="img"></canvas><canvas class="over" aria-hidden="true"></canvas></div>`;
+    root.append(figure);
+    const [base, over] = figure.querySelectorAll("canvas");
+    const part = { chart, figure, base, over, reading: figure.querySelector("output") };
+    part.reading.setAttribute("aria-live", "off");
+    this.#listen(part);
+    return part;
+  }
+
+  #listen(part) {
+    const { over } = part;
+    const timeAt = (event) => {
+      const frame = this.frames.get(part.chart.id);
+      const t = frame.atX(event.clientX - over.getBoundingClientRect().left);
+      return Math.min(Math.max(t, frame.x0), Math.min(frame.x1, this.run.tEnd));
+    };
+    over.addEventListener("pointermove", (event) => {
+      if (!this.run) return;
+      const t = timeAt(event);
+      if (this.drag?.zoom) this.drag.to = t;
+      else if (this.drag) this.onJump(t);
+      this.onHover(t, { part, x: event.offsetX, y: event.offsetY });
+    });
+    over.addEventListener("pointerdown", (event) => {
+      if (!this.run || event.button !== 0) return;
+      const t = timeAt(event);
+      this.drag = { zoom: event.shiftKey, from: t, to: t };
+      if (event.pointerType === "mouse") over.setPointerCapture(event.pointerId);
+      if (!this.drag.zoom) this.onJump(this.#snapTo(part, event) ?? t);
+    });
+    over.addEventListener("pointerup", () => {
+      const { drag } = this;
+      this.drag = null;
+      if (drag?.zoom && Math.abs(drag.to - drag.from) > 0) this.onZoom([drag.from, drag.to].sort((a, b) => a - b));
+    });
+    over.addEventListener("pointercancel", () => (this.drag = null));
+    over.addEventListener("pointerleave", () => this.onHover(null));
+  }
+
+  /** The time of the impact whose mark was clicked. */
+  #snapTo(part, event) {
+    const i = part.chart.id === "snaps" ? this.nearest(event.offsetX, event.offsetY) : null;
+    return i === null ? null : this.run.impacts.t[i];
+  }
+
+  /** The impact whose mark is nearest to a point of the chart of snaps, within reach of a pointer. */
+  nearest(x, y) {
+    const frame = this.frames.get("snaps");
+    const { t, v_n } = this.run.impacts;
+    let best = [NEAR_PX, null];
+    for (let i = 0; i < t.length; i += 1) {
+      const distance = Math.hypot(frame.x(t[i]) - x, frame.y(v_n[i]) - y);
+      if (distance < best[0]) best = [distance, i];
+    }
+    return best[1];
+  }
+
+  /** Draws what does not depend on the time cursor. */
+  draw(run, window) {
+    this.run = run;
+    const range = window ?? [0, run.tEnd || 1];
+    this.parts.forEach((part, i) => this.#drawBase(part, range, i === this.parts.length - 1));
+  }
+
+  #drawBase({ chart, base }, range, last) {
+    const colours = this.colours();
+    const { context, width, height } = prepare(base);
+    const bottom = last ? 30 : 8;
+    const run = this.run;
+    const ys = { theta: () => span([run.motion.theta]), snaps: () => above(span([run.impacts.v_n])),
+      tensions: () => above(span([run.motion.T1, run.motion.T2])), energy: () => span([run.motion.energy]) }[chart.id]();
+    const frame = new Frame([LEFT, 6, width - LEFT - RIGHT, height - 6 - bottom], range, ys);
+    this.frames.set(chart.id, frame);
+    context.save();
+    this.#shade(context, frame, colours);
+    context.restore();
+    drawAxes(context, frame, colours, {
+      xLabels: last,
+      xTicks: ticks(...range, frame.width / 70),
+      yTicks: ticks(...ys, frame.height / 26),
+    });
+    if (last) label(context, colours, "t  [T]", frame.left + frame.width / 2, height - 3);
+    context.save();
+    frame.clip(context);
+    context.lineWidth = 1.3;
+    context.lineJoin = "round";
+    this.#data(context, chart, frame, colours);
+    context.restore();
+    base.setAttribute("aria-label", this.#words(chart, range));
+  }
+
+  /** What lies past the horizon of trust. */
+  #shade(context, frame, colours) {
+    const { t } = this.run.horizon;
+    if (t === null || t >= frame.x1) return;
+    frame.clip(context);
+    context.fillStyle = colours.shade;
+    const x = Math.max(frame.x(t), frame.left);
+    context.fillRect(x, frame.top, frame.left + frame.width - x, frame.height);
+  }
+
+  #data(context, chart, frame, colours) {
+    const { motion, impacts } = this.run;
+    const [from, to] = rows(motion.t, frame.x0, frame.x1);
+    if (chart.id === "snaps") {
+      impacts.t.forEach((t, i) => {
+        if (t < frame.x0 || t > frame.x1 || !(impacts.v_n[i] > 0)) return;
+        context.strokeStyle = colours[`cable-${impacts.cable[i]}`];
+        drawMark(context, impacts.cable[i], frame.x(t), frame.y(impacts.v_n[i]), 2.8);
+      });
+    } else if (chart.id === "tensions") {
+      for (const cable of [1, 2]) {
+        context.strokeStyle = colours[`cable-${cable}`];
+        context.lineWidth = 1.8;
+        this.#tension(context, frame, cable, from, to);
+      }
+    } else {
+      context.strokeStyle = colours.ink;
+      drawColumn(context, frame, motion.t, motion[chart.id], from, to);
+    }
+  }
+
+  /** The tension of a cable while it is taut: slack is no line at zero but none. */
+  #tension(context, frame, cable, from, to) {
+    const { t } = this.run.motion;
+    const T = this.run.motion[`T${cable}`];
+    context.beginPath();
+    let drawing = false;
+    for (let i = from; i < to; i += 1) {
+      const taut = T[i] > 0;
+      if (taut && drawing) context.lineTo(frame.x(t[i]), frame.y(T[i]));
+      else if (taut) context.moveTo(frame.x(t[i]), frame.y(T[i]));
+      drawing = taut;
+    }
+    context.stroke();
+  }
+
+  /** Draws the time cursor, what is hovered over, and the readings. */
+  cursor(t, hover) {
+    if (!this.run) return;
+    const colours = this.colours();
+    const read = this.run.at(Math.min(hover?.t ?? t, this.run.tEnd));
+    for (const { chart, over, reading } of this.parts) {
+      const { context } = prepare(over);
+      const frame = this.frames.get(chart.id);
+      frame.clip(context);
+      if (this.drag?.zoom) {
+        context.fillStyle = colours.shade;
+        const [a, b] = [frame.x(this.drag.from), frame.x(this.drag.to)];
+        context.fillRect(Math.min(a, b), frame.top, Math.abs(b - a), frame.height);
+      }
+      upright(context, frame, t, colours.accent, 1.5, []);
+      if (hover) upright(context, frame, hover.t, colours.muted, 1, [3, 3]);
+      this.#dot(context, chart, frame, read, colours);
+      const near = hover?.at?.part.chart.id === "snaps" && chart.id === "snaps" ? this.nearest(hover.at.x, hover.at.y) : null;
+      if (near !== null) {
+        const { t: times, v_n, cable } = this.run.impacts;
+        context.lineWidth = 2;
+        context.strokeStyle = colours[`cable-${cable[near]}`];
+        drawMark(context, cable[near], frame.x(times[near]), frame.y(v_n[near]), 5.5);
+      }
+      const words = near === null ? READ[chart.id](this.run, read) : impactWords(this.run, near);
+      if (reading.value !== words) reading.value = words;
+    }
+  }
+
+  #dot(context, chart, frame, moment, colours) {
+    const value = { theta: moment.theta, energy: moment.energy }[chart.id];
+    if (value === undefined) return;
+    context.beginPath();
+    context.arc(frame.x(moment.t), frame.y(value), 3, 0, 2 * Math.PI);
+    context.fillStyle = colours.accent;
+    context.fill();
+  }
+
+  #words(chart, [from, to]) {
+    const { run } = this;
+    const when = `against time from ${number(from)} to ${number(to)} T`;
+    const reach = (columns) => span(columns, 0).map((v) => number(v, 3)).join(" to ");
+    const tell = {
+      theta: () => `from ${reach([run.motion.theta])} rad`,
+      snaps: () => `${run.impacts.t.length} snaps, the hardest ${number(run.norms.rho1)} L/T`,
+      tensions: () => `at most ${number(run.mostTension, 3)} F`,
+      energy: () => `from ${reach([run.motion.energy])} F L`,
+    }[chart.id]();
+    return `${chart.name} ${when}: ${tell}. The events are in the table below.`;
+  }
+}
+
+/** A range that stands on zero. */
+const above = ([, high]) => [0, high];
+
+function rows(t, from, to) {
+  let [low, high] = [0, t.length];
+  while (low < t.length - 1 && t[low + 1] < from) low += 1;
+  while (high > low + 1 && t[high - 2] > to) high -= 1;
+  return [low, high];
+}
+
+function upright(context, frame, t, colour, width, dash) {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.setLineDash(dash);
+  const x = frame.x(t);
+  stroke(context, [[x, frame.top], [x, frame.top + frame.height]]);
+  context.setLineDash([]);
+}
+
+export function label(context, colours, text, x, y, angle = 0) {
+  context.save();
+  context.translate(x, y);
+  context.rotate(angle);
+  context.font = '11px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif';
+  context.fillStyle = colours.muted;
+  context.textAlign = "center";
+  context.fillText(text, 0, 0);
+  context.restore();
+}
+

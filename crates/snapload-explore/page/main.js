@@ -1,0 +1,187 @@
+// Wires state, server, scene, charts and controls together.
+
+import { Runner, fetchSchema } from "./api.js";
+import { Charts } from "./charts.js";
+import { Controls } from "./controls.js";
+import { Link } from "./link.js";
+import { Playback } from "./playback.js";
+import { Run } from "./run.js";
+import { Stage } from "./stage.js";
+import { State } from "./state.js";
+import { chooseTheme, chosenTheme, colours, onSystemScheme, THEMES } from "./theme.js";
+import { Trajectory } from "./trajectory.js";
+import { Transport } from "./transport.js";
+
+const $ = (id) => document.getElementById(id);
+/** While a slider is dragged fewer rows are asked for than when it rests. */
+const SAMPLES = { dragged: 1200, settled: 3000 };
+
+chooseTheme(chosenTheme());
+
+class Page {
+  constructor(schema) {
+    this.state = new State(schema);
+    this.run = null;
+    this.hover = null;
+    this.link = new Link(this.state, { onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`) });
+    this.playback = new Playback(this.state, () => this.run);
+    this.stage = new Stage(this.state, this.playback);
+    this.transport = new Transport(this.state, this.playback);
+    this.controls = new Controls($("controls"), this.state, {
+      onChange: (since, settled) => {
+        this.ask({ since, settled });
+        if (settled) this.link.write({ step: true });
+      },
+    });
+    const jump = (t) => {
+      this.playback.pause();
+      this.playback.seek(t);
+    };
+    const hover = (t, at) => this.setHover(t === null ? null : { t, at });
+    this.charts = new Charts($("charts"), { colours, onJump: jump, onHover: hover, onZoom: (window) => this.state.set({ window }) });
+    this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
+    this.runner = new Runner({
+      onAnswer: (answer, since) => this.take(answer, since),
+      onError: (error) => this.fail(error),
+      onBusy: (busy) => document.body.classList.toggle("busy", busy),
+    });
+    this.state.listen((changed) => this.follow(changed));
+    this.cases();
+    this.tools();
+    this.link.read();
+    if (this.run === null && !this.runner.flying) this.ask({ settled: true });
+    new ResizeObserver(() => this.drawAll()).observe($("charts"));
+    new ResizeObserver(() => this.drawAll()).observe($("scene"));
+  }
+
+  /** Asks for the run of the values as they are. */
+  ask({ since = performance.now(), settled }) {
+    const { values, ghost } = this.state;
+    this.asked = JSON.stringify([values, ghost]);
+    this.runner.ask({ values, ghost, samples: settled ? SAMPLES.settled : SAMPLES.dragged }, since);
+  }
+
+  take(answer, since) {
+    this.run = new Run(answer);
+    $("failed").hidden = true;
+    this.controls.clearError();
+    this.controls.show(answer.values);
+    if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
+    this.stage.take(this.run);
+    this.transport.take(this.run);
+    this.drawAll();
+    paintedSince(since);
+  }
+
+  fail(error) {
+    const text = error.message;
+    this.controls.showError(text);
+    $("failed").textContent = `Not run: ${text}${this.run ? " The picture is that of the last values that could be run." : ""}`;
+    $("failed").hidden = false;
+  }
+
+  /** Redraws what a change of the state concerns. */
+  follow(changed) {
+    if (changed.has("values") || changed.has("ghost")) {
+      this.controls.show(this.run?.values);
+      this.showCase();
+      const { values, ghost } = this.state;
+      // A change that came from the controls is asked for by them, with the time of its event.
+      queueMicrotask(() => {
+        if (this.asked !== JSON.stringify([values, ghost])) this.ask({ settled: true });
+      });
+    }
+    if (["picture", "view", "window"].some((name) => changed.has(name))) this.drawAll();
+    else if (changed.has("t") || changed.has("speed")) this.drawMoment();
+    this.stage.showChoices();
+    this.transport.show();
+    this.link.write();
+  }
+
+  setHover(hover) {
+    this.hover = hover;
+    this.drawMoment();
+  }
+
+  drawAll() {
+    if (!this.run) return;
+    const { window, picture } = this.state;
+    this.charts.draw(this.run, window);
+    this.trajectory.draw(this.run, window, picture);
+    this.transport.draw();
+    this.drawMoment();
+  }
+
+  drawMoment() {
+    if (!this.run || this.framed) return;
+    // However many events ask for it, a picture is painted once a frame.
+    this.framed = requestAnimationFrame(() => {
+      this.framed = null;
+      this.stage.draw();
+      this.charts.cursor(this.state.t, this.hover);
+      this.trajectory.cursor(this.state.t, this.hover);
+      this.transport.show();
+    });
+  }
+
+  cases() {
+    const select = $("case");
+    const { start, cases } = this.state.schema;
+    const own = cases.some(({ code }) => code === start.name) ? [] : [new Option(start.name, start.name)];
+    const thesis = document.createElement("optgroup");
+    thesis.label = "The thesis";
+    for (const { code, title } of cases) thesis.append(new Option(`${code}  ${title}`, code));
+    select.append(...own, thesis, new Option("values of your own", ""));
+    select.addEventListener("change", () => {
+      if (!select.value) return this.showCase();
+      const { values } = cases.find(({ code }) => code === select.value) ?? start;
+      this.state.set({ values: { ...values }, t: 0, window: null });
+      this.link.write({ step: true });
+    });
+    this.showCase();
+  }
+
+  showCase() {
+    const name = this.state.caseName;
+    $("case").value = name ?? "";
+    $("case").lastElementChild.hidden = name !== null;
+  }
+
+  tools() {
+    const show = () => ($("theme").textContent = `Theme: ${chosenTheme()}`);
+    $("theme").addEventListener("click", () => {
+      chooseTheme(THEMES[(THEMES.indexOf(chosenTheme()) + 1) % THEMES.length]);
+      show();
+      this.drawAll();
+    });
+    show();
+    onSystemScheme(() => this.drawAll());
+  }
+}
+
+function note(text) {
+  $("note").textContent = text;
+  $("note").hidden = !text;
+}
+
+/** Says how long it took from an event to the picture that follows from it. */
+function paintedSince(since) {
+  requestAnimationFrame(() => {
+    // After the frame's paint, and not before it.
+    const channel = new MessageChannel();
+    channel.port1.onmessage = () => {
+      const took = performance.now() - since;
+      $("took").textContent = `${Math.round(took)} ms`;
+      $("took").dataset.ms = took.toFixed(2);
+      $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;
+    };
+    channel.port2.postMessage(null);
+  });
+}
+
+try {
+  new Page(await fetchSchema());
+} catch (error) {
+  note(`The page could not start: ${error.message}. Is snapload explore still running?`);
+  throw error;
+}

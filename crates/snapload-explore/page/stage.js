@@ -1,0 +1,109 @@
+// The scene on its canvas, what is said of the run, and how the scene is to be shown.
+
+import { paint } from "./shapes.js";
+import { sceneShapes, sceneWords } from "./scene.js";
+import { colours, stillness } from "./theme.js";
+import { modeName, number } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+/** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
+const REST_MS = 900;
+
+export class Stage {
+  constructor(state, playback) {
+    Object.assign(this, { state, playback, run: null, saying: null });
+    this.canvas = $("scene");
+    for (const name of ["picture", "view"]) {
+      for (const radio of document.getElementsByName(name)) {
+        radio.addEventListener("change", () => state.set({ [name]: radio.value }));
+      }
+    }
+    const ghost = () => {
+      const size = Number($("ghost-size").value);
+      const legal = size > 0 && Number.isFinite(size);
+      $("ghost-size").setAttribute("aria-invalid", String(!legal));
+      if (legal || !$("ghost").checked) state.set({ ghost: $("ghost").checked ? size : null });
+    };
+    $("ghost").addEventListener("change", ghost);
+    $("ghost-size").addEventListener("change", ghost);
+  }
+
+  take(run) {
+    this.run = run;
+    this.#summarise();
+    clearTimeout(this.saying);
+    this.saying = setTimeout(() => ($("said").textContent = this.#words()), $("said").textContent ? REST_MS : 0);
+    $("ramp-words").textContent = run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
+  }
+
+  /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
+  #words() {
+    const { end, horizon, ghost, cut } = this.run;
+    const parts = [sentence(end.words), sentence(horizon.words)];
+    if (ghost) {
+      const apart = ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
+      parts.push(`The neighbour, started ${number(this.state.ghost ?? 0)} away, ${apart}.`);
+    }
+    if (cut) parts.push(`Of ${cut.impacts} impacts the first ${cut.shown} are shown.`);
+    return parts.join(" ");
+  }
+
+  #summarise() {
+    const { norms, impacts, modes } = this.run;
+    const taut = modes.taut.reduce((sum, set, i) => sum + (set.length ? modes.t_end[i] - modes.t_start[i] : 0), 0);
+    const rows = [
+      ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length)],
+      ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5)],
+      ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5)],
+      ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5)],
+      ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`],
+      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`],
+      ["Hardest impulse", number(this.run.hardest, 5)],
+      ["Time taut", `${number(taut, 4)} T`],
+    ];
+    $("summary").innerHTML = rows.map(([term, value]) => `<div><dt>${term}</dt><dd>${value}</dd></div>`).join("");
+  }
+
+  draw() {
+    const { run, canvas, state } = this;
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const ratio = devicePixelRatio || 1;
+    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+    if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), this.options(width, height)));
+    this.#caption();
+  }
+
+  options(width, height, scheme) {
+    const { picture, view, speed } = this.state;
+    return { width, height, picture, view, speed, colours: colours(scheme), still: stillness.matches };
+  }
+
+  #caption() {
+    const t = Math.min(this.state.t, this.run.tEnd);
+    const moment = this.run.at(t);
+    const past = this.run.beyond(t) ? " · past the horizon of trust" : "";
+    const taut = moment.taut.length ? ` · T ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(", ")} F` : "";
+    $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
+    if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
+  }
+
+  /** Shows how the scene is chosen to be shown. */
+  showChoices() {
+    const { picture, view, ghost } = this.state;
+    for (const [name, value] of Object.entries({ picture, view })) {
+      for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
+    }
+    $("ghost").checked = ghost !== null;
+    if (ghost !== null) $("ghost-size").value = String(ghost);
+  }
+}
+
+function sentence(text) {
+  const begun = text.charAt(0).toUpperCase() + text.slice(1);
+  return begun.endsWith(".") ? begun : `${begun}.`;
+}
+
