@@ -158,6 +158,9 @@ export class Charts {
         drawMark(context, impacts.cable[i], frame.x(t), frame.y(impacts.v_n[i]), 2.8);
       });
     } else if (chart.id === "tensions") {
+      if (!(this.run.mostTension > 0)) {
+        label(context, colours, "no cable stays taut in this run", frame.left + frame.width / 2, frame.top + frame.height / 2);
+      }
       for (const cable of [1, 2]) {
         context.strokeStyle = colours[`cable-${cable}`];
         context.lineWidth = 1.8;

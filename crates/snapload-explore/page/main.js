@@ -2,6 +2,10 @@
 
 import { Runner, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
+import { EventTable } from "./events.js";
+import { Keyboard } from "./keyboard.js";
+import { SweepMap } from "./map.js";
+import { Take } from "./take.js";
 import { Controls } from "./controls.js";
 import { Link } from "./link.js";
 import { Playback } from "./playback.js";
@@ -39,6 +43,21 @@ class Page {
     };
     const hover = (t, at) => this.setHover(t === null ? null : { t, at });
     this.charts = new Charts($("charts"), { colours, onJump: jump, onHover: hover, onZoom: (window) => this.state.set({ window }) });
+    this.events = new EventTable({ onJump: jump });
+    this.map = new SweepMap(this.state, {
+      colours,
+      onPick: (values) => {
+        this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
+        this.link.write({ step: true });
+      },
+    });
+    this.exports = new Take({
+      state: this.state,
+      stage: this.stage,
+      now: () => this.run,
+      question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.settled }),
+      address: () => this.link.address,
+    });
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
       onAnswer: (answer, since) => this.take(answer, since),
@@ -46,6 +65,7 @@ class Page {
       onBusy: (busy) => document.body.classList.toggle("busy", busy),
     });
     this.state.listen((changed) => this.follow(changed));
+    this.keyboard = new Keyboard({ playback: this.playback, transport: this.transport, state: this.state, map: this.map });
     this.cases();
     this.tools();
     this.link.read();
@@ -69,6 +89,8 @@ class Page {
     if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
     this.stage.take(this.run);
     this.transport.take(this.run);
+    this.events.take(this.run);
+    this.exports.take(this.run);
     this.drawAll();
     paintedSince(since);
   }
@@ -93,6 +115,7 @@ class Page {
     }
     if (["picture", "view", "window"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
+    if (changed.has("values") || changed.has("map")) this.map.follow();
     this.stage.showChoices();
     this.transport.show();
     this.link.write();
@@ -121,6 +144,7 @@ class Page {
       this.charts.cursor(this.state.t, this.hover);
       this.trajectory.cursor(this.state.t, this.hover);
       this.transport.show();
+      this.events.show(this.state.t, !this.playback.playing);
     });
   }
 
@@ -171,7 +195,7 @@ function paintedSince(since) {
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
       const took = performance.now() - since;
-      $("took").textContent = `${Math.round(took)} ms`;
+      $("took").textContent = `picture in ${Math.round(took)} ms`;
       $("took").dataset.ms = took.toFixed(2);
       $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;
     };

@@ -21,13 +21,13 @@ function camera(run, { width, height, picture, view }) {
   const span = (column) => column.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
   let [left, right] = span(x);
   let [low, high] = span(y);
-  const surface = Math.min(low - size, -size) - 0.2;
+  const surface = Math.min(low - size, -size) - 0.3;
   if (view === "close") {
     const margin = 1.15 * size + 0.12 * Math.max(right - left, high - low) + 0.01;
     [left, right, low, high] = [left - margin, right + margin, low - margin, high + margin];
   } else {
     [left, right] = [Math.min(left - size, -1) - 0.1, Math.max(right + size, 1) + 0.1];
-    [low, high] = [surface - 0.09, anchorLevel + 0.11];
+    [low, high] = [surface - 0.15, anchorLevel + 0.12];
   }
   const scale = Math.min(width / (right - left), height / (high - low));
   const middle = [0.5 * (left + right), 0.5 * (low + high)];
@@ -50,13 +50,19 @@ export function sceneShapes(run, t, options) {
   const moment = run.at(t);
   const snaps = fresh(run, t, options.speed);
   const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
+  const close = options.view === "close";
+  const paths = [
+    ...path(run.motion, t, cam, { stroke: colours.ink, alpha: 0.6, width: close ? 1.4 : 1.1 }, run.horizon.t, colours.past),
+    ...(ghost ? path(run.ghost.motion, t, cam, { stroke: colours.ghost, alpha: 0.8, width: close ? 1.4 : 1.1 }, null) : []),
+  ];
   return [
     ...sea(run, t, cam, options),
-    ...path(run.motion, t, cam, { stroke: colours.ink, alpha: 0.5 }, run.horizon.t, colours.past),
-    ...(ghost ? path(run.ghost.motion, t, cam, { stroke: colours.ghost, alpha: 0.75 }, null) : []),
+    ...(close ? [] : paths),
     ...(ghost ? neighbour(run, ghost, cam, options) : []),
     ...run.geometry.cables.flatMap((cable, i) => line(run, i, moment, cam, options, snaps)),
     ...bodyShapes(run, moment, cam, { fill: colours.body, stroke: colours["body-edge"], width: 1.6 }),
+    // From close by, the body is larger than its path, which would be hidden.
+    ...(close ? paths : []),
     ...run.geometry.cables.flatMap((cable) => fairlead(cable, moment, cam, colours)),
     ...snaps.flatMap((snap) => snapShapes(run, snap, cam, options)),
     ...forces(run, t, moment, cam, options),
@@ -123,7 +129,7 @@ function path(columns, t, cam, style, horizon, past) {
   const piece = (from, to, rest) => {
     const points = [];
     for (let i = Math.max(from, 0); i < to; i += 1) points.push(cam.place([x[i], y[i]]));
-    return points.length > 1 ? [{ points, width: 1.1, ...style, ...rest }] : [];
+    return points.length > 1 ? [{ points, ...style, ...rest }] : [];
   };
   const old = Math.max(recent, 0);
   const pale = 0.4 * style.alpha;
@@ -194,7 +200,8 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
   if (snap) {
     const strength = impulsePart(run, snap.i) * snap.left;
     const to = cam.place(turned(cable.arm, moment));
-    shapes.push({ points: [from, to], stroke: colours.snap, width: 1 + 6 * strength, alpha: 0.75 * snap.left });
+    // The line is straight at the instant alone: what is left of it fades before the arrow does.
+    shapes.push({ points: [from, to], stroke: colours.snap, width: 1 + 6 * strength, alpha: 0.8 * snap.left ** 4 });
   }
   return shapes;
 }
@@ -231,7 +238,7 @@ function forces(run, t, moment, cam, { width, height, colours }) {
   const { f_o, nu } = run.values;
   const size = Math.min(width, height);
   const most = Math.max(Math.abs(f_o), Math.abs(f_o * nu), 1e-9);
-  const unit = Math.min(0.26 * size, (0.17 * size) / most);
+  const unit = Math.min(0.21 * size, (0.17 * size) / most);
   const [bx, by] = cam.place([moment.x, moment.y]);
   const { a, b } = run.geometry.body;
   const reach = Math.hypot(a, b) * cam.scale;
@@ -274,7 +281,7 @@ function labels(run, cam, { width, height, colours, view }) {
     shapes.push({ ...text, text: "sea floor", at: [width / 2, floor + (below > 0 ? 24 : -16)], align: "center" });
   }
   if (inside(surface)) {
-    shapes.push({ ...text, text: "sea surface (a sketch)", at: [10, surface + (below > 0 ? -16 : 24)] });
+    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + (below > 0 ? 24 : -16)] });
   }
   return shapes;
 }

@@ -39,7 +39,7 @@ export class Stage {
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
   #words() {
     const { end, horizon, ghost, cut } = this.run;
-    const parts = [sentence(end.words), sentence(horizon.words)];
+    const parts = [end.words, horizon.words].map((words) => sentence(shortened(words)));
     if (ghost) {
       const apart = ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
       parts.push(`The neighbour, started ${number(this.state.ghost ?? 0)} away, ${apart}.`);
@@ -85,8 +85,8 @@ export class Stage {
   #caption() {
     const t = Math.min(this.state.t, this.run.tEnd);
     const moment = this.run.at(t);
-    const past = this.run.beyond(t) ? " · past the horizon of trust" : "";
-    const taut = moment.taut.length ? ` · T ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(", ")} F` : "";
+    const past = this.run.beyond(t) ? ", past the horizon of trust" : "";
+    const taut = moment.taut.length ? `, tension ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F` : "";
     $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
     if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
   }
@@ -98,8 +98,13 @@ export class Stage {
       for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
     }
     $("ghost").checked = ghost !== null;
-    if (ghost !== null) $("ghost-size").value = String(ghost);
+    if (ghost !== null) $("ghost-size").value = ghost < 1e-3 ? ghost.toExponential() : String(ghost);
   }
+}
+
+/** With numbers of no more digits than one reads. */
+function shortened(words) {
+  return words.replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
 }
 
 function sentence(text) {

@@ -4,6 +4,7 @@ const NAMES = [
   "paper", "panel", "ink", "muted", "faint", "rule", "accent",
   "cable-1", "cable-2", "ghost", "taut", "strained", "shade", "past",
   "water-high", "water-deep", "floor", "body", "body-edge", "wave", "snap",
+  "end-settled", "end-rotation_limit", "end-upper_bound", "end-end_time", "end-sliding_start", "end-impact_limit",
 ];
 
 const caches = new Map();

@@ -60,7 +60,8 @@ export class Transport {
     if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words);
     const impacts = this.run.impactsWithin(0, t)[0];
     const count = impacts === undefined ? 0 : impacts + 1;
-    $("clock").value = `t = ${fixed(t, 4)} T · impact ${count} of ${this.run.impacts.t.length}`;
+    $("clock").value = `t = ${fixed(t, 4)} T`;
+    $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
     $("speed").value = speed;
     $("window-words").value = window ? `t ${number(from, 4)} to ${number(to, 4)}` : "";
     $("zoom-all").disabled = window === null;
