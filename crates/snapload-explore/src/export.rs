@@ -1,0 +1,149 @@
+//! `/api/export/NAME`: the files that `snapload run --out` writes, with the same bytes.
+use crate::refusal::Refusal;
+use crate::request;
+use crate::run::run_alone;
+use crate::work::Leash;
+use serde::Deserialize;
+use snapload::Case;
+use snapload::analysis::DEFAULT_MEMBERS;
+use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
+use snapload_report::{
+    Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
+};
+use std::io;
+use std::time::Duration;
+
+/// What the neighbours of a run may take.
+const BUDGET: Duration = Duration::from_secs(20);
+/// A run of more impacts than this is for the command line.
+const MOST_IMPACTS: usize = 100_000;
+/// The neighbours that the command draws unless it is told otherwise.
+const SEED: u64 = 1;
+
+/// A file that can be asked for.
+#[derive(Clone, Copy)]
+pub(crate) enum File {
+    Case,
+    Impacts,
+    Modes,
+    Motion,
+    Run,
+    Svg(RunPlot),
+    Png(RunPlot),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Request {
+    #[serde(default)]
+    values: request::Values,
+    /// As in `/api/run`; a file has neither.
+    #[serde(default, rename = "ghost")]
+    _ghost: serde::de::IgnoredAny,
+    #[serde(default, rename = "samples")]
+    _samples: serde::de::IgnoredAny,
+}
+
+impl File {
+    /// The file of a name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let plot = |stem: &str| RunPlot::ALL.into_iter().find(|plot| plot.name() == stem);
+        match name {
+            "case.toml" => Some(Self::Case),
+            "impacts.csv" => Some(Self::Impacts),
+            "modes.csv" => Some(Self::Modes),
+            "motion.csv" => Some(Self::Motion),
+            "run.json" => Some(Self::Run),
+            name => match name.rsplit_once('.')? {
+                (stem, "svg") => plot(stem).map(Self::Svg),
+                (stem, "png") => plot(stem).map(Self::Png),
+                _ => None,
+            },
+        }
+    }
+
+    /// Its type, as browsers know it.
+    pub(crate) fn content_type(self) -> &'static str {
+        match self {
+            Self::Case => "application/toml",
+            Self::Impacts | Self::Modes | Self::Motion => "text/csv; charset=utf-8",
+            Self::Run => "application/json",
+            Self::Svg(_) => "image/svg+xml",
+            Self::Png(_) => "image/png",
+        }
+    }
+
+    /// What is in it, for the case of a request.
+    pub(crate) fn write(self, body: &[u8], leash: &Leash) -> Result<Vec<u8>, Refusal> {
+        let Request { values, .. } = request::read(body)?;
+        let case = request::case(values)?;
+        if matches!(self, Self::Case) {
+            return Ok(case_file(case.parameters()).into_bytes());
+        }
+        let trusted = run_alone(&case, leash)?;
+        let impacts = trusted.run.impacts().len();
+        if impacts > MOST_IMPACTS {
+            return Err(for_the_command(
+                &case,
+                &format!("this run has {impacts} impacts"),
+            ));
+        }
+        let mut bytes = Vec::new();
+        self.fill(&case, trusted, leash, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    fn fill(
+        self,
+        case: &Case,
+        trusted: Trusted,
+        leash: &Leash,
+        out: &mut Vec<u8>,
+    ) -> Result<(), Refusal> {
+        let written = |result: io::Result<()>| result.map_err(Refusal::failed);
+        match self {
+            Self::Case => Ok(()),
+            Self::Impacts => written(tables::impacts(&trusted, out)),
+            Self::Modes => written(tables::modes(&trusted.run, out)),
+            Self::Motion => {
+                let sampling = Sampling::thousand(trusted.run.end().t);
+                written(tables::motion(&trusted.run, sampling, out))
+            }
+            Self::Run => {
+                let leash = leash.within(BUDGET);
+                let whole = trusted.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
+                let whole =
+                    whole.ok_or_else(|| for_the_command(case, "its neighbours take long"))?;
+                let report = Report::new(case.parameters(), &whole, None, &|_| ());
+                written(write_json(&report, out))
+            }
+            Self::Svg(plot) | Self::Png(plot) => {
+                let bytes = picture(self, plot, case, &trusted).map_err(Refusal::failed)?;
+                out.extend(bytes);
+                Ok(())
+            }
+        }
+    }
+}
+
+fn picture(
+    file: File,
+    plot: RunPlot,
+    case: &Case,
+    trusted: &Trusted,
+) -> Result<Vec<u8>, FigureError> {
+    let plots = RunPlots::new(&trusted.run).with_horizon(trusted.horizon());
+    let title = case_in_words("standard case", case.parameters());
+    let picture = plots.picture(plot, &title)?;
+    match file {
+        File::Png(_) => picture.png(PNG_SCALE),
+        _ => Ok(picture.svg().as_bytes().to_vec()),
+    }
+}
+
+fn for_the_command(case: &Case, why: &str) -> Refusal {
+    let command = shell_line(case.parameters());
+    Refusal::values(format!(
+        "{why}, which is more than the page waits for\nhint: {command} --out results"
+    ))
+}
