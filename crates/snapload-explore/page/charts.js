@@ -1,6 +1,6 @@
 // θ, v_n, tensions and energy against time, under one time cursor.
 
-import { Frame, drawAxes, drawColumn, drawMark, prepare, span, stroke, ticks } from "./plot.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
 const LEFT = 50;
@@ -29,12 +29,12 @@ function latestSnap(run, t) {
 /** Everything there is to say of an impact, in a line. */
 export function impactWords(run, i) {
   const { cable, v_n, impulse, digits, t } = run.impacts;
-  const known = Number.isFinite(digits[i]) ? `, ${Math.max(0, Math.floor(digits[i]))} digits known` : "";
-  return `impact ${i + 1} of cable ${cable[i]} at t = ${number(t[i], 6)}: vₙ ${number(v_n[i])}, impulse ${number(impulse[i])}${known}`;
+  const known = Number.isFinite(digits[i]) ? ` · ${Math.max(0, Math.floor(digits[i]))} digits` : "";
+  return `impact ${i + 1}, cable ${cable[i]} · t ${number(t[i], 6)} · vₙ ${number(v_n[i])} · impulse ${number(impulse[i])}${known}`;
 }
 
 export class Charts {
-  /** `shown` gives run, time and time window; `onJump` is told where a chart was clicked. */
+  /** `onJump` is told where a chart was clicked, `onHover` what the pointer is over, `onZoom` which time to show. */
   constructor(root, { colours, onJump, onHover, onZoom }) {
     Object.assign(this, { colours, onJump, onHover, onZoom, run: null, hover: null, parts: [] });
     for (const chart of CHARTS) this.parts.push(this.#build(root, chart));
@@ -47,10 +47,12 @@ export class Charts {
     figure.className = "chart";
     figure.innerHTML = `<figcaption><span class="chart-name">${chart.name} <i>${chart.symbol}</i>
       <span class="unit">[${chart.unit}]</span></span><output class="reading"></output></figcaption>
-      <div class="stack"><canvas class="base" role="img"></canvas><canvas class="over" aria-hidden="true"></canvas></div>`;
+      <div class="stack"><canvas class="base" role="img"></canvas><div class="over" aria-hidden="true">
+      <div class="brush"></div><div class="upright hovered"></div><div class="upright"></div><div class="dot"></div><div class="ring"></div></div></div>`;
     root.append(figure);
-    const [base, over] = figure.querySelectorAll("canvas");
-    const part = { chart, figure, base, over, reading: figure.querySelector("output") };
+    const find = (selector) => figure.querySelector(selector);
+    const part = { chart, base: find("canvas"), over: find(".over"), reading: find("output"), brush: find(".brush"),
+      hovered: find(".hovered"), upright: find(".upright:not(.hovered)"), dot: find(".dot"), ring: find(".ring") };
     part.reading.setAttribute("aria-live", "off");
     this.#listen(part);
     return part;
@@ -187,42 +189,25 @@ export class Charts {
     context.stroke();
   }
 
-  /** Draws the time cursor, what is hovered over, and the readings. */
+  /** Shows the time cursor, what is hovered over, and the readings: marks that move over a chart that stays. */
   cursor(t, hover) {
     if (!this.run) return;
-    const colours = this.colours();
     const read = this.run.at(Math.min(hover?.t ?? t, this.run.tEnd));
-    for (const { chart, over, reading } of this.parts) {
-      const { context } = prepare(over);
-      const frame = this.frames.get(chart.id);
-      frame.clip(context);
-      if (this.drag?.zoom) {
-        context.fillStyle = colours.shade;
-        const [a, b] = [frame.x(this.drag.from), frame.x(this.drag.to)];
-        context.fillRect(Math.min(a, b), frame.top, Math.abs(b - a), frame.height);
-      }
-      upright(context, frame, t, colours.accent, 1.5, []);
-      if (hover) upright(context, frame, hover.t, colours.muted, 1, [3, 3]);
-      this.#dot(context, chart, frame, read, colours);
-      const near = hover?.at?.part.chart.id === "snaps" && chart.id === "snaps" ? this.nearest(hover.at.x, hover.at.y) : null;
-      if (near !== null) {
-        const { t: times, v_n, cable } = this.run.impacts;
-        context.lineWidth = 2;
-        context.strokeStyle = colours[`cable-${cable[near]}`];
-        drawMark(context, cable[near], frame.x(times[near]), frame.y(v_n[near]), 5.5);
-      }
-      const words = near === null ? READ[chart.id](this.run, read) : impactWords(this.run, near);
-      if (reading.value !== words) reading.value = words;
+    for (const part of this.parts) {
+      const frame = this.frames.get(part.chart.id);
+      const drag = this.drag?.zoom ? this.drag : null;
+      const upright = (mark, time) => put(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
+      upright(part.upright, t);
+      upright(part.hovered, hover?.t);
+      const [a, b] = drag ? [frame.x(drag.from), frame.x(drag.to)].sort((one, other) => one - other) : [0, 0];
+      put(part.brush, drag !== null, a, frame.top, b - a, frame.height);
+      const value = { theta: read.theta, energy: read.energy }[part.chart.id];
+      put(part.dot, value !== undefined && frame.holdsX(read.t), frame.x(read.t), frame.y(value));
+      const near = part.chart.id === "snaps" && hover?.at?.part === part ? this.nearest(hover.at.x, hover.at.y) : null;
+      put(part.ring, near !== null, frame.x(this.run.impacts.t[near]), frame.y(this.run.impacts.v_n[near]));
+      const words = near === null ? READ[part.chart.id](this.run, read) : impactWords(this.run, near);
+      if (part.reading.value !== words) part.reading.value = words;
     }
-  }
-
-  #dot(context, chart, frame, moment, colours) {
-    const value = { theta: moment.theta, energy: moment.energy }[chart.id];
-    if (value === undefined) return;
-    context.beginPath();
-    context.arc(frame.x(moment.t), frame.y(value), 3, 0, 2 * Math.PI);
-    context.fillStyle = colours.accent;
-    context.fill();
   }
 
   #words(chart, [from, to]) {
@@ -249,20 +234,20 @@ function rows(t, from, to) {
   return [low, high];
 }
 
-function upright(context, frame, t, colour, width, dash) {
-  context.strokeStyle = colour;
-  context.lineWidth = width;
-  context.setLineDash(dash);
-  const x = frame.x(t);
-  stroke(context, [[x, frame.top], [x, frame.top + frame.height]]);
-  context.setLineDash([]);
+/** Puts a mark at a place of its chart, or away. */
+function put(mark, there, x, y, width, height) {
+  mark.hidden = !there;
+  if (!there) return;
+  mark.style.transform = `translate(${x}px, ${y}px)`;
+  if (width) mark.style.width = `${width}px`;
+  if (height) mark.style.height = `${height}px`;
 }
 
 export function label(context, colours, text, x, y, angle = 0) {
   context.save();
   context.translate(x, y);
   context.rotate(angle);
-  context.font = '11px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif';
+  context.font = FONT;
   context.fillStyle = colours.muted;
   context.textAlign = "center";
   context.fillText(text, 0, 0);

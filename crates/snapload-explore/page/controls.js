@@ -1,6 +1,6 @@
 // A slider and a field for every key, from the schema.
 
-import { number, plain, prose, symbolHtml, unitText } from "./words.js";
+import { plain, prose, symbolHtml, unitText } from "./words.js";
 import { readValue } from "./state.js";
 
 const GROUPS = [
@@ -14,7 +14,7 @@ const GROUPS = [
 export class Controls {
   /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: it is not being dragged. */
   constructor(root, state, { onChange }) {
-    Object.assign(this, { root, state, onChange, rows: new Map(), latest: null });
+    Object.assign(this, { root, state, onChange, rows: new Map(), latest: null, typing: null });
     for (const [group, title] of GROUPS) {
       const keys = state.schema.keys.filter((key) => key.group === group);
       if (keys.length) root.append(this.#group(title, keys, group));
@@ -70,9 +70,13 @@ export class Controls {
     if (key.usual) row.append(this.#slider(parts));
     field.addEventListener("input", (event) => {
       // While one types, only what is a number is tried; the rest waits for the end of typing.
+      this.typing = key.name;
       if (readValue(key, field.value) !== undefined) this.#take(parts, field.value, event, true);
     });
-    field.addEventListener("change", (event) => this.#take(parts, field.value, event, true));
+    field.addEventListener("change", (event) => {
+      this.typing = null;
+      this.#take(parts, field.value, event, true);
+    });
     field.addEventListener("keydown", (event) => this.#stepField(parts, event));
     reset.addEventListener("click", (event) => {
       this.#give(parts, null, event, true);
@@ -139,15 +143,16 @@ export class Controls {
   /** Shows the values of the state; what is being typed stays. `effective` has those that follow from others. */
   show(effective = {}) {
     for (const [name, { key, field, slider, reset }] of this.rows) {
-      const value = this.state.value(name);
+      // Where the default depends on other keys, what it comes to is known from the run.
+      const given = this.state.values[name];
+      const value = given === undefined && key.default_in_words ? (effective[name] ?? this.state.value(name)) : this.state.value(name);
       if (key.kind.type === "flag") field.checked = value;
-      else if (document.activeElement !== field || key.kind.type === "choice") field.value = plain(value);
+      else if (this.typing !== name) field.value = plain(given ?? rounded(value));
       if (reset) {
         reset.hidden = !(name in this.state.values);
-        field.placeholder = value === null ? number(effective[name], 4) : "";
       }
-      if (slider && document.activeElement !== slider) slider.value = value ?? effective[name] ?? slider.min;
-      if (slider) slider.setAttribute("aria-valuetext", `${plain(value ?? effective[name])} ${unitText(key.unit)}`.trim());
+      if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
+      if (slider) slider.setAttribute("aria-valuetext", `${plain(rounded(value))} ${unitText(key.unit)}`.trim());
     }
   }
 
@@ -171,6 +176,9 @@ export class Controls {
     }
   }
 }
+
+/** Without the last digits of a number that was computed. */
+const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(12)) : value);
 
 /** A round step, some hundreds of which make the range. */
 function sliderStep(low, high) {

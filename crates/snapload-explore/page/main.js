@@ -8,6 +8,7 @@ import { SweepMap } from "./map.js";
 import { Take } from "./take.js";
 import { Controls } from "./controls.js";
 import { Link } from "./link.js";
+import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { Run } from "./run.js";
 import { Stage } from "./stage.js";
@@ -34,7 +35,8 @@ class Page {
     this.controls = new Controls($("controls"), this.state, {
       onChange: (since, settled) => {
         this.ask({ since, settled });
-        if (settled) this.link.write({ step: true });
+        this.link.held = !settled;
+        if (settled) this.link.write({ now: true });
       },
     });
     const jump = (t) => {
@@ -48,7 +50,7 @@ class Page {
       colours,
       onPick: (values) => {
         this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
-        this.link.write({ step: true });
+        this.link.write({ now: true });
       },
     });
     this.exports = new Take({
@@ -70,8 +72,7 @@ class Page {
     this.tools();
     this.link.read();
     if (this.run === null && !this.runner.flying) this.ask({ settled: true });
-    new ResizeObserver(() => this.drawAll()).observe($("charts"));
-    new ResizeObserver(() => this.drawAll()).observe($("scene"));
+    onResize(() => this.drawAll());
   }
 
   /** Asks for the run of the values as they are. */
@@ -89,10 +90,15 @@ class Page {
     if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
     this.stage.take(this.run);
     this.transport.take(this.run);
-    this.events.take(this.run);
-    this.exports.take(this.run);
     this.drawAll();
     paintedSince(since);
+    // What is read rather than seen comes after the picture.
+    clearTimeout(this.later);
+    this.later = setTimeout(() => {
+      this.events.take(this.run);
+      this.events.show(this.state.t, true);
+      this.exports.take(this.run);
+    }, 60);
   }
 
   fail(error) {
@@ -160,7 +166,7 @@ class Page {
       if (!select.value) return this.showCase();
       const { values } = cases.find(({ code }) => code === select.value) ?? start;
       this.state.set({ values: { ...values }, t: 0, window: null });
-      this.link.write({ step: true });
+      this.link.write({ now: true });
     });
     this.showCase();
   }

@@ -5,7 +5,7 @@ import { label } from "./charts.js";
 import { Frame, drawAxes, prepare, ticks } from "./plot.js";
 import { MAP_COLOURS, MOST_CELLS, readValue } from "./state.js";
 import { mix } from "./theme.js";
-import { number, plain, reasonText, unitText } from "./words.js";
+import { number, plain, prose, reasonText, unitText } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
@@ -45,6 +45,7 @@ export class SweepMap {
     this.box.addEventListener("toggle", () => {
       if (this.box.open === (state.map !== null)) return;
       state.set({ map: this.box.open ? this.#usualMap() : null });
+      if (this.box.open) this.canvas.scrollIntoView({ block: "nearest" });
     });
     this.#listen();
   }
@@ -273,7 +274,7 @@ export class SweepMap {
 
   #axisWords({ key }) {
     const { symbol, unit } = this.numeric.find((one) => one.name === key);
-    return unitText(unit) ? `${symbol}  [${unitText(unit)}]` : symbol;
+    return unitText(unit) ? `${prose(symbol)}  [${unitText(unit)}]` : symbol;
   }
 
   /** What a cell is painted with, by its index; nothing where there is nothing yet. */

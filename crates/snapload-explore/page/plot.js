@@ -37,6 +37,10 @@ export class Frame {
     return this.y0 + ((this.top + this.height - px) / this.height) * (this.y1 - this.y0);
   }
 
+  holdsX(value) {
+    return value >= this.x0 && value <= this.x1;
+  }
+
   clip(context) {
     context.beginPath();
     context.rect(this.left, this.top, this.width, this.height);
@@ -120,9 +124,24 @@ export function span(columns, air = 0.06) {
   return [low - pad, high + pad];
 }
 
+const sizes = new Map();
+const resized = new Set();
+const watcher = new ResizeObserver((entries) => {
+  for (const { target } of entries) sizes.set(target, [target.clientWidth, target.clientHeight]);
+  for (const listener of resized) listener();
+});
+
+/** Calls back when a canvas that was drawn on has changed its size. */
+export const onResize = (listener) => resized.add(listener);
+
 /** A canvas at the resolution of the screen, cleared, with its context in CSS pixels. */
 export function prepare(canvas) {
-  const { clientWidth: width, clientHeight: height } = canvas;
+  if (!sizes.has(canvas)) {
+    // Asking the page each time would have it laid out anew before every picture.
+    sizes.set(canvas, [canvas.clientWidth, canvas.clientHeight]);
+    watcher.observe(canvas);
+  }
+  const [width, height] = sizes.get(canvas);
   const ratio = window.devicePixelRatio || 1;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });

@@ -224,11 +224,12 @@ function snapShapes(run, { i, left }, cam, { colours, still, width }) {
   const distance = Math.hypot(anchor[0] - at[0], anchor[1] - at[1]);
   const length = Math.min(0.16 * width, 110) * impulsePart(run, i);
   const to = at.map((v, k) => v + ((anchor[k] - v) / distance) * length);
+  const size = Math.min(1, width / 700);
   const flash = still
     ? []
     : [
-        { circle: [...at, 5 + 16 * impulsePart(run, i) * (1.4 - left)], stroke: colours.snap, width: 2, alpha: left },
-        { circle: [...at, 7 * impulsePart(run, i) * left + 2], fill: colours.snap, alpha: 0.8 * left },
+        { circle: [...at, size * (5 + 16 * impulsePart(run, i) * (1.4 - left))], stroke: colours.snap, width: 2, alpha: left },
+        { circle: [...at, size * (7 * impulsePart(run, i) * left + 2)], fill: colours.snap, alpha: 0.8 * left },
       ];
   return [...flash, ...arrow(at, to, colours.snap, 3, { alpha: still ? 1 : Math.min(1, 1.6 * left) })];
 }
@@ -281,7 +282,7 @@ function labels(run, cam, { width, height, colours, view }) {
     shapes.push({ ...text, text: "sea floor", at: [width / 2, floor + (below > 0 ? 24 : -16)], align: "center" });
   }
   if (inside(surface)) {
-    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + (below > 0 ? 24 : -16)] });
+    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + (below > 0 ? 30 : -22)] });
   }
   return shapes;
 }
@@ -289,7 +290,9 @@ function labels(run, cam, { width, height, colours, view }) {
 function scaleBar(cam, width, height, colours) {
   const nice = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
   const length = nice * cam.scale;
-  const y = cam.up > 0 ? 24 : height - 24;
+  // Just below the surface where that is in view, else at the edge.
+  const surface = cam.level(cam.surface) + 26 * cam.up;
+  const y = surface > 20 && surface < height - 8 ? surface : 24;
   const x = width - 14 - length;
   const ends = [x, x + length].map((px) => ({ points: [[px, y - 4], [px, y + 4]], stroke: colours.muted, width: 1 }));
   return [

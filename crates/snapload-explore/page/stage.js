@@ -1,9 +1,10 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
+import { prepare } from "./plot.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
-import { modeName, number } from "./words.js";
+import { modeName, number, plain } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
@@ -39,11 +40,12 @@ export class Stage {
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
   #words() {
     const { end, horizon, ghost, cut } = this.run;
-    const parts = [end.words, horizon.words].map((words) => sentence(shortened(words)));
+    const parts = [end.words, horizon.words].flatMap((words) => shortened(words).split("\n").map(sentence));
     if (ghost) {
       const apart = ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
-      parts.push(`The neighbour, started ${number(this.state.ghost ?? 0)} away, ${apart}.`);
+      parts.push(`The neighbour, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
     }
+    if (this.run.ghost_error) parts.push(sentence(`no neighbour: ${this.run.ghost_error}`));
     if (cut) parts.push(`Of ${cut.impacts} impacts the first ${cut.shown} are shown.`);
     return parts.join(" ");
   }
@@ -52,27 +54,21 @@ export class Stage {
     const { norms, impacts, modes } = this.run;
     const taut = modes.taut.reduce((sum, set, i) => sum + (set.length ? modes.t_end[i] - modes.t_start[i] : 0), 0);
     const rows = [
-      ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length)],
-      ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5)],
-      ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5)],
-      ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5)],
-      ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`],
-      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`],
+      ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length), "impacts"],
+      ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
+      ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5), "rho2"],
+      ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
+      ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
+      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
       ["Hardest impulse", number(this.run.hardest, 5)],
       ["Time taut", `${number(taut, 4)} T`],
     ];
-    $("summary").innerHTML = rows.map(([term, value]) => `<div><dt>${term}</dt><dd>${value}</dd></div>`).join("");
+    $("summary").innerHTML = rows.map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`).join("");
   }
 
   draw() {
     const { run, canvas, state } = this;
-    const { clientWidth: width, clientHeight: height } = canvas;
-    const ratio = devicePixelRatio || 1;
-    const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
-    if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
-    const context = canvas.getContext("2d");
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
+    const { context, width, height } = prepare(canvas);
     paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), this.options(width, height)));
     this.#caption();
   }
@@ -98,7 +94,7 @@ export class Stage {
       for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
     }
     $("ghost").checked = ghost !== null;
-    if (ghost !== null) $("ghost-size").value = ghost < 1e-3 ? ghost.toExponential() : String(ghost);
+    if (ghost !== null) $("ghost-size").value = plain(ghost);
   }
 }
 

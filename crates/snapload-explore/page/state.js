@@ -21,6 +21,7 @@ export class State {
   constructor(schema) {
     this.schema = schema;
     this.defaults = Object.fromEntries(schema.keys.map((key) => [key.name, key.default]));
+    this.derived = new Set(schema.keys.filter(isDerived).map((key) => key.name));
     this.values = { ...schema.start.values };
     Object.assign(this, BEGINNING);
     this.listeners = [];
@@ -41,13 +42,14 @@ export class State {
   /** One key; a value of null, or its default, leaves it out. */
   setValue(name, value) {
     const values = { ...this.values };
-    if (value === null || value === this.defaults[name]) delete values[name];
+    if (value === null || (value === this.defaults[name] && !this.derived.has(name))) delete values[name];
     else values[name] = value;
     this.set({ values });
   }
 
+  /** The value of a key; null where it follows from others. */
   value(name) {
-    return this.values[name] ?? this.defaults[name];
+    return this.values[name] ?? (this.derived.has(name) ? null : this.defaults[name]);
   }
 
   /** The built-in case with exactly these values, or that from which the program was started. */
@@ -91,12 +93,15 @@ export class State {
       else next[name] = value;
     }
     for (const name of Object.keys(next.values)) {
-      if (next.values[name] === this.defaults[name]) delete next.values[name];
+      if (next.values[name] === this.defaults[name] && !this.derived.has(name)) delete next.values[name];
     }
     this.set(next);
     return broken;
   }
 }
+
+/** Whether the default of a key is a rule rather than a number. */
+const isDerived = (key) => key.default === null || Number.isNaN(parseFloat(key.default_in_words || "0"));
 
 const same = (one, other) => JSON.stringify(sorted(one)) === JSON.stringify(sorted(other));
 

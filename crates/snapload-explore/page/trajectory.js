@@ -10,8 +10,10 @@ const MOST_MARKS = 2500;
 
 export class Trajectory {
   constructor(figure, { colours, onJump, onHover }) {
-    const [base, over] = figure.querySelectorAll("canvas");
-    Object.assign(this, { base, over, colours, run: null, frame: null });
+    const over = figure.querySelector("svg");
+    Object.assign(this, { base: figure.querySelector("canvas"), over, colours, run: null, frame: null });
+    [this.boundaries, this.now, this.hovered] = [over.querySelectorAll(".boundary"), ...over.querySelectorAll(".at")];
+    this.window = over.querySelector("svg");
     this.reading = figure.querySelector("output");
     over.addEventListener("pointermove", (event) => {
       if (event.buttons === 0 || event.pointerType === "mouse") onHover(this.#timeNear(event));
@@ -27,9 +29,11 @@ export class Trajectory {
   #timeNear(event) {
     if (!this.run) return null;
     const { t, x, y } = this.run.motion;
+    const box = this.over.getBoundingClientRect();
+    const [px, py] = [event.clientX - box.left, event.clientY - box.top];
     let best = [REACH_PX, null];
     for (let i = this.rows[0]; i < this.rows[1]; i += 1) {
-      const distance = Math.hypot(this.frame.x(x[i]) - event.offsetX, this.frame.y(y[i]) - event.offsetY);
+      const distance = Math.hypot(this.frame.x(x[i]) - px, this.frame.y(y[i]) - py);
       if (distance < best[0]) best = [distance, t[i]];
     }
     return best[1];
@@ -50,7 +54,7 @@ export class Trajectory {
     label(context, colours, "y  [L], towards the anchors", 11, frame.top + frame.height / 2, -Math.PI / 2);
     context.save();
     frame.clip(context);
-    this.#boundaries(context, { theta: 0 }, [colours.muted, colours.muted], [2, 3]);
+    this.#upright(context, colours);
     this.#legs(context, colours);
     this.#marks(context, colours);
     this.#ghost(context, colours);
@@ -73,16 +77,23 @@ export class Trajectory {
     return new Frame([MARGIN.left, MARGIN.top, w, h], xs, picture === "real" ? ys.reverse() : ys);
   }
 
-  /** Where the centre is when a cable is just taut at this rotation: a circle about the anchor less the arm. */
-  #boundaries(context, { theta }, strokes, dash) {
+  /** Where the centre is when a cable is just taut at this rotation: on a circle about the anchor less the arm. */
+  #boundaryCentres(theta) {
     const [c, s] = [Math.cos(theta), Math.sin(theta)];
-    this.run.geometry.cables.forEach(({ anchor, arm, length }, i) => {
-      const centre = [anchor[0] - (c * arm[0] - s * arm[1]), anchor[1] - (s * arm[0] + c * arm[1])];
+    return this.run.geometry.cables.map(({ anchor, arm }) => [
+      this.frame.x(anchor[0] - (c * arm[0] - s * arm[1])),
+      this.frame.y(anchor[1] - (s * arm[0] + c * arm[1])),
+    ]);
+  }
+
+  /** The boundaries of a body that is upright. */
+  #upright(context, colours) {
+    context.strokeStyle = colours.muted;
+    context.lineWidth = 1.1;
+    context.setLineDash([2, 3]);
+    this.#boundaryCentres(0).forEach(([x, y], i) => {
       context.beginPath();
-      context.arc(this.frame.x(centre[0]), this.frame.y(centre[1]), length / this.perPx, 0, 2 * Math.PI);
-      context.strokeStyle = strokes[i];
-      context.lineWidth = 1.1;
-      context.setLineDash(dash);
+      context.arc(x, y, this.run.geometry.cables[i].length / this.perPx, 0, 2 * Math.PI);
       context.stroke();
     });
     context.setLineDash([]);
@@ -155,27 +166,23 @@ export class Trajectory {
   /** The body's centre and the boundaries at its rotation, at the time of the cursor, and what is hovered over. */
   cursor(t, hover) {
     if (!this.run) return;
-    const colours = this.colours();
-    const { context } = prepare(this.over);
-    this.frame.clip(context);
+    const { left, top, width, height } = this.frame;
+    set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
     const now = this.run.at(Math.min(t, this.run.tEnd));
-    this.#boundaries(context, now, [colours["cable-1"], colours["cable-2"]], []);
-    this.#dot(context, now, 5, colours.accent, colours.panel);
+    this.#boundaryCentres(now.theta).forEach(([cx, cy], i) => {
+      set(this.boundaries[i], { cx, cy, r: this.run.geometry.cables[i].length / this.perPx });
+    });
+    set(this.now, { cx: this.frame.x(now.x), cy: this.frame.y(now.y) });
     const read = hover ? this.run.at(hover.t) : now;
-    if (hover) this.#dot(context, read, 4, colours.panel, colours.accent);
+    this.hovered.style.display = hover ? "" : "none";
+    set(this.hovered, { cx: this.frame.x(read.x), cy: this.frame.y(read.y) });
     const words = `t ${fixed(read.t, 3)}  x ${fixed(read.x, 4)}  y ${fixed(read.y, 4)}`;
     if (this.reading.value !== words) this.reading.value = words;
   }
+}
 
-  #dot(context, { x, y }, radius, fill, edge) {
-    context.beginPath();
-    context.arc(this.frame.x(x), this.frame.y(y), radius, 0, 2 * Math.PI);
-    context.fillStyle = fill;
-    context.fill();
-    context.strokeStyle = edge;
-    context.lineWidth = 1.6;
-    context.stroke();
-  }
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
 function rowsWithin(t, [from, to]) {

@@ -60,6 +60,7 @@ export class Transport {
     if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words);
     const impacts = this.run.impactsWithin(0, t)[0];
     const count = impacts === undefined ? 0 : impacts + 1;
+    $("clock").dataset.t = t;
     $("clock").value = `t = ${fixed(t, 4)} T`;
     $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
     $("speed").value = speed;

@@ -19,7 +19,10 @@ export function fixed(value, decimals) {
 }
 
 /** What a number field holds: every digit, and ASCII, so that it can be typed and sent. */
-export const plain = (value) => (value === null || value === undefined ? "" : String(value));
+export function plain(value) {
+  if (value === null || value === undefined) return "";
+  return typeof value === "number" && value !== 0 && Math.abs(value) < 1e-3 ? value.toExponential() : String(value);
+}
 
 /** A symbol of the schema as HTML: letters in italics, what follows an underscore below the line. */
 export function symbolHtml(symbol) {
@@ -37,6 +40,7 @@ export function prose(text) {
     .replaceAll(/\bnu\b/g, "ν")
     .replaceAll("^2", "²")
     .replaceAll("v_n", "vₙ")
+    .replaceAll("f_o", "fₒ")
     .replaceAll(" -e ", ` ${MINUS}e `);
 }
 
