@@ -38,8 +38,12 @@ pub(crate) struct Args {
 /// Serves it until it is interrupted.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
+    let name = match input.name.as_str() {
+        "standard case" => "the standard case".to_owned(),
+        name => name.to_owned(),
+    };
     let start = Start {
-        name: input.name,
+        name,
         parameters: *input.case.parameters(),
     };
     let server = Server::bind(args.port, start).map_err(|error| no_port(args.port, &error))?;

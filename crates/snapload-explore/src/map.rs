@@ -4,6 +4,7 @@ use crate::refusal::Refusal;
 use crate::request::{self, Values};
 use crate::work::Leash;
 use axum::body::Bytes;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use snapload::analysis::outcomes;
 use snapload::{Case, Kind, Outcome, Parameters, Stop, Value, key_named};
@@ -201,15 +202,12 @@ struct Cells<'a> {
 impl<'a> Cells<'a> {
     fn of(map: &Map, cells: &'a [usize], leash: &Leash) -> Self {
         let cases: Vec<Result<Case, String>> = cells.iter().map(|cell| map.case(*cell)).collect();
-        // The long ones are cut short here, and run again by themselves below.
-        let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
-        let mut short = outcomes(&short).into_iter();
         let mut told = Self {
             cells,
             ..Self::default()
         };
-        for case in cases {
-            told.push(case.and_then(|case| outcome(&case, &mut short, leash)));
+        for outcome in all_outcomes(cases, leash) {
+            told.push(outcome);
         }
         told
     }
@@ -232,36 +230,52 @@ impl<'a> Cells<'a> {
     }
 }
 
-/// The case that is run among others: none where it may take long however it is cut.
-fn cut(case: &Case) -> Option<Case> {
-    let parameters = *case.parameters();
-    let max_impacts = parameters.max_impacts.min(MANY);
-    let cut = Parameters {
-        max_impacts,
-        ..parameters
-    };
-    (parameters.t_end <= LONG)
-        .then(|| Case::new(cut).ok())
-        .flatten()
+/// What cases come to: side by side as far as that can not take long, else by themselves.
+fn all_outcomes(
+    cases: Vec<Result<Case, String>>,
+    leash: &Leash,
+) -> impl Iterator<Item = Result<Outcome, String>> {
+    let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
+    let mut short = outcomes(&short).into_iter();
+    let tried: Vec<_> = cases
+        .into_iter()
+        .map(|case| {
+            let case = case?;
+            let quick = is_short(&case).then(|| short.next()).flatten();
+            let whole = quick.filter(|outcome| !was_cut(&case, outcome));
+            Ok((case, whole))
+        })
+        .collect();
+    let done: Vec<_> = tried
+        .into_par_iter()
+        .map(|tried: Result<_, String>| match tried? {
+            (_, Some(outcome)) => Ok(outcome),
+            (case, None) => alone(&case, leash),
+        })
+        .collect();
+    done.into_iter()
 }
 
-/// What a case comes to: what it came to among others, unless it was cut short there.
-fn outcome(
-    case: &Case,
-    short: &mut impl Iterator<Item = Outcome>,
-    leash: &Leash,
-) -> Result<Outcome, String> {
-    let whole = |outcome: &Outcome| {
-        outcome.end.reason != Stop::ImpactLimit || case.parameters().max_impacts <= MANY
+fn is_short(case: &Case) -> bool {
+    case.parameters().t_end <= LONG
+}
+
+/// The case with so few impacts that it can not take long.
+fn cut(case: &Case) -> Option<Case> {
+    let parameters = *case.parameters();
+    let cut = Parameters {
+        max_impacts: parameters.max_impacts.min(MANY),
+        ..parameters
     };
-    let quick = if case.parameters().t_end <= LONG {
-        short.next()
-    } else {
-        None
-    };
-    if let Some(outcome) = quick.filter(whole) {
-        return Ok(outcome);
-    }
+    is_short(case).then(|| Case::new(cut).ok()).flatten()
+}
+
+/// Whether the cut case came to an end that is not the case's own.
+fn was_cut(case: &Case, outcome: &Outcome) -> bool {
+    outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MANY
+}
+
+fn alone(case: &Case, leash: &Leash) -> Result<Outcome, String> {
     let leash = leash.within(BUDGET);
     Outcome::of_while(case, |_| leash.holds()).ok_or_else(|| {
         let seconds = BUDGET.as_secs();

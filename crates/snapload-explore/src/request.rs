@@ -9,7 +9,9 @@ pub(crate) type Values = serde_json::Map<String, Json>;
 
 /// The body of a request.
 pub(crate) fn read<T: DeserializeOwned>(body: &[u8]) -> Result<T, Refusal> {
-    serde_json::from_slice(body).map_err(Refusal::malformed)
+    // An object first: a list would be taken for the fields in their order.
+    let object: Values = serde_json::from_slice(body).map_err(Refusal::malformed)?;
+    serde_json::from_value(Json::Object(object)).map_err(Refusal::malformed)
 }
 
 /// Keys and values, each of them legal by itself; `null` is a key left out.
