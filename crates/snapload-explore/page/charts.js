@@ -118,8 +118,10 @@ export class Charts {
     const { context, width, height } = prepare(base);
     const bottom = last ? 30 : 8;
     const run = this.run;
-    const ys = { theta: () => span([run.motion.theta]), snaps: () => above(span([run.impacts.v_n])),
-      tensions: () => above(span([run.motion.T1, run.motion.T2])), energy: () => span([run.motion.energy]) }[chart.id]();
+    const seen = (columns, name) => columns[name].slice(...rows(columns.t, ...range));
+    const ys = { theta: () => span([seen(run.motion, "theta")]), snaps: () => above(span([seen(run.impacts, "v_n")])),
+      tensions: () => above(span([seen(run.motion, "T1"), seen(run.motion, "T2")])),
+      energy: () => span([seen(run.motion, "energy")]) }[chart.id]();
     const frame = new Frame([LEFT, 6, width - LEFT - RIGHT, height - 6 - bottom], range, ys);
     this.frames.set(chart.id, frame);
     context.save();
@@ -171,7 +173,17 @@ export class Charts {
     } else {
       context.strokeStyle = colours.ink;
       drawColumn(context, frame, motion.t, motion[chart.id], from, to);
+      this.#ghost(context, chart, frame, colours);
     }
+  }
+
+  #ghost(context, chart, frame, colours) {
+    if (!this.run.ghost) return;
+    const { motion } = this.run.ghost;
+    context.strokeStyle = colours.ghost;
+    context.setLineDash([5, 3]);
+    drawColumn(context, frame, motion.t, motion[chart.id], ...rows(motion.t, frame.x0, frame.x1));
+    context.setLineDash([]);
   }
 
   /** The tension of a cable while it is taut: slack is no line at zero but none. */
@@ -227,11 +239,11 @@ export class Charts {
 /** A range that stands on zero. */
 const above = ([, high]) => [0, high];
 
+/** The rows that show a range of time: one more on either side, so that lines leave the frame. */
 function rows(t, from, to) {
-  let [low, high] = [0, t.length];
-  while (low < t.length - 1 && t[low + 1] < from) low += 1;
-  while (high > low + 1 && t[high - 2] > to) high -= 1;
-  return [low, high];
+  const first = t.findIndex((time) => time > from);
+  const last = t.findIndex((time) => time > to);
+  return [first < 0 ? Math.max(t.length - 1, 0) : Math.max(first - 1, 0), last < 0 ? t.length : last + 1];
 }
 
 /** Puts a mark at a place of its chart, or away. */

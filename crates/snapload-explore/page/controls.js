@@ -147,12 +147,12 @@ export class Controls {
       const given = this.state.values[name];
       const value = given === undefined && key.default_in_words ? (effective[name] ?? this.state.value(name)) : this.state.value(name);
       if (key.kind.type === "flag") field.checked = value;
-      else if (this.typing !== name) field.value = plain(given ?? rounded(value));
+      else if (this.typing !== name) field.value = plain(given ?? (key.default_in_words ? rounded(value) : value));
       if (reset) {
         reset.hidden = !(name in this.state.values);
       }
       if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
-      if (slider) slider.setAttribute("aria-valuetext", `${plain(rounded(value))} ${unitText(key.unit)}`.trim());
+      if (slider) slider.setAttribute("aria-valuetext", `${plain(value)} ${unitText(key.unit)}`.trim());
     }
   }
 
@@ -177,8 +177,8 @@ export class Controls {
   }
 }
 
-/** Without the last digits of a number that was computed. */
-const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(12)) : value);
+/** A number that was computed, as short as it is read. */
+const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
 
 /** A round step, some hundreds of which make the range. */
 function sliderStep(low, high) {
@@ -189,6 +189,7 @@ function sliderStep(low, high) {
 
 function shortMeaning(key) {
   const text = prose(key.meaning);
+  if (key.kind.type === "choice") return text;
   return text.replace(/^start: /, "").split(/[:;,]/)[0];
 }
 

@@ -4,7 +4,7 @@ import { fixed, modeName, number } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const ROWS = 50;
-const WORDS = { start: "start", horizon: "horizon of trust", end: "end" };
+const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost parts from it", end: "end" };
 
 export class EventTable {
   constructor({ onJump }) {

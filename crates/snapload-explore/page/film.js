@@ -8,6 +8,8 @@ import { fixed, modeName } from "./words.js";
 const KINDS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
 const FRAMES_A_SECOND = 30;
 const LONGEST_S = 600;
+const REST_S = 0.7;
+const PATIENCE_S = 10;
 const BITS_A_SECOND = 6e6;
 
 export class Film {
@@ -42,9 +44,21 @@ export class Film {
     });
     recorder.start(500);
     await this.#play(context, seconds, onProgress);
+    await this.#rest(context, () => pieces.some((piece) => piece.size > 0));
     recorder.stop();
     await ended;
-    return this.cancelled ? null : new Blob(pieces, { type: "video/webm" });
+    if (this.cancelled) return null;
+    const film = new Blob(pieces, { type: "video/webm" });
+    if (film.size === 0) throw new Error("The browser recorded no picture. Close other pages, and try again with this one in view.");
+    return film;
+  }
+
+  /** The end stands for a moment, and until a busy machine has written its first pictures. */
+  async #rest(context, written) {
+    for (let waited = 0; !this.cancelled && (waited < REST_S || (!written() && waited < PATIENCE_S)); waited += 0.1) {
+      this.#frame(context, this.to);
+      await new Promise((done) => setTimeout(done, 100));
+    }
   }
 
   #play(context, seconds, onProgress) {

@@ -18,8 +18,10 @@ import { Trajectory } from "./trajectory.js";
 import { Transport } from "./transport.js";
 
 const $ = (id) => document.getElementById(id);
-/** While a slider is dragged fewer rows are asked for than when it rests. */
-const SAMPLES = { dragged: 1200, settled: 3000 };
+/** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
+const SAMPLES = { first: 1200, finer: 6000 };
+const LONG_T = 20;
+const REST_MS = 300;
 
 chooseTheme(chosenTheme());
 
@@ -34,7 +36,7 @@ class Page {
     this.transport = new Transport(this.state, this.playback);
     this.controls = new Controls($("controls"), this.state, {
       onChange: (since, settled) => {
-        this.ask({ since, settled });
+        this.ask(since);
         this.link.held = !settled;
         if (settled) this.link.write({ now: true });
       },
@@ -57,12 +59,12 @@ class Page {
       state: this.state,
       stage: this.stage,
       now: () => this.run,
-      question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.settled }),
+      question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
     });
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
-      onAnswer: (answer, since) => this.take(answer, since),
+      onAnswer: (answer, since, question) => this.take(answer, since, question),
       onError: (error) => this.fail(error),
       onBusy: (busy) => document.body.classList.toggle("busy", busy),
     });
@@ -71,41 +73,57 @@ class Page {
     this.cases();
     this.tools();
     this.link.read();
-    if (this.run === null && !this.runner.flying) this.ask({ settled: true });
+    this.ask();
     onResize(() => this.drawAll());
   }
 
-  /** Asks for the run of the values as they are. */
-  ask({ since = performance.now(), settled }) {
+  /** Asks for the run of the values as they are, which changed at a time; once, however often one asks. */
+  ask(since = performance.now()) {
     const { values, ghost } = this.state;
-    this.asked = JSON.stringify([values, ghost]);
-    this.runner.ask({ values, ghost, samples: settled ? SAMPLES.settled : SAMPLES.dragged }, since);
+    const asked = JSON.stringify([values, ghost]);
+    if (asked === this.asked) return;
+    this.asked = asked;
+    clearTimeout(this.refining);
+    this.runner.ask({ values, ghost, samples: SAMPLES.first }, since);
   }
 
-  take(answer, since) {
+  take(answer, since, question) {
     this.run = new Run(answer);
-    $("failed").hidden = true;
-    this.controls.clearError();
-    this.controls.show(answer.values);
+    const latest = this.asked === JSON.stringify([question.values, question.ghost]);
+    if (latest) {
+      $("failed").hidden = true;
+      this.controls.clearError();
+      this.controls.show(answer.values);
+    }
     if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
     this.stage.take(this.run);
     this.transport.take(this.run);
     this.drawAll();
+    if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
+  }
+
+  /** What follows the picture: how long it took, what is read rather than seen, and more rows of a long run. */
+  afterwards(question, since, latest) {
     paintedSince(since);
-    // What is read rather than seen comes after the picture.
     clearTimeout(this.later);
     this.later = setTimeout(() => {
       this.events.take(this.run);
       this.events.show(this.state.t, true);
       this.exports.take(this.run);
     }, 60);
+    clearTimeout(this.refining);
+    if (!latest || this.run.tEnd < LONG_T) return;
+    this.refining = setTimeout(() => this.runner.ask({ ...question, samples: SAMPLES.finer }), REST_MS);
   }
 
   fail(error) {
-    const text = error.message;
-    this.controls.showError(text);
-    $("failed").textContent = `Not run: ${text}${this.run ? " The picture is that of the last values that could be run." : ""}`;
+    this.controls.showError(error.message);
+    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of the last values that could be run.`;
     $("failed").hidden = false;
+    // A link may begin with values that can not be run: then there is the case of the start to look at.
+    if (!this.run) {
+      this.runner.ask({ values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first }, performance.now());
+    }
   }
 
   /** Redraws what a change of the state concerns. */
@@ -113,11 +131,8 @@ class Page {
     if (changed.has("values") || changed.has("ghost")) {
       this.controls.show(this.run?.values);
       this.showCase();
-      const { values, ghost } = this.state;
       // A change that came from the controls is asked for by them, with the time of its event.
-      queueMicrotask(() => {
-        if (this.asked !== JSON.stringify([values, ghost])) this.ask({ settled: true });
-      });
+      queueMicrotask(() => this.ask());
     }
     if (["picture", "view", "window"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();

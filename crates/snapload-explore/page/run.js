@@ -122,13 +122,14 @@ export class Run {
 const largest = (column) => column.reduce((most, value) => Math.max(most, value ?? 0), 0);
 
 function listEvents(answer) {
-  const { impacts, modes, horizon, end } = answer;
+  const { impacts, modes, horizon, end, ghost } = answer;
   const events = [{ t: 0, kind: "start" }];
   impacts.t.forEach((t, i) => events.push({ t, kind: "impact", impact: i }));
   modes.t_start.forEach((t, i) => {
     if (i > 0) events.push({ t, kind: "mode", taut: modes.taut[i] });
   });
   if (horizon.t !== null && horizon.t > 0 && horizon.t < end.t) events.push({ t: horizon.t, kind: "horizon" });
+  if (ghost && ghost.parts_at !== null && ghost.parts_at < end.t) events.push({ t: ghost.parts_at, kind: "parts" });
   events.push({ t: end.t, kind: "end" });
   // Sorting keeps the order of what happens at one instant: impact, then mode, then horizon, then end.
   return events.sort((one, other) => one.t - other.t);

@@ -22,17 +22,22 @@ function camera(run, { width, height, picture, view }) {
   let [left, right] = span(x);
   let [low, high] = span(y);
   const surface = Math.min(low - size, -size) - 0.3;
+  // Beyond floor and surface there is room for what is written there, however small the scale.
+  let [beyondFloor, beyondSurface] = [0, 0];
   if (view === "close") {
     const margin = 1.15 * size + 0.12 * Math.max(right - left, high - low) + 0.01;
     [left, right, low, high] = [left - margin, right + margin, low - margin, high + margin];
   } else {
     [left, right] = [Math.min(left - size, -1) - 0.1, Math.max(right + size, 1) + 0.1];
-    [low, high] = [surface - 0.15, anchorLevel + 0.12];
+    [low, high] = [surface, anchorLevel];
+    [beyondFloor, beyondSurface] = [34, 30];
   }
-  const scale = Math.min(width / (right - left), height / (high - low));
+  const usable = height - beyondFloor - beyondSurface;
+  const scale = Math.min(width / (right - left), usable / (high - low));
   const middle = [0.5 * (left + right), 0.5 * (low + high)];
   const up = picture === "real" ? 1 : -1;
-  const place = ([px, py]) => [width / 2 + scale * (px - middle[0]), height / 2 + up * scale * (py - middle[1])];
+  const centre = (height + up * (beyondSurface - beyondFloor)) / 2;
+  const place = ([px, py]) => [width / 2 + scale * (px - middle[0]), centre + up * scale * (py - middle[1])];
   return { place, scale, up, surface, anchorLevel, level: (py) => place([0, py])[1] };
 }
 
@@ -64,7 +69,7 @@ export function sceneShapes(run, t, options) {
     // From close by, the body is larger than its path, which would be hidden.
     ...(close ? paths : []),
     ...run.geometry.cables.flatMap((cable) => fairlead(cable, moment, cam, colours)),
-    ...snaps.flatMap((snap) => snapShapes(run, snap, cam, options)),
+    ...snaps.flatMap((snap) => snapShapes(run, snap, moment, cam, options)),
     ...forces(run, t, moment, cam, options),
     ...labels(run, cam, options),
     ...scaleBar(cam, width, height, colours),
@@ -216,14 +221,15 @@ function fairlead(cable, moment, cam, colours) {
 /** The arrow's length goes with the square root of the impulse, so that the small ones are seen beside the hardest. */
 const impulsePart = (run, i) => Math.sqrt(run.impacts.impulse[i] / (run.hardest || 1));
 
-function snapShapes(run, { i, left }, cam, { colours, still, width }) {
+/** At the fairlead, which moves on, in the direction that the line had at the instant. */
+function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   const cable = run.geometry.cables[run.impacts.cable[i] - 1];
   const then = { x: run.impacts.x[i], y: run.impacts.y[i], theta: run.impacts.theta[i] };
-  const at = cam.place(turned(cable.arm, then));
-  const anchor = cam.place(cable.anchor);
-  const distance = Math.hypot(anchor[0] - at[0], anchor[1] - at[1]);
+  const [from, anchor] = [cam.place(turned(cable.arm, then)), cam.place(cable.anchor)];
+  const at = cam.place(turned(cable.arm, moment));
+  const distance = Math.hypot(anchor[0] - from[0], anchor[1] - from[1]);
   const length = Math.min(0.16 * width, 110) * impulsePart(run, i);
-  const to = at.map((v, k) => v + ((anchor[k] - v) / distance) * length);
+  const to = at.map((v, k) => v + ((anchor[k] - from[k]) / distance) * length);
   const size = Math.min(1, width / 700);
   const flash = still
     ? []
@@ -239,7 +245,8 @@ function forces(run, t, moment, cam, { width, height, colours }) {
   const { f_o, nu } = run.values;
   const size = Math.min(width, height);
   const most = Math.max(Math.abs(f_o), Math.abs(f_o * nu), 1e-9);
-  const unit = Math.min(0.21 * size, (0.17 * size) / most);
+  const clear = 0.9 * Math.abs(cam.level(cam.surface) - cam.level(0));
+  const unit = Math.min(0.21 * size, (0.17 * size) / most, Math.max(clear, 0.1 * size));
   const [bx, by] = cam.place([moment.x, moment.y]);
   const { a, b } = run.geometry.body;
   const reach = Math.hypot(a, b) * cam.scale;

@@ -4,7 +4,7 @@ import { prepare } from "./plot.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
-import { modeName, number, plain } from "./words.js";
+import { modeName, number, plain, prose } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
@@ -33,7 +33,8 @@ export class Stage {
     this.run = run;
     this.#summarise();
     clearTimeout(this.saying);
-    this.saying = setTimeout(() => ($("said").textContent = this.#words()), $("said").textContent ? REST_MS : 0);
+    const words = this.#words();
+    this.saying = setTimeout(() => words !== $("said").textContent && ($("said").textContent = words), $("said").textContent ? REST_MS : 0);
     $("ramp-words").textContent = run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
   }
 
@@ -81,8 +82,8 @@ export class Stage {
   #caption() {
     const t = Math.min(this.state.t, this.run.tEnd);
     const moment = this.run.at(t);
-    const past = this.run.beyond(t) ? ", past the horizon of trust" : "";
-    const taut = moment.taut.length ? `, tension ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F` : "";
+    const past = this.run.beyond(t) ? ", past the horizon" : "";
+    const taut = moment.taut.length ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F` : "";
     $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
     if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
   }
@@ -100,7 +101,7 @@ export class Stage {
 
 /** With numbers of no more digits than one reads. */
 function shortened(words) {
-  return words.replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
+  return prose(words).replaceAll("pi/2", "π/2").replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
 }
 
 function sentence(text) {

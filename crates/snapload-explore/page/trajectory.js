@@ -58,8 +58,8 @@ export class Trajectory {
     this.#legs(context, colours);
     this.#marks(context, colours);
     this.#ghost(context, colours);
-    this.#letters(context, colours);
     context.restore();
+    this.#letters(context, colours);
     const words = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L; y at most ${number(run.norms.y_max, 3)} L`;
     this.base.setAttribute("aria-label", `Path of the body's centre, y against x, ${words}.`);
   }
