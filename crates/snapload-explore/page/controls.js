@@ -160,7 +160,8 @@ export class Controls {
   showError(text) {
     this.clearError();
     const named = /^(?:--set: )?([a-z_]+) = /.exec(text)?.[1];
-    const parts = this.rows.get(named) ?? this.rows.get(this.latest);
+    // What is no key, such as the ghost, has its text beside the picture.
+    const parts = this.rows.get(named ?? this.latest);
     if (!parts) return;
     parts.error.textContent = text;
     parts.error.hidden = false;
