@@ -15,8 +15,10 @@ use std::time::Duration;
 
 /// What the neighbours of a run may take.
 const BUDGET: Duration = Duration::from_secs(20);
-/// A run of more impacts than this is for the command line.
-const MOST_IMPACTS: usize = 100_000;
+/// A table of more impacts than this is for the command line.
+const MOST_WRITTEN: usize = 100_000;
+/// The same for a picture: a path that scribbles all over the plane takes minutes to draw.
+const MOST_DRAWN: usize = 10_000;
 /// The neighbours that the command draws unless it is told otherwise.
 const SEED: u64 = 1;
 
@@ -82,7 +84,11 @@ impl File {
         }
         let trusted = run_alone(&case, leash)?;
         let impacts = trusted.run.impacts().len();
-        if impacts > MOST_IMPACTS {
+        let most = match self {
+            Self::Svg(_) | Self::Png(_) => MOST_DRAWN,
+            _ => MOST_WRITTEN,
+        };
+        if impacts > most {
             return Err(for_the_command(
                 &case,
                 &format!("this run has {impacts} impacts"),

@@ -30,7 +30,9 @@ mod tests {
             let mut order = coarse_first(columns, rows);
             assert_eq!(order[0], 0);
             let coarse = columns.div_ceil(8) * rows.div_ceil(8);
-            let eighth = |cell: &usize| (cell % columns) % 8 == 0 && (cell / columns) % 8 == 0;
+            let eighth = |cell: &usize| {
+                (cell % columns).is_multiple_of(8) && (cell / columns).is_multiple_of(8)
+            };
             assert!(order[..coarse].iter().all(eighth));
             order.sort_unstable();
             assert!(order.into_iter().eq(0..columns * rows));

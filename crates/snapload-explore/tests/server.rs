@@ -488,6 +488,24 @@ fn requests_that_ask_for_too_much_are_refused() {
     refuse("/api/export/trajectory.pdf", json!({}), 404, "nothing");
 }
 
+#[test]
+fn a_picture_of_very_many_impacts_is_left_to_the_command() {
+    let server = serve();
+    let bounces =
+        json!({ "values": { "body": "point", "e": 1, "f_o": 0, "y": 1e-4, "t_end": 200 } });
+    assert_eq!(server.post("/api/export/impacts.csv", &bounces).status, 200);
+    let answer = server.post("/api/export/energy.svg", &bounces);
+    assert_eq!(answer.status, 422);
+    let words = answer.error();
+    for part in [
+        "14142 impacts",
+        "snapload run --set e=1",
+        "--set body=point --out results",
+    ] {
+        assert!(words.contains(part), "{words}");
+    }
+}
+
 /// Sends one request and tells the status.
 fn status(server: &Running, request: &str) -> u16 {
     server.send(request.as_bytes()).unwrap().status
