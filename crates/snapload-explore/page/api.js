@@ -54,18 +54,22 @@ export class Runner {
     this.waiting = null;
     this.flying = { controller, begun: performance.now() };
     this.onBusy(true);
+    let answer = null;
     try {
-      const response = await post("api/run", question, controller.signal);
-      const answer = await response.json();
-      this.onAnswer(answer, since, question);
+      answer = await (await post("api/run", question, controller.signal)).json();
     } catch (error) {
-      if (error.name !== "AbortError") this.onError(error, question);
-    } finally {
-      this.flying = null;
-      if (this.waiting) this.#next();
-      else this.onBusy(false);
+      if (error.name !== "AbortError") this.onError(inWords(error), question);
     }
+    this.flying = null;
+    if (this.waiting) this.#next();
+    else this.onBusy(false);
+    if (answer) this.onAnswer(answer, since, question);
   }
+}
+
+/** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
+function inWords(error) {
+  return error instanceof Refused ? error : new Error("the program does not answer. Is snapload explore still running?");
 }
 
 /** A map line by line as it is computed; ends early when the signal aborts. */

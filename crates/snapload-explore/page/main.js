@@ -95,9 +95,10 @@ class Page {
       this.controls.clearError();
       this.controls.show(answer.values);
     }
-    if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
     this.stage.take(this.run);
     this.transport.take(this.run);
+    if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
+    if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
     if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
   }

@@ -135,7 +135,7 @@ export class SweepMap {
       this.#progress(`${count} runs`);
     } catch (error) {
       if (error.name === "AbortError") return;
-      this.#progress(error instanceof Refused ? error.message : `The map ended early: ${error.message}`);
+      this.#progress(error instanceof Refused ? error.message : "The map ended early. Is snapload explore still running?");
     } finally {
       if (this.controller === controller) {
         this.controller = null;

@@ -1,12 +1,13 @@
 // The path of the body's centre, with the boundaries at which a cable is taut.
 
 import { label } from "./charts.js";
-import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, ticks } from "./plot.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, stroke, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
 const MOST_MARKS = 2500;
+const PIECES = 64;
 
 export class Trajectory {
   constructor(figure, { colours, onJump, onHover }) {
@@ -77,13 +78,21 @@ export class Trajectory {
     return new Frame([MARGIN.left, MARGIN.top, w, h], xs, picture === "real" ? ys.reverse() : ys);
   }
 
-  /** Where the centre is when a cable is just taut at this rotation: on a circle about the anchor less the arm. */
-  #boundaryCentres(theta) {
+  /**
+   * Where the centre is when a cable is just taut at this rotation: on a circle about the anchor less the arm. Only the
+   * part that passes the frame, as the circle of a long cable is larger than what can be drawn.
+   */
+  #boundary({ anchor, arm, length }, theta) {
+    const { frame } = this;
     const [c, s] = [Math.cos(theta), Math.sin(theta)];
-    return this.run.geometry.cables.map(({ anchor, arm }) => [
-      this.frame.x(anchor[0] - (c * arm[0] - s * arm[1])),
-      this.frame.y(anchor[1] - (s * arm[0] + c * arm[1])),
-    ]);
+    const [x, y] = [frame.x(anchor[0] - (c * arm[0] - s * arm[1])), frame.y(anchor[1] - (s * arm[0] + c * arm[1]))];
+    const radius = length / this.perPx;
+    const towards = Math.atan2(frame.top + frame.height / 2 - y, frame.left + frame.width / 2 - x);
+    const half = Math.min(Math.hypot(frame.width, frame.height) / radius, Math.PI);
+    return Array.from({ length: PIECES + 1 }, (_, k) => {
+      const angle = towards + half * ((2 * k) / PIECES - 1);
+      return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+    });
   }
 
   /** The boundaries of a body that is upright. */
@@ -91,11 +100,7 @@ export class Trajectory {
     context.strokeStyle = colours.muted;
     context.lineWidth = 1.1;
     context.setLineDash([2, 3]);
-    this.#boundaryCentres(0).forEach(([x, y], i) => {
-      context.beginPath();
-      context.arc(x, y, this.run.geometry.cables[i].length / this.perPx, 0, 2 * Math.PI);
-      context.stroke();
-    });
+    for (const cable of this.run.geometry.cables) stroke(context, this.#boundary(cable, 0));
     context.setLineDash([]);
   }
 
@@ -169,8 +174,8 @@ export class Trajectory {
     const { left, top, width, height } = this.frame;
     set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
     const now = this.run.at(Math.min(t, this.run.tEnd));
-    this.#boundaryCentres(now.theta).forEach(([cx, cy], i) => {
-      set(this.boundaries[i], { cx, cy, r: this.run.geometry.cables[i].length / this.perPx });
+    this.run.geometry.cables.forEach((cable, i) => {
+      set(this.boundaries[i], { points: this.#boundary(cable, now.theta).map((point) => point.map(short).join()).join(" ") });
     });
     set(this.now, { cx: this.frame.x(now.x), cy: this.frame.y(now.y) });
     const read = hover ? this.run.at(hover.t) : now;
@@ -180,6 +185,8 @@ export class Trajectory {
     if (this.reading.value !== words) this.reading.value = words;
   }
 }
+
+const short = (px) => Math.round(px * 10) / 10;
 
 function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
