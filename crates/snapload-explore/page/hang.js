@@ -38,11 +38,12 @@ function lying(a, b, length) {
   };
   const least = 1e-6 * height;
   const total = (width) => reach - width + rising(width);
-  // More line than reach and height: what is over lies in a loop, and the rest stands upright.
-  const width = total(least) <= length ? least : root((w) => length - total(w), least, Math.max(reach, least));
+  // More line than reach and height: it stands upright, and what is over lies on the floor, on past its foot and back.
+  const over = Math.max(length - total(least), 0);
+  const width = over > 0 ? least : root((w) => length - total(w), least, Math.max(reach, least));
   const lift = b[0] - side * width;
   const curve = pieces((u) => [lift + side * width * u, a[1] - height * u * u]);
-  return [a, ...curve];
+  return [a, ...(over > 0 ? [[lift + (side * over) / 2, a[1]]] : []), ...curve];
 }
 
 function pieces(point) {
