@@ -147,7 +147,7 @@ fn write_directory(
     let sampling = sampling.unwrap_or_else(|| Sampling::thousand(trajectory.end().t));
     let place = |name: &str| directory.join(name);
     stage.write(room, place("impacts.csv"), |out| {
-        tables::impacts(trusted, out)
+        tables::impacts(trajectory, trusted.trust.digits(), out)
     })?;
     stage.write(room, place("modes.csv"), |out| {
         tables::modes(trajectory, out)

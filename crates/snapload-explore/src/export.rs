@@ -1,16 +1,15 @@
 //! `/api/export/NAME`: the files that `snapload run --out` writes, with the same bytes.
 use crate::refusal::Refusal;
 use crate::request;
-use crate::run::run_alone;
+use crate::run::follow;
 use crate::work::Leash;
 use serde::Deserialize;
 use snapload::Case;
-use snapload::analysis::DEFAULT_MEMBERS;
+use snapload::analysis::{DEFAULT_MEMBERS, Doubt};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
-    Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
+    Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
 };
-use std::io;
 use std::time::Duration;
 
 /// What the neighbours of a run may take.
@@ -82,63 +81,60 @@ impl File {
         if matches!(self, Self::Case) {
             return Ok(case_file(case.parameters()).into_bytes());
         }
-        let trusted = run_alone(&case, leash)?;
-        let impacts = trusted.run.impacts().len();
+        let followed = follow(&case, leash)?;
+        let impacts = followed.run.impacts().len();
         let most = match self {
             Self::Svg(_) | Self::Png(_) => MOST_DRAWN,
             _ => MOST_WRITTEN,
         };
         if impacts > most {
-            return Err(for_the_command(
-                &case,
-                &format!("this run has {impacts} impacts"),
-            ));
+            let why = format!("this run has {impacts} impacts");
+            return Err(for_the_command(&case, &why));
         }
         let mut bytes = Vec::new();
-        self.fill(&case, trusted, leash, &mut bytes)?;
+        match self {
+            Self::Run => whole(&case, leash, &mut bytes)?,
+            file => file.fill(&case, &followed, &mut bytes)?,
+        }
         Ok(bytes)
     }
 
-    fn fill(
-        self,
-        case: &Case,
-        trusted: Trusted,
-        leash: &Leash,
-        out: &mut Vec<u8>,
-    ) -> Result<(), Refusal> {
-        let written = |result: io::Result<()>| result.map_err(Refusal::failed);
-        match self {
-            Self::Case => Ok(()),
-            Self::Impacts => written(tables::impacts(&trusted, out)),
-            Self::Modes => written(tables::modes(&trusted.run, out)),
-            Self::Motion => {
-                let sampling = Sampling::thousand(trusted.run.end().t);
-                written(tables::motion(&trusted.run, sampling, out))
-            }
-            Self::Run => {
-                let leash = leash.within(BUDGET);
-                let whole = trusted.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
-                let whole =
-                    whole.ok_or_else(|| for_the_command(case, "its neighbours take long"))?;
-                let report = Report::new(case.parameters(), &whole, None, &|_| ());
-                written(write_json(&report, out))
-            }
+    fn fill(self, case: &Case, followed: &Followed, out: &mut Vec<u8>) -> Result<(), Refusal> {
+        let run = &followed.run;
+        let written = match self {
+            Self::Case | Self::Run => Ok(()),
+            Self::Impacts => tables::impacts(run, followed.digits.iter().copied(), out),
+            Self::Modes => tables::modes(run, out),
+            Self::Motion => tables::motion(run, Sampling::thousand(run.end().t), out),
             Self::Svg(plot) | Self::Png(plot) => {
-                let bytes = picture(self, plot, case, &trusted).map_err(Refusal::failed)?;
-                out.extend(bytes);
+                out.extend(picture(self, plot, case, followed).map_err(Refusal::failed)?);
                 Ok(())
             }
-        }
+        };
+        written.map_err(Refusal::failed)
     }
+}
+
+/// `run.json`, for which neighbours are run.
+fn whole(case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
+    let leash = leash.within(BUDGET);
+    let long = || for_the_command(case, "its neighbours take long");
+    let run = Trusted::run_alone(case, Doubt::default(), |_| leash.holds())?;
+    let run = run.ok_or_else(long)?;
+    let run = run.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
+    let run = run.ok_or_else(long)?;
+    let report = Report::new(case.parameters(), &run, None, &|_| ());
+    write_json(&report, out).map_err(Refusal::failed)
 }
 
 fn picture(
     file: File,
     plot: RunPlot,
     case: &Case,
-    trusted: &Trusted,
+    followed: &Followed,
 ) -> Result<Vec<u8>, FigureError> {
-    let plots = RunPlots::new(&trusted.run).with_horizon(trusted.horizon());
+    let horizon = followed.horizon.map(|horizon| horizon.t);
+    let plots = RunPlots::new(&followed.run).with_horizon(horizon);
     let title = case_in_words("standard case", case.parameters());
     let picture = plots.picture(plot, &title)?;
     match file {

@@ -4,14 +4,13 @@ use crate::request::{self, Values};
 use crate::work::Leash;
 use serde::ser::Serializer;
 use serde::{Deserialize, Serialize};
-use snapload::analysis::Doubt;
 use snapload::{
     Case, CaseError, Impact, ModeInterval, Parameters, Playback, Shape, State, System, Trajectory,
     Value,
 };
 use snapload_report::{
-    CaseEcho, EndRow, MotionRow, NormsRow, Trusted, because, end_in_words, python_lines,
-    shell_line, tables, trust_in_words,
+    CaseEcho, EndRow, Followed, MotionRow, NormsRow, because, end_in_words, python_lines,
+    shell_line, tables,
 };
 use std::time::{Duration, Instant};
 
@@ -55,24 +54,24 @@ pub(crate) fn answer(body: &[u8], leash: &Leash) -> Result<Vec<u8>, Refusal> {
         return Err(CaseError::value("ghost", Value::Number(by), allowed).into());
     }
     let case = request::case(values)?;
-    let trusted = run_alone(&case, leash)?;
-    let ghost = ghost.map(|by| ghost_of(&case, by, samples, &trusted.run, leash));
+    let followed = follow(&case, leash)?;
+    let ghost = ghost.map(|by| ghost_of(&case, by, samples, &followed.run, leash));
     let (ghost, ghost_error) = match ghost.transpose() {
         Ok(ghost) => (ghost, None),
         Err(error) => (None, Some(error.words())),
     };
-    let answer = Answer::new(&case, &trusted, samples, ghost, ghost_error, began);
+    let answer = Answer::new(&case, &followed, samples, ghost, ghost_error, began);
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
 /// A run with its trust, within the budget.
-pub(crate) fn run_alone(case: &Case, leash: &Leash) -> Result<Trusted, Refusal> {
+pub(crate) fn follow(case: &Case, leash: &Leash) -> Result<Followed, Refusal> {
     let leash = leash.within(BUDGET);
     let mut reached = 0.0;
-    let run = Trusted::run_alone(case, Doubt::default(), |simulation| {
+    let run = Followed::run(case, |simulation| {
         reached = simulation.time();
         leash.holds()
-    })?;
+    });
     run.ok_or_else(|| too_long(case.parameters(), reached))
 }
 
@@ -107,13 +106,13 @@ struct Answer<'a> {
 impl<'a> Answer<'a> {
     fn new(
         case: &'a Case,
-        trusted: &'a Trusted,
+        followed: &'a Followed,
         samples: u32,
         ghost: Option<Ghost>,
         ghost_error: Option<String>,
         began: Instant,
     ) -> Self {
-        let (parameters, run) = (case.parameters(), &trusted.run);
+        let (parameters, run) = (case.parameters(), &followed.run);
         let shown = &run.impacts()[..run.impacts().len().min(MOST_SHOWN)];
         let modes = &run.modes()[..run.modes().len().min(MOST_SHOWN)];
         let motion = Columns::of(run, shown, samples);
@@ -122,11 +121,11 @@ impl<'a> Answer<'a> {
             geometry: Geometry::of(parameters, run.system()),
             end: EndTold::of(run, parameters),
             norms: NormsRow::new(run.norms()),
-            horizon: HorizonTold::of(trusted),
+            horizon: HorizonTold::of(followed),
             modes: Modes(modes),
             impacts: Impacts {
                 shown,
-                digits: trusted.trust.digits().take(shown.len()).collect(),
+                digits: &followed.digits[..shown.len()],
             },
             cut: (shown.len() < run.impacts().len()).then(|| Cut {
                 impacts: run.impacts().len(),
@@ -222,14 +221,14 @@ struct HorizonTold {
 }
 
 impl HorizonTold {
-    fn of(trusted: &Trusted) -> Self {
-        let horizon = trusted.trust.horizon;
+    fn of(followed: &Followed) -> Self {
+        let horizon = followed.horizon;
         Self {
             t: horizon.map(|horizon| horizon.t),
             impact: horizon.map(|horizon| horizon.impact),
             because: horizon.map(|horizon| because(horizon.loss)),
-            certain: trusted.trust.decides_the_end(),
-            words: trust_in_words(trusted),
+            certain: horizon.is_none(),
+            words: followed.in_words(),
         }
     }
 }
@@ -257,7 +256,7 @@ impl Serialize for Modes<'_> {
 /// The impacts as columns; where the body is does not change in an impact.
 struct Impacts<'a> {
     shown: &'a [Impact],
-    digits: Vec<f64>,
+    digits: &'a [f64],
 }
 
 impl Serialize for Impacts<'_> {
@@ -284,7 +283,7 @@ impl Serialize for Impacts<'_> {
             x: numbers(|impact| impact.before.x),
             y: numbers(|impact| impact.before.y),
             theta: numbers(|impact| impact.before.theta),
-            digits: &self.digits,
+            digits: self.digits,
         }
         .serialize(serializer)
     }

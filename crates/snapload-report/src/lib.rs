@@ -3,6 +3,7 @@
 
 mod case_file;
 mod critical;
+mod followed;
 mod report;
 mod summary;
 pub mod tables;
@@ -12,6 +13,7 @@ mod verified;
 
 pub use case_file::{case_file, python_lines, shell_line};
 pub use critical::{CriticalRow, Probability};
+pub use followed::Followed;
 pub use report::{
     CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, components, write_json,
 };

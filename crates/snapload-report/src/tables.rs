@@ -1,5 +1,5 @@
 //! The tables of a run as CSV: the columns carry the names of the JSON.
-use crate::{MotionRow, Sampling, Trusted, components};
+use crate::{MotionRow, Sampling, components};
 use serde::Serialize;
 use snapload::{Playback, Trajectory};
 
@@ -31,12 +31,16 @@ pub const MOTION: [&str; 10] = [
     "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
 ];
 
-/// `impacts.csv`: one row an impact and cable.
+/// `impacts.csv`: one row an impact and cable, with the digits that are known of each.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn impacts(trusted: &Trusted, out: &mut dyn Write) -> io::Result<()> {
-    let impacts = trusted.run.impacts().iter().zip(trusted.trust.digits());
+pub fn impacts(
+    trajectory: &Trajectory,
+    digits: impl Iterator<Item = f64>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let impacts = trajectory.impacts().iter().zip(digits);
     let rows = impacts.map(|(impact, digits)| {
         let scalars = (
             impact.t,

@@ -148,12 +148,16 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
 
 /// Where trust ends, and on a second line why.
 pub fn trust_in_words(trusted: &Trusted) -> String {
-    let known = format!("known to {:e}", trusted.doubt.tolerance);
     let impacts = trusted.run.impacts().len();
-    let Some(horizon) = &trusted.trust.horizon else {
+    horizon_in_words(trusted.trust.horizon, trusted.doubt.tolerance, impacts)
+}
+
+/// The same of a run of so many impacts.
+pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts: usize) -> String {
+    let known = format!("known to {tolerance:e}");
+    let Some(Horizon { t, impact, loss }) = horizon else {
         return format!("{known} to the end");
     };
-    let Horizon { t, impact, loss } = *horizon;
     let what = match loss {
         Loss::Start { cable } => {
             let cable = cable + 1;
