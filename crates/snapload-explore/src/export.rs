@@ -93,7 +93,7 @@ impl File {
         }
         let mut bytes = Vec::new();
         match self {
-            Self::Run => whole(&case, leash, &mut bytes)?,
+            Self::Run | Self::Impacts => self.fill_trusted(&case, leash, &mut bytes)?,
             file => file.fill(&case, &followed, &mut bytes)?,
         }
         Ok(bytes)
@@ -102,29 +102,32 @@ impl File {
     fn fill(self, case: &Case, followed: &Followed, out: &mut Vec<u8>) -> Result<(), Refusal> {
         let run = &followed.run;
         let written = match self {
-            Self::Case | Self::Run => Ok(()),
-            Self::Impacts => tables::impacts(run, followed.digits.iter().copied(), out),
             Self::Modes => tables::modes(run, out),
             Self::Motion => tables::motion(run, Sampling::thousand(run.end().t), out),
             Self::Svg(plot) | Self::Png(plot) => {
                 out.extend(picture(self, plot, case, followed).map_err(Refusal::failed)?);
                 Ok(())
             }
+            Self::Case | Self::Impacts | Self::Run => Ok(()),
         };
         written.map_err(Refusal::failed)
     }
-}
 
-/// `run.json`, for which neighbours are run.
-fn whole(case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
-    let leash = leash.within(BUDGET);
-    let long = || for_the_command(case, "its neighbours take long");
-    let run = Trusted::run_alone(case, Doubt::default(), |_| leash.holds())?;
-    let run = run.ok_or_else(long)?;
-    let run = run.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
-    let run = run.ok_or_else(long)?;
-    let report = Report::new(case.parameters(), &run, None, &|_| ());
-    write_json(&report, out).map_err(Refusal::failed)
+    /// What tells of the time past the horizon, too: digits, and how neighbours end.
+    fn fill_trusted(self, case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
+        let leash = leash.within(BUDGET);
+        let long = || for_the_command(case, "its neighbours take long");
+        let run = Trusted::run_alone(case, Doubt::default(), |_| leash.holds())?;
+        let run = run.ok_or_else(long)?;
+        if matches!(self, Self::Impacts) {
+            let written = tables::impacts(&run.run, run.trust.digits(), out);
+            return written.map_err(Refusal::failed);
+        }
+        let run = run.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
+        let run = run.ok_or_else(long)?;
+        let report = Report::new(case.parameters(), &run, None, &|_| ());
+        write_json(&report, out).map_err(Refusal::failed)
+    }
 }
 
 fn picture(

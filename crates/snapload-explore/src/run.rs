@@ -125,7 +125,9 @@ impl<'a> Answer<'a> {
             modes: Modes(modes),
             impacts: Impacts {
                 shown,
-                digits: &followed.digits[..shown.len()],
+                digits: (0..shown.len())
+                    .map(|k| followed.digits.get(k).copied())
+                    .collect(),
             },
             cut: (shown.len() < run.impacts().len()).then(|| Cut {
                 impacts: run.impacts().len(),
@@ -256,7 +258,8 @@ impl Serialize for Modes<'_> {
 /// The impacts as columns; where the body is does not change in an impact.
 struct Impacts<'a> {
     shown: &'a [Impact],
-    digits: &'a [f64],
+    /// Told as far as the horizon.
+    digits: Vec<Option<f64>>,
 }
 
 impl Serialize for Impacts<'_> {
@@ -271,7 +274,7 @@ impl Serialize for Impacts<'_> {
             x: Vec<f64>,
             y: Vec<f64>,
             theta: Vec<f64>,
-            digits: &'a [f64],
+            digits: &'a [Option<f64>],
         }
         let numbers = |of: fn(&Impact) -> f64| self.shown.iter().map(of).collect();
         Told {
@@ -283,7 +286,7 @@ impl Serialize for Impacts<'_> {
             x: numbers(|impact| impact.before.x),
             y: numbers(|impact| impact.before.y),
             theta: numbers(|impact| impact.before.theta),
-            digits: self.digits,
+            digits: &self.digits,
         }
         .serialize(serializer)
     }

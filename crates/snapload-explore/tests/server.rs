@@ -122,7 +122,20 @@ fn a_run_has_the_numbers_of_the_library() {
                 .map(|i| i.v_n)
                 .eq(numbers(&impacts["v_n"]))
         );
-        assert!(trust.digits().eq(numbers(&impacts["digits"])));
+        let known = trust
+            .horizon
+            .map_or(run.impacts().len(), |horizon| horizon.impact - 1);
+        let digits = impacts["digits"].as_array().unwrap();
+        assert!(
+            trust
+                .digits()
+                .take(known)
+                .eq(digits[..known].iter().map(|n| n.as_f64().unwrap()))
+        );
+        assert!(
+            digits.len() == run.impacts().len()
+                && digits[known..].iter().skip(2).all(Value::is_null)
+        );
         assert_eq!(
             told["horizon"]["t"].as_f64(),
             trust.horizon.map(|horizon| horizon.t)

@@ -10,7 +10,7 @@ pub struct Followed {
     pub run: Trajectory,
     /// Where trust ends; none if nowhere.
     pub horizon: Option<Horizon>,
-    /// Decimal digits that are expected to be right, impact by impact.
+    /// Decimal digits that are expected to be right, impact by impact as far as the horizon.
     pub digits: Vec<f64>,
 }
 
@@ -24,16 +24,15 @@ impl Followed {
         let simulation = case.simulation();
         let mut witness = Witness::new(&simulation, &[0.0; 6], Doubt::default().tolerance);
         let run = Trajectory::record_while(simulation, |simulation, step| {
-            // Where nothing is known any more the run goes on by itself, three times as fast.
-            if !witness.is_lost() {
+            // Past it the run goes on by itself, three times as fast.
+            if witness.horizon().is_none() {
                 witness.follow(simulation, step);
             }
             running(simulation)
         })?;
         let trust = witness.verdict();
-        let digits = trust.digits().chain(std::iter::repeat(0.0));
         Some(Self {
-            digits: digits.take(run.impacts().len()).collect(),
+            digits: trust.digits().collect(),
             horizon: trust.horizon,
             run,
         })

@@ -118,8 +118,8 @@ impl Witness {
         self.errors.extend(std::iter::repeat_n(error, rows));
     }
 
-    /// Past an event that neighbours may not share, or with no digit left, nothing is known, nor will be.
-    pub fn is_lost(&self) -> bool {
+    /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    fn is_lost(&self) -> bool {
         let other_events = self.horizon.is_some_and(|h| h.loss != Loss::Tolerance);
         other_events || self.spread.is_lost()
     }
