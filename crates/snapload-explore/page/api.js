@@ -69,7 +69,9 @@ export class Runner {
 
 /** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
 function inWords(error) {
-  return error instanceof Refused ? error : new Error("the program does not answer. Is snapload explore still running?");
+  return error instanceof Refused
+    ? error
+    : new Error("the program does not answer. Is snapload explore still running?");
 }
 
 /** A map line by line as it is computed; ends early when the signal aborts. */

@@ -9,7 +9,7 @@ const NEAR_PX = 9;
 
 export const CHARTS = [
   { id: "theta", symbol: "θ", unit: "rad", name: "Rotation" },
-  { id: "snaps", symbol: "vₙ", unit: "L/T", name: "Normal velocity of each snap" },
+  { id: "snaps", symbol: "vₙ", unit: "L/T", name: "Snap velocity" },
   { id: "tensions", symbol: "T", unit: "F", name: "Tensions" },
   { id: "energy", symbol: "E", unit: "F L", name: "Energy" },
 ];
@@ -22,15 +22,16 @@ const READ = {
 };
 
 function latestSnap(run, t) {
-  const i = run.impactsWithin(0, t)[0];
-  return i === undefined ? "none yet" : `${number(run.impacts.v_n[i], 4)} L/T, latest`;
+  const i = run.latestImpact(t);
+  return i < 0 ? "none yet" : `${number(run.impacts.v_n[i], 4)} L/T, latest`;
 }
 
 /** Everything there is to say of an impact, in a line. */
 export function impactWords(run, i) {
   const { cable, v_n, impulse, digits, t } = run.impacts;
   const known = Number.isFinite(digits[i]) ? ` · ${Math.max(0, Math.floor(digits[i]))} digits` : "";
-  return `impact ${i + 1}, cable ${cable[i]} · t ${number(t[i], 6)} · vₙ ${number(v_n[i])} · impulse ${number(impulse[i])}${known}`;
+  const when = `impact ${i + 1}, cable ${cable[i]} · t ${number(t[i], 6)}`;
+  return `${when} · vₙ ${number(v_n[i])} · impulse ${number(impulse[i])}${known}`;
 }
 
 export class Charts {
@@ -48,11 +49,21 @@ export class Charts {
     figure.innerHTML = `<figcaption><span class="chart-name">${chart.name} <i>${chart.symbol}</i>
       <span class="unit">[${chart.unit}]</span></span><output class="reading"></output></figcaption>
       <div class="stack"><canvas class="base" role="img"></canvas><div class="over" aria-hidden="true">
-      <div class="brush"></div><div class="upright hovered"></div><div class="upright"></div><div class="dot"></div><div class="ring"></div></div></div>`;
+        <div class="brush"></div><div class="upright hovered"></div><div class="upright"></div>
+        <div class="dot"></div><div class="ring"></div></div></div>`;
     root.append(figure);
     const find = (selector) => figure.querySelector(selector);
-    const part = { chart, base: find("canvas"), over: find(".over"), reading: find("output"), brush: find(".brush"),
-      hovered: find(".hovered"), upright: find(".upright:not(.hovered)"), dot: find(".dot"), ring: find(".ring") };
+    const part = {
+      chart,
+      base: find("canvas"),
+      over: find(".over"),
+      reading: find("output"),
+      brush: find(".brush"),
+      hovered: find(".hovered"),
+      upright: find(".upright:not(.hovered)"),
+      dot: find(".dot"),
+      ring: find(".ring"),
+    };
     part.reading.setAttribute("aria-live", "off");
     this.#listen(part);
     return part;
@@ -119,9 +130,12 @@ export class Charts {
     const bottom = last ? 30 : 8;
     const run = this.run;
     const seen = (columns, name) => columns[name].slice(...rows(columns.t, ...range));
-    const ys = { theta: () => span([seen(run.motion, "theta")]), snaps: () => above(span([seen(run.impacts, "v_n")])),
+    const ys = {
+      theta: () => span([seen(run.motion, "theta")]),
+      snaps: () => above(span([seen(run.impacts, "v_n")])),
       tensions: () => above(span([seen(run.motion, "T1"), seen(run.motion, "T2")])),
-      energy: () => span([seen(run.motion, "energy")]) }[chart.id]();
+      energy: () => span([seen(run.motion, "energy")]),
+    }[chart.id]();
     const frame = new Frame([LEFT, 6, width - LEFT - RIGHT, height - 6 - bottom], range, ys);
     this.frames.set(chart.id, frame);
     context.save();
@@ -130,7 +144,7 @@ export class Charts {
     drawAxes(context, frame, colours, {
       xLabels: last,
       xTicks: ticks(...range, frame.width / 70),
-      yTicks: ticks(...ys, frame.height / 26),
+      yTicks: ticks(...ys, frame.height / 20),
     });
     if (last) label(context, colours, "t  [T]", frame.left + frame.width / 2, height - 3);
     context.save();
@@ -163,7 +177,13 @@ export class Charts {
       });
     } else if (chart.id === "tensions") {
       if (!(this.run.mostTension > 0)) {
-        label(context, colours, "no cable stays taut in this run", frame.left + frame.width / 2, frame.top + frame.height / 2);
+        label(
+          context,
+          colours,
+          "no cable stays taut in this run",
+          frame.left + frame.width / 2,
+          frame.top + frame.height / 2,
+        );
       }
       for (const cable of [1, 2]) {
         context.strokeStyle = colours[`cable-${cable}`];
@@ -208,7 +228,8 @@ export class Charts {
     for (const part of this.parts) {
       const frame = this.frames.get(part.chart.id);
       const drag = this.drag?.zoom ? this.drag : null;
-      const upright = (mark, time) => put(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
+      const upright = (mark, time) =>
+        put(mark, time !== undefined && frame.holdsX(time), frame.x(time), frame.top, 0, frame.height);
       upright(part.upright, t);
       upright(part.hovered, hover?.t);
       const [a, b] = drag ? [frame.x(drag.from), frame.x(drag.to)].sort((one, other) => one - other) : [0, 0];
@@ -225,7 +246,10 @@ export class Charts {
   #words(chart, [from, to]) {
     const { run } = this;
     const when = `against time from ${number(from)} to ${number(to)} T`;
-    const reach = (columns) => span(columns, 0).map((v) => number(v, 3)).join(" to ");
+    const reach = (columns) =>
+      span(columns, 0)
+        .map((v) => number(v, 3))
+        .join(" to ");
     const tell = {
       theta: () => `from ${reach([run.motion.theta])} rad`,
       snaps: () => `${run.impacts.t.length} snaps, the hardest ${number(run.norms.rho1)} L/T`,
@@ -265,4 +289,3 @@ export function label(context, colours, text, x, y, angle = 0) {
   context.fillText(text, 0, 0);
   context.restore();
 }
-

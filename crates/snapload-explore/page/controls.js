@@ -12,7 +12,7 @@ const GROUPS = [
 ];
 
 export class Controls {
-  /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: it is not being dragged. */
+  /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: not being dragged. */
   constructor(root, state, { onChange }) {
     Object.assign(this, { root, state, onChange, rows: new Map(), latest: null, typing: null });
     for (const [group, title] of GROUPS) {
@@ -63,7 +63,12 @@ export class Controls {
     const field = element("input", { type: "text", inputMode: "decimal", id: `field-${key.name}`, className: "field" });
     field.autocomplete = "off";
     field.spellcheck = false;
-    const reset = element("button", { type: "button", className: "reset", textContent: "↺", title: "Back to the default" });
+    const reset = element("button", {
+      type: "button",
+      className: "reset",
+      textContent: "↺",
+      title: "Back to the default",
+    });
     reset.setAttribute("aria-label", `${key.name}: back to the default`);
     row.append(this.#label(key), reset, field);
     Object.assign(parts, { field, reset });
@@ -145,7 +150,10 @@ export class Controls {
     for (const [name, { key, field, slider, reset }] of this.rows) {
       // Where the default depends on other keys, what it comes to is known from the run.
       const given = this.state.values[name];
-      const value = given === undefined && key.default_in_words ? (effective[name] ?? this.state.value(name)) : this.state.value(name);
+      const value =
+        given === undefined && key.default_in_words
+          ? (effective[name] ?? this.state.value(name))
+          : this.state.value(name);
       if (key.kind.type === "flag") field.checked = value;
       else if (this.typing !== name) field.value = plain(given ?? (key.default_in_words ? rounded(value) : value));
       if (reset) {

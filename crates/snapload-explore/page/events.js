@@ -55,7 +55,10 @@ export class EventTable {
       if (here) row.setAttribute("aria-current", "true");
       else row.removeAttribute("aria-current");
       const box = this.body.closest(".scroll");
-      if (here && (row.offsetTop < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)) {
+      if (
+        here &&
+        (row.offsetTop < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
+      ) {
         box.scrollTop = row.offsetTop - box.clientHeight / 2;
       }
     }
@@ -64,27 +67,36 @@ export class EventTable {
   #fill() {
     const { events } = this.run;
     const first = this.page * ROWS;
-    this.body.innerHTML = events.slice(first, first + ROWS).map((event, k) => this.#row(event, first + k)).join("");
+    this.body.innerHTML = events
+      .slice(first, first + ROWS)
+      .map((event, k) => this.#row(event, first + k))
+      .join("");
     $("events-words").value = `${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
     $("events-previous").disabled = this.page === 0;
     $("events-next").disabled = this.page === this.#pages - 1;
   }
 
   #row(event, index) {
-    const { impacts } = this.run;
-    const i = event.impact;
-    const what = event.kind === "impact" ? impactWords(impacts, i) : event.kind === "mode" ? modeWords(event.taut) : WORDS[event.kind];
-    const mark = event.kind === "impact" ? `<span class="c${impacts.cable[i]}">${impacts.cable[i] === 1 ? "×" : "○"} ${impacts.cable[i]}</span>` : "";
-    const cells = event.kind === "impact"
-      ? [number(impacts.v_n[i], 5), number(impacts.impulse[i], 5), number(impacts.energy_lost[i], 4), digits(impacts.digits[i])]
-      : ["", "", "", ""];
+    const { what, cable = "", figures = ["", "", "", ""] } = this.#describe(event);
     const label = `${what}, go to t = ${number(event.t, 7)}`;
-    return `<tr data-event="${index}"><td><button type="button" class="go" data-t="${event.t}" aria-label="${label}">${fixed(event.t, 6)}</button></td>` +
-      `<td>${what}</td><td>${mark}</td>${cells.map((cell) => `<td class="num">${cell}</td>`).join("")}</tr>`;
+    const time = `<button type="button" class="go" data-t="${event.t}" aria-label="${label}">${fixed(event.t, 6)}</button>`;
+    const numbers = figures.map((figure) => `<td class="num">${figure}</td>`).join("");
+    return `<tr data-event="${index}"><td>${time}</td><td>${what}</td><td>${cable}</td>${numbers}</tr>`;
+  }
+
+  #describe({ kind, impact: i, taut }) {
+    if (kind === "mode") return { what: modeWords(taut) };
+    if (kind !== "impact") return { what: WORDS[kind] };
+    const { cable, v_n, impulse, energy_lost, digits } = this.run.impacts;
+    return {
+      what: impactWords(v_n[i], i),
+      cable: `<span class="c${cable[i]}">${cable[i] === 1 ? "×" : "○"} ${cable[i]}</span>`,
+      figures: [number(v_n[i], 5), number(impulse[i], 5), number(energy_lost[i], 4), digitsKnown(digits[i])],
+    };
   }
 }
 
 /** An impulse that passes into a taut cable has no velocity of its own. */
-const impactWords = (impacts, i) => `${impacts.v_n[i] > 0 ? "snap" : "impulse passed on"} ${i + 1}`;
+const impactWords = (v_n, i) => `${v_n > 0 ? "snap" : "impulse passed on"} ${i + 1}`;
 const modeWords = (taut) => (taut.length ? `${modeName(taut)}, cable ${taut.join(" and ")} taut` : "slack");
-const digits = (value) => (Number.isFinite(value) ? fixed(Math.max(0, value), 1) : "–");
+const digitsKnown = (value) => (Number.isFinite(value) ? fixed(Math.max(0, value), 1) : "–");

@@ -29,18 +29,25 @@ export class Film {
     }
     const seconds = (this.to - this.from) / this.options.speed;
     if (seconds > LONGEST_S) {
-      throw new Error(`This would take ${fixed(seconds / 60, 0)} minutes: it is recorded as it is played. Raise the speed, or zoom in on the time that matters.`);
+      throw new Error(
+        `This would take ${fixed(seconds / 60, 0)} minutes: it is recorded as it is played. ` +
+          "Raise the speed, or zoom in on the time that matters.",
+      );
     }
     const canvas = document.createElement("canvas");
     Object.assign(canvas, this.size);
     const context = canvas.getContext("2d");
     this.#frame(context, this.from);
-    const recorder = new MediaRecorder(canvas.captureStream(FRAMES_A_SECOND), { mimeType: kind, videoBitsPerSecond: BITS_A_SECOND });
+    const recorder = new MediaRecorder(canvas.captureStream(FRAMES_A_SECOND), {
+      mimeType: kind,
+      videoBitsPerSecond: BITS_A_SECOND,
+    });
     const pieces = [];
     recorder.ondataavailable = (event) => pieces.push(event.data);
     const ended = new Promise((done, failed) => {
       recorder.onstop = done;
-      recorder.onerror = (event) => failed(new Error(`The recording failed: ${event.error?.message ?? "unknown cause"}`));
+      recorder.onerror = (event) =>
+        failed(new Error(`The recording failed: ${event.error?.message ?? "unknown cause"}`));
     });
     recorder.start(500);
     await this.#play(context, seconds, onProgress);
@@ -49,7 +56,8 @@ export class Film {
     await ended;
     if (this.cancelled) return null;
     const film = new Blob(pieces, { type: "video/webm" });
-    if (film.size === 0) throw new Error("The browser recorded no picture. Close other pages, and try again with this one in view.");
+    if (film.size === 0)
+      throw new Error("The browser recorded no picture. Close other pages, and try again with this one in view.");
     return film;
   }
 
@@ -84,8 +92,14 @@ export class Film {
     const paints = colours();
     context.fillStyle = paints.paper;
     context.fillRect(0, 0, width, height);
-    const words = `t = ${fixed(t, 2)} T · ${modeName(this.run.tautAt(t))}${this.run.beyond(t) ? " · past the horizon of trust" : ""}`;
-    const caption = { text: words, at: [14, this.options.picture === "real" ? 26 : height - 14], size: 15, fill: paints.ink };
+    const past = this.run.beyond(t) ? " · past the horizon of trust" : "";
+    const words = `t = ${fixed(t, 2)} T · ${modeName(this.run.tautAt(t))}${past}`;
+    const caption = {
+      text: words,
+      at: [14, this.options.picture === "real" ? 26 : height - 14],
+      size: 15,
+      fill: paints.ink,
+    };
     paint(context, [...sceneShapes(this.run, t, this.options), caption]);
   }
 }

@@ -41,7 +41,9 @@ export class Keyboard {
   constructor(parts) {
     const table = keyTable(parts);
     const dialog = $("help-dialog");
-    $("help-keys").innerHTML = table.map(([, shown, words]) => `<dt><kbd>${shown}</kbd></dt><dd>${words}</dd>`).join("");
+    $("help-keys").innerHTML = table
+      .map(([, shown, words]) => `<dt><kbd>${shown}</kbd></dt><dd>${words}</dd>`)
+      .join("");
     $("help").addEventListener("click", () => dialog.showModal());
     $("help-close").addEventListener("click", () => dialog.close());
     document.addEventListener("keydown", (event) => {

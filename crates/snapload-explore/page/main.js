@@ -30,7 +30,9 @@ class Page {
     this.state = new State(schema);
     this.run = null;
     this.hover = null;
-    this.link = new Link(this.state, { onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`) });
+    this.link = new Link(this.state, {
+      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+    });
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new Stage(this.state, this.playback);
     this.transport = new Transport(this.state, this.playback);
@@ -46,7 +48,12 @@ class Page {
       this.playback.seek(t);
     };
     const hover = (t, at) => this.setHover(t === null ? null : { t, at });
-    this.charts = new Charts($("charts"), { colours, onJump: jump, onHover: hover, onZoom: (window) => this.state.set({ window }) });
+    this.charts = new Charts($("charts"), {
+      colours,
+      onJump: jump,
+      onHover: hover,
+      onZoom: (window) => this.state.set({ window }),
+    });
     this.events = new EventTable({ onJump: jump });
     this.map = new SweepMap(this.state, {
       colours,
@@ -69,7 +76,12 @@ class Page {
       onBusy: (busy) => document.body.classList.toggle("busy", busy),
     });
     this.state.listen((changed) => this.follow(changed));
-    this.keyboard = new Keyboard({ playback: this.playback, transport: this.transport, state: this.state, map: this.map });
+    this.keyboard = new Keyboard({
+      playback: this.playback,
+      transport: this.transport,
+      state: this.state,
+      map: this.map,
+    });
     this.cases();
     this.tools();
     this.link.read();
@@ -123,7 +135,10 @@ class Page {
     $("failed").hidden = false;
     // A link may begin with values that can not be run: then there is the case of the start to look at.
     if (!this.run) {
-      this.runner.ask({ values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first }, performance.now());
+      this.runner.ask(
+        { values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first },
+        performance.now(),
+      );
     }
   }
 
@@ -202,6 +217,11 @@ class Page {
     });
     show();
     onSystemScheme(() => this.drawAll());
+    // The address belongs to the state: a link within the page must not write into it.
+    $("skip").addEventListener("click", (event) => {
+      event.preventDefault();
+      $("scene").focus();
+    });
   }
 }
 

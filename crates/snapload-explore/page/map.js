@@ -22,8 +22,18 @@ const COLOUR_WORDS = {
   theta_max: "largest |θ| [rad]",
 };
 /** Cividis, which is read alike with and without red and green (Nuñez, Anderton & Renslow 2018). */
-const CIVIDIS = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"]
-  .map((hex) => `rgb(${[1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(" ")})`);
+const CIVIDIS = [
+  "#00224e",
+  "#123570",
+  "#3b496c",
+  "#575d6d",
+  "#707173",
+  "#8a8678",
+  "#a59c74",
+  "#c3b369",
+  "#e1cc55",
+  "#fee838",
+].map((hex) => `rgb(${[1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(" ")})`);
 
 function cividis(part) {
   const at = Math.min(Math.max(part, 0), 1) * (CIVIDIS.length - 1);
@@ -33,13 +43,24 @@ function cividis(part) {
 
 export class SweepMap {
   constructor(state, { colours, onPick }) {
-    Object.assign(this, { state, colours, onPick, cells: null, controller: null, timer: null, cursor: [0, 0], question: "" });
+    Object.assign(this, {
+      state,
+      colours,
+      onPick,
+      cells: null,
+      controller: null,
+      timer: null,
+      cursor: [0, 0],
+      question: "",
+    });
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
     for (const side of ["x", "y"]) this.#axisFields(side);
     for (const name of MAP_COLOURS) $("map-colour").append(new Option(COLOUR_WORDS[name], name));
-    $("map-colour").addEventListener("change", () => state.set({ map: { ...state.map, colour: $("map-colour").value } }));
+    $("map-colour").addEventListener("change", () =>
+      state.set({ map: { ...state.map, colour: $("map-colour").value } }),
+    );
     $("map-run").addEventListener("click", () => this.compute());
     $("map-stop").addEventListener("click", () => this.stop("stopped"));
     this.box.addEventListener("toggle", () => {
@@ -79,7 +100,12 @@ export class SweepMap {
   #takeAxis(side, name, field) {
     const value = readValue({ kind: { type: "number" } }, field.value);
     const axis = { ...this.state.map[side], [name]: value };
-    const legal = value !== undefined && axis.high > axis.low && Number.isInteger(axis.count) && axis.count >= 2 && axis.count <= MOST_CELLS;
+    const legal =
+      value !== undefined &&
+      axis.high > axis.low &&
+      Number.isInteger(axis.count) &&
+      axis.count >= 2 &&
+      axis.count <= MOST_CELLS;
     field.setAttribute("aria-invalid", String(!legal));
     $("map-said").textContent = legal ? "" : `${side}: from a lower to a higher value, in 2 to ${MOST_CELLS} cells`;
     if (legal) this.state.set({ map: { ...this.state.map, [side]: axis } });
@@ -135,7 +161,9 @@ export class SweepMap {
       this.#progress(`${count} runs`);
     } catch (error) {
       if (error.name === "AbortError") return;
-      this.#progress(error instanceof Refused ? error.message : "The map ended early. Is snapload explore still running?");
+      this.#progress(
+        error instanceof Refused ? error.message : "The map ended early. Is snapload explore still running?",
+      );
     } finally {
       if (this.controller === controller) {
         this.controller = null;
@@ -198,8 +226,16 @@ export class SweepMap {
     const [i, j] = this.cursor;
     const { x, y } = this.cells;
     const leap = event.shiftKey ? 5 : 1;
-    const to = { ArrowLeft: [i - leap, j], ArrowRight: [i + leap, j], ArrowUp: [i, j + leap], ArrowDown: [i, j - leap],
-      Home: [0, j], End: [x.count - 1, j], PageUp: [i, y.count - 1], PageDown: [i, 0] }[event.key];
+    const to = {
+      ArrowLeft: [i - leap, j],
+      ArrowRight: [i + leap, j],
+      ArrowUp: [i, j + leap],
+      ArrowDown: [i, j - leap],
+      Home: [0, j],
+      End: [x.count - 1, j],
+      PageUp: [i, y.count - 1],
+      PageDown: [i, 0],
+    }[event.key];
     if (to) {
       this.cursor = [Math.min(Math.max(to[0], 0), x.count - 1), Math.min(Math.max(to[1], 0), y.count - 1)];
       this.#point(this.cursor);
@@ -229,7 +265,9 @@ export class SweepMap {
     if (cells.error[k]) return place + cells.error[k];
     if (cells.reason[k] === null) return `${place}not computed yet`;
     const { colour } = this.state.map;
-    const more = ["reason", "t", "impacts"].includes(colour) ? "" : `, ${COLOUR_WORDS[colour].replace(/ \[.*/, "")} ${number(cells[colour][k])}`;
+    const more = ["reason", "t", "impacts"].includes(colour)
+      ? ""
+      : `, ${COLOUR_WORDS[colour].replace(/ \[.*/, "")} ${number(cells[colour][k])}`;
     return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}`;
   }
 
@@ -247,8 +285,11 @@ export class SweepMap {
     const { context, width, height } = prepare(this.canvas);
     const { x, y } = cells;
     const half = (axis) => (0.5 * (axis.high - axis.low)) / (axis.count - 1);
-    const frame = new Frame([MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom],
-      [x.low - half(x), x.high + half(x)], [y.low - half(y), y.high + half(y)]);
+    const frame = new Frame(
+      [MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom],
+      [x.low - half(x), x.high + half(x)],
+      [y.low - half(y), y.high + half(y)],
+    );
     this.frame = frame;
     const paint = this.#paintOf(colours);
     const [w, h] = [frame.width / x.count, frame.height / y.count];
@@ -263,13 +304,20 @@ export class SweepMap {
       }
     }
     const bare = { ...colours, rule: "transparent" };
-    drawAxes(context, frame, bare, { xTicks: ticks(x.low, x.high, frame.width / 70), yTicks: ticks(y.low, y.high, frame.height / 40) });
+    drawAxes(context, frame, bare, {
+      xTicks: ticks(x.low, x.high, frame.width / 70),
+      yTicks: ticks(y.low, y.high, frame.height / 40),
+    });
     label(context, colours, this.#axisWords(x), frame.left + frame.width / 2, height - 8);
     label(context, colours, this.#axisWords(y), 12, frame.top + frame.height / 2, -Math.PI / 2);
     this.#crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);
-    this.canvas.setAttribute("aria-label", `Map of ${COLOUR_WORDS[state.map.colour]} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. Arrow keys move, Enter runs the cell.`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `Map of ${COLOUR_WORDS[state.map.colour]} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. ` +
+        "Arrow keys move, Enter runs the cell.",
+    );
   }
 
   #axisWords({ key }) {
@@ -300,10 +348,18 @@ export class SweepMap {
     const parts = refused ? [swatch(colours.faint, `not allowed (${refused})`)] : [];
     if (colour === "reason") {
       const counts = REASONS.map((reason) => [reason, cells.reason.filter((one) => one === reason).length]);
-      parts.unshift(...counts.filter(([, n]) => n).map(([reason, n]) => swatch(colours[`end-${reason}`], `${reasonText(reason)} (${n})`)));
+      parts.unshift(
+        ...counts
+          .filter(([, n]) => n)
+          .map(([reason, n]) => swatch(colours[`end-${reason}`], `${reasonText(reason)} (${n})`)),
+      );
     } else {
       const [low, high] = this.#range(colour);
-      parts.unshift(`<span>${number(low, 3)}</span><i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i><span>${number(high, 3)}</span>`);
+      parts.unshift(
+        `<span>${number(low, 3)}</span>`,
+        `<i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i>`,
+        `<span>${number(high, 3)}</span>`,
+      );
     }
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
@@ -314,7 +370,10 @@ export class SweepMap {
     const inside = vx >= frame.x0 && vx <= frame.x1 && vy >= frame.y0 && vy <= frame.y1;
     if (!inside) return;
     const [x, y] = [frame.x(vx), frame.y(vy)];
-    for (const [colour, lineWidth] of [["#fff", 4.5], ["#000", 2]]) {
+    for (const [colour, lineWidth] of [
+      ["#fff", 4.5],
+      ["#000", 2],
+    ]) {
       Object.assign(context, { strokeStyle: colour, lineWidth });
       context.beginPath();
       context.arc(x, y, 6, 0, 2 * Math.PI);
@@ -338,4 +397,3 @@ function spaced({ low, high, count }) {
 function nearest(values, wanted) {
   return values.reduce((best, value, i) => (Math.abs(value - wanted) < Math.abs(values[best] - wanted) ? i : best), 0);
 }
-

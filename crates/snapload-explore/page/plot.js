@@ -61,14 +61,20 @@ export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTic
   context.textAlign = "right";
   for (const value of yTicks.values) {
     const y = crisp(frame.y(value));
-    stroke(context, [[frame.left, y], [frame.left + frame.width, y]]);
+    stroke(context, [
+      [frame.left, y],
+      [frame.left + frame.width, y],
+    ]);
     context.fillText(yTicks.label(value), frame.left - 6, y);
   }
   context.textBaseline = "top";
   context.textAlign = "center";
   for (const value of xTicks.values) {
     const x = crisp(frame.x(value));
-    stroke(context, [[x, frame.top], [x, frame.top + frame.height]]);
+    stroke(context, [
+      [x, frame.top],
+      [x, frame.top + frame.height],
+    ]);
     if (xLabels) context.fillText(xTicks.label(value), x, frame.top + frame.height + 6);
   }
   context.strokeStyle = colours.faint;

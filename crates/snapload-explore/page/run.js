@@ -20,7 +20,11 @@ function hermite(p0, v0, p1, v1, d, u) {
   return [value, rate];
 }
 
-const COORDINATES = [["x", "vx"], ["y", "vy"], ["theta", "vtheta"]];
+const COORDINATES = [
+  ["x", "vx"],
+  ["y", "vy"],
+  ["theta", "vtheta"],
+];
 
 /** Motion from columns; at the instant of an event what holds just after it. */
 export class Motion {
@@ -102,19 +106,22 @@ export class Run {
 
   /** Index of the last event at or before t. */
   eventAt(t) {
-    let i = lastAtOrBefore(this.eventTimes ??= this.events.map((event) => event.t), t);
+    let i = lastAtOrBefore((this.eventTimes ??= this.events.map((event) => event.t)), t);
     while (i > 0 && this.events[i - 1].t === this.events[i].t) i -= 1;
     return i;
   }
 
-  /** Impacts with from <= t <= to, as indices. */
+  /** Index of the last impact at or before t; −1 before the first. */
+  latestImpact(t) {
+    const times = this.impacts.t;
+    return times.length > 0 && times[0] <= t ? lastAtOrBefore(times, t) : -1;
+  }
+
+  /** Impacts with from <= t <= to, the latest first, as indices. */
   impactsWithin(from, to) {
     const times = this.impacts.t;
     const found = [];
-    if (times.length === 0) return found;
-    for (let i = lastAtOrBefore(times, to); i >= 0 && times[i] >= from; i -= 1) {
-      if (times[i] <= to) found.push(i);
-    }
+    for (let i = this.latestImpact(to); i >= 0 && times[i] >= from; i -= 1) found.push(i);
     return found;
   }
 }

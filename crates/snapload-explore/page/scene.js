@@ -18,7 +18,8 @@ function camera(run, { width, height, picture, view }) {
   const { a, b } = run.geometry.body;
   const size = Math.hypot(a, b);
   const anchorLevel = run.geometry.cables[0].anchor[1];
-  const span = (column) => column.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+  const span = (column) =>
+    column.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
   let [left, right] = span(x);
   let [low, high] = span(y);
   const surface = Math.min(low - size, -size) - 0.3;
@@ -57,8 +58,17 @@ export function sceneShapes(run, t, options) {
   const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
   const close = options.view === "close";
   const paths = [
-    ...path(run.motion, t, cam, { stroke: colours.ink, alpha: 0.6, width: close ? 1.4 : 1.1 }, run.horizon.t, colours.past),
-    ...(ghost ? path(run.ghost.motion, t, cam, { stroke: colours.ghost, alpha: 0.8, width: close ? 1.4 : 1.1 }, null) : []),
+    ...path(
+      run.motion,
+      t,
+      cam,
+      { stroke: colours.ink, alpha: 0.6, width: close ? 1.4 : 1.1 },
+      run.horizon.t,
+      colours.past,
+    ),
+    ...(ghost
+      ? path(run.ghost.motion, t, cam, { stroke: colours.ghost, alpha: 0.8, width: close ? 1.4 : 1.1 }, null)
+      : []),
   ];
   return [
     ...sea(run, t, cam, options),
@@ -95,20 +105,43 @@ function sea(run, t, cam, { width, height, picture, colours }) {
   const hatch = [];
   const beyond = picture === "real" ? 1 : -1;
   for (let x = -10; x < width + 12; x += 12) {
-    hatch.push({ points: [[x, floor + beyond * 9], [x + 8, floor + beyond * 1]], stroke: colours.floor, width: 1 });
+    hatch.push({
+      points: [
+        [x, floor + beyond * 9],
+        [x + 8, floor + beyond * 1],
+      ],
+      stroke: colours.floor,
+      width: 1,
+    });
   }
   return [
     { points: [...top, [width, floor], [0, floor]], closed: true, ...water },
     { points: top, stroke: colours.wave, width: 1.4 },
-    { points: [[0, floor], [width, floor], [width, edge[1]], [0, edge[1]]], closed: true, fill: colours.paper },
-    { points: [[0, floor], [width, floor]], stroke: colours.floor, width: 1.6 },
+    {
+      points: [
+        [0, floor],
+        [width, floor],
+        [width, edge[1]],
+        [0, edge[1]],
+      ],
+      closed: true,
+      fill: colours.paper,
+    },
+    {
+      points: [
+        [0, floor],
+        [width, floor],
+      ],
+      stroke: colours.floor,
+      width: 1.6,
+    },
     ...hatch,
   ];
 }
 
 /**
  * The surface, whose height and length are a sketch, but whose phase is that of the forcing: under a wave
- * η = A sin(Ωt − kx) water at x = 0 accelerates as cos Ωt along x and as −sin Ωt upwards, which is +ν sin Ωt along y.
+ * η = A sin(Ωt − kx) water at x = 0 accelerates as cos Ωt along x and as −sin Ωt upwards, which is +sin Ωt along y.
  */
 function surfaceLine(run, t, cam, width) {
   const { f_o, nu, omega } = run.values;
@@ -152,8 +185,14 @@ function bodyShapes(run, moment, cam, style) {
   if (shape === "point") return [{ circle: [...at, 5], ...style }];
   if (shape === "circle") {
     // A diameter through the fairleads and a short stroke towards the anchors show how it is turned.
-    const across = [[-a, 0], [a, 0]].map((p) => cam.place(turned(p, moment)));
-    const mark = [[0, 0.55 * a], [0, a]].map((p) => cam.place(turned(p, moment)));
+    const across = [
+      [-a, 0],
+      [a, 0],
+    ].map((p) => cam.place(turned(p, moment)));
+    const mark = [
+      [0, 0.55 * a],
+      [0, a],
+    ].map((p) => cam.place(turned(p, moment)));
     const inner = { stroke: style.stroke, alpha: 0.55 * (style.alpha ?? 1), width: 1 };
     return [
       { circle: [...at, a * cam.scale], ...style },
@@ -162,8 +201,16 @@ function bodyShapes(run, moment, cam, style) {
       { circle: [...at, 2], fill: style.stroke, alpha: style.alpha },
     ];
   }
-  const corners = [[-a, -b], [a, -b], [a, b], [-a, b]].map((p) => cam.place(turned(p, moment)));
-  const mark = [[0, 0.55 * b], [0, b]].map((p) => cam.place(turned(p, moment)));
+  const corners = [
+    [-a, -b],
+    [a, -b],
+    [a, b],
+    [-a, b],
+  ].map((p) => cam.place(turned(p, moment)));
+  const mark = [
+    [0, 0.55 * b],
+    [0, b],
+  ].map((p) => cam.place(turned(p, moment)));
   return [
     { points: corners, closed: true, ...style },
     { points: mark, stroke: style.stroke, alpha: 0.55 * (style.alpha ?? 1), width: 2 },
@@ -174,7 +221,10 @@ function bodyShapes(run, moment, cam, style) {
 function neighbour(run, ghost, cam, { colours, picture }) {
   const lines = run.geometry.cables.map((cable) => ({
     points: hanging(cable, ghost, cam, picture),
-    stroke: colours.ghost, width: 1.1, alpha: 0.6, dash: [5, 4],
+    stroke: colours.ghost,
+    width: 1.1,
+    alpha: 0.6,
+    dash: [5, 4],
   }));
   return [...lines, ...bodyShapes(run, ghost, cam, { stroke: colours.ghost, width: 1.4, alpha: 0.7 })];
 }
@@ -196,10 +246,7 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
     const tension = moment.tensions[i] ?? 0;
     const part = run.mostTension > 0 ? Math.sqrt(Math.max(tension, 0) / run.mostTension) : 0;
     const to = cam.place(turned(cable.arm, moment));
-    return [
-      { points: [from, to], stroke: mix(colours.taut, colours.strained, part), width: 2.2 + 5 * part },
-      anchor,
-    ];
+    return [{ points: [from, to], stroke: mix(colours.taut, colours.strained, part), width: 2.2 + 5 * part }, anchor];
   }
   const shapes = [{ points: hanging(cable, moment, cam, picture), stroke: colour, width: 1.5 }, anchor];
   if (snap) {
@@ -211,7 +258,11 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
   return shapes;
 }
 
-const anchorMark = ([x, y], up) => [[x - 7, y + 8 * up], [x + 7, y + 8 * up], [x, y]];
+const anchorMark = ([x, y], up) => [
+  [x - 7, y + 8 * up],
+  [x + 7, y + 8 * up],
+  [x, y],
+];
 
 function fairlead(cable, moment, cam, colours) {
   const at = cam.place(turned(cable.arm, moment));
@@ -234,7 +285,12 @@ function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   const flash = still
     ? []
     : [
-        { circle: [...at, size * (5 + 16 * impulsePart(run, i) * (1.4 - left))], stroke: colours.snap, width: 2, alpha: left },
+        {
+          circle: [...at, size * (5 + 16 * impulsePart(run, i) * (1.4 - left))],
+          stroke: colours.snap,
+          width: 2,
+          alpha: left,
+        },
         { circle: [...at, size * (7 * impulsePart(run, i) * left + 2)], fill: colours.snap, alpha: 0.8 * left },
       ];
   return [...flash, ...arrow(at, to, colours.snap, 3, { alpha: still ? 1 : Math.min(1, 1.6 * left) })];
@@ -295,15 +351,30 @@ function labels(run, cam, { width, height, colours, view }) {
 }
 
 function scaleBar(cam, width, height, colours) {
-  const nice = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
+  const nice =
+    [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
   const length = nice * cam.scale;
   // Just below the surface where that is in view, else at the edge.
   const surface = cam.level(cam.surface) + 26 * cam.up;
   const y = surface > 20 && surface < height - 8 ? surface : 24;
   const x = width - 14 - length;
-  const ends = [x, x + length].map((px) => ({ points: [[px, y - 4], [px, y + 4]], stroke: colours.muted, width: 1 }));
+  const ends = [x, x + length].map((px) => ({
+    points: [
+      [px, y - 4],
+      [px, y + 4],
+    ],
+    stroke: colours.muted,
+    width: 1,
+  }));
   return [
-    { points: [[x, y], [x + length, y]], stroke: colours.muted, width: 1 },
+    {
+      points: [
+        [x, y],
+        [x + length, y],
+      ],
+      stroke: colours.muted,
+      width: 1,
+    },
     ...ends,
     { text: `${number(nice)} L`, at: [x + length / 2, y - 7], align: "center", size: 11, fill: colours.muted },
   ];

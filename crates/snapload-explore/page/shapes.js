@@ -73,7 +73,8 @@ export function svg(shapes, width, height, title) {
   const defs = [];
   const parts = shapes.map((shape) => element(shape, defs));
   return [
-    `<svg xmlns="http://www.w3.org/2000/svg" role="img" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}">`,
+    `<svg xmlns="http://www.w3.org/2000/svg" role="img" width="${width}" height="${height}" ` +
+      `viewBox="0 0 ${width} ${height}">`,
     `<title>${escape(title)}</title>`,
     defs.length ? `<defs>${defs.join("")}</defs>` : "",
     ...parts,
@@ -85,30 +86,42 @@ function element(shape, defs) {
   const attributes = { opacity: shape.alpha === undefined || shape.alpha === 1 ? undefined : short(shape.alpha) };
   if (shape.clip) {
     const [x, y, width, height] = shape.clip.map(short);
-    defs.push(`<clipPath id="d${defs.length}"><rect x="${x}" y="${y}" width="${width}" height="${height}"/></clipPath>`);
+    defs.push(
+      `<clipPath id="d${defs.length}"><rect x="${x}" y="${y}" width="${width}" height="${height}"/></clipPath>`,
+    );
     attributes["clip-path"] = `url(#d${defs.length - 1})`;
   }
   if (shape.text !== undefined) {
     const [x, y] = shape.at.map(short);
     Object.assign(attributes, {
-      x, y, fill: shape.fill, "font-size": short(shape.size), "text-anchor": ANCHORS[shape.align ?? "left"],
-      "font-family": shape.italic ? SERIF : SANS, "font-style": shape.italic ? "italic" : undefined,
-      stroke: shape.halo, "stroke-width": shape.halo && 4, "stroke-linejoin": shape.halo && "round",
+      x,
+      y,
+      fill: shape.fill,
+      "font-size": short(shape.size),
+      "text-anchor": ANCHORS[shape.align ?? "left"],
+      "font-family": shape.italic ? SERIF : SANS,
+      "font-style": shape.italic ? "italic" : undefined,
+      stroke: shape.halo,
+      "stroke-width": shape.halo && 4,
+      "stroke-linejoin": shape.halo && "round",
       "paint-order": shape.halo && "stroke",
     });
     return `<text${write(attributes)}>${escape(shape.text)}</text>`;
   }
   Object.assign(attributes, {
     fill: shape.fill ? svgFill(shape.fill, defs) : "none",
-    stroke: shape.stroke, "stroke-width": shape.stroke && short(shape.width ?? 1),
+    stroke: shape.stroke,
+    "stroke-width": shape.stroke && short(shape.width ?? 1),
     "stroke-dasharray": shape.dash?.length ? shape.dash.join(" ") : undefined,
-    "stroke-linejoin": shape.stroke && "round", "stroke-linecap": shape.stroke && (shape.cap ?? "round"),
+    "stroke-linejoin": shape.stroke && "round",
+    "stroke-linecap": shape.stroke && (shape.cap ?? "round"),
   });
   if (shape.circle) {
     const [cx, cy, r] = shape.circle.map(short);
     return `<circle${write({ cx, cy, r, ...attributes })}/>`;
   }
-  const d = shape.points.map(([x, y], i) => `${i ? "L" : "M"}${short(x)} ${short(y)}`).join("") + (shape.closed ? "Z" : "");
+  const d =
+    shape.points.map(([x, y], i) => `${i ? "L" : "M"}${short(x)} ${short(y)}`).join("") + (shape.closed ? "Z" : "");
   return `<path${write({ d, ...attributes })}/>`;
 }
 

@@ -34,8 +34,12 @@ export class Stage {
     this.#summarise();
     clearTimeout(this.saying);
     const words = this.#words();
-    this.saying = setTimeout(() => words !== $("said").textContent && ($("said").textContent = words), $("said").textContent ? REST_MS : 0);
-    $("ramp-words").textContent = run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
+    this.saying = setTimeout(
+      () => words !== $("said").textContent && ($("said").textContent = words),
+      $("said").textContent ? REST_MS : 0,
+    );
+    $("ramp-words").textContent =
+      run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
   }
 
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
@@ -43,7 +47,8 @@ export class Stage {
     const { end, horizon, ghost, cut } = this.run;
     const parts = [end.words, horizon.words].flatMap((words) => shortened(words).split("\n").map(sentence));
     if (ghost) {
-      const apart = ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
+      const apart =
+        ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
       parts.push(`The neighbour, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
     }
     if (this.run.ghost_error) parts.push(sentence(`no neighbour: ${this.run.ghost_error}`));
@@ -64,7 +69,9 @@ export class Stage {
       ["Hardest impulse", number(this.run.hardest, 5)],
       ["Time taut", `${number(taut, 4)} T`],
     ];
-    $("summary").innerHTML = rows.map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`).join("");
+    $("summary").innerHTML = rows
+      .map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`)
+      .join("");
   }
 
   draw() {
@@ -83,7 +90,9 @@ export class Stage {
     const t = Math.min(this.state.t, this.run.tEnd);
     const moment = this.run.at(t);
     const past = this.run.beyond(t) ? ", past the horizon" : "";
-    const taut = moment.taut.length ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F` : "";
+    const taut = moment.taut.length
+      ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
+      : "";
     $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
     if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
   }
@@ -101,11 +110,12 @@ export class Stage {
 
 /** With numbers of no more digits than one reads. */
 function shortened(words) {
-  return prose(words).replaceAll("pi/2", "π/2").replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
+  return prose(words)
+    .replaceAll("pi/2", "π/2")
+    .replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
 }
 
 function sentence(text) {
   const begun = text.charAt(0).toUpperCase() + text.slice(1);
   return begun.endsWith(".") ? begun : `${begun}.`;
 }
-

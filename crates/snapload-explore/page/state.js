@@ -134,17 +134,24 @@ function readView(name, text, schema) {
   const number = finite(text);
   const oneOf = (list, value) => (list.includes(value) ? value : undefined);
   switch (name) {
-    case "t": return number >= 0 ? number : undefined;
-    case "speed": return oneOf(SPEEDS, number);
-    case "picture": return oneOf(PICTURES, text);
-    case "view": return oneOf(VIEWS, text);
-    case "ghost": return number > 0 ? number : undefined;
+    case "t":
+      return number >= 0 ? number : undefined;
+    case "speed":
+      return oneOf(SPEEDS, number);
+    case "picture":
+      return oneOf(PICTURES, text);
+    case "view":
+      return oneOf(VIEWS, text);
+    case "ghost":
+      return number > 0 ? number : undefined;
     case "window": {
       const [from, to] = text.split(",").map(finite);
       return from >= 0 && to > from ? [from, to] : undefined;
     }
-    case "map": return mapFromText(text, schema);
-    default: return undefined;
+    case "map":
+      return mapFromText(text, schema);
+    default:
+      return undefined;
   }
 }
 

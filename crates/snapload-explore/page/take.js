@@ -22,7 +22,11 @@ export class Take {
     $("scene-png").addEventListener("click", () => this.#try(() => this.#scenePng()));
     $("film").addEventListener("click", () => this.#try(() => this.#film()));
     $("film-cancel").addEventListener("click", () => this.film?.cancel());
-    for (const [id, text] of [["copy-shell", () => this.now().shell], ["copy-python", () => this.now().python], ["copy-link", address]]) {
+    for (const [id, text] of [
+      ["copy-shell", () => this.now().shell],
+      ["copy-python", () => this.now().python],
+      ["copy-link", address],
+    ]) {
       $(id).addEventListener("click", () => copy($(id), text()));
     }
   }
@@ -59,7 +63,10 @@ export class Take {
   #sceneSvg() {
     // On paper a picture is light, whatever the page is.
     const title = `${this.now().shell}, t = ${this.state.t}`;
-    save(new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }), "scene.svg");
+    save(
+      new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
+      "scene.svg",
+    );
     this.say("scene.svg is saved.");
   }
 
@@ -76,7 +83,13 @@ export class Take {
   async #film() {
     const run = this.now();
     const [from, to] = this.state.window ?? [0, run.tEnd];
-    const film = (this.film = new Film({ run, from, to: Math.min(to, run.tEnd), options: this.stage.options(SIZE.width, SIZE.height), size: SIZE }));
+    const film = (this.film = new Film({
+      run,
+      from,
+      to: Math.min(to, run.tEnd),
+      options: this.stage.options(SIZE.width, SIZE.height),
+      size: SIZE,
+    }));
     $("film").disabled = true;
     $("film-cancel").hidden = $("film-progress").hidden = false;
     try {
@@ -94,7 +107,16 @@ export class Take {
   }
 }
 
-export const sheet = (fill) => ({ points: [[0, 0], [SIZE.width, 0], [SIZE.width, SIZE.height], [0, SIZE.height]], closed: true, fill });
+export const sheet = (fill) => ({
+  points: [
+    [0, 0],
+    [SIZE.width, 0],
+    [SIZE.width, SIZE.height],
+    [0, SIZE.height],
+  ],
+  closed: true,
+  fill,
+});
 
 function save(blob, name) {
   const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });

@@ -1,10 +1,33 @@
-// Colours are named in style.css alone; whoever paints on a canvas asks for them here.
+// Colours are named in theme.css alone; whoever paints on a canvas asks for them here.
 
 const NAMES = [
-  "paper", "panel", "ink", "muted", "faint", "rule", "accent",
-  "cable-1", "cable-2", "ghost", "taut", "strained", "shade", "past",
-  "water-high", "water-deep", "floor", "body", "body-edge", "wave", "snap",
-  "end-settled", "end-rotation_limit", "end-upper_bound", "end-end_time", "end-sliding_start", "end-impact_limit",
+  "paper",
+  "panel",
+  "ink",
+  "muted",
+  "faint",
+  "rule",
+  "accent",
+  "cable-1",
+  "cable-2",
+  "ghost",
+  "taut",
+  "strained",
+  "shade",
+  "past",
+  "water-high",
+  "water-deep",
+  "floor",
+  "body",
+  "body-edge",
+  "wave",
+  "snap",
+  "end-settled",
+  "end-rotation_limit",
+  "end-upper_bound",
+  "end-end_time",
+  "end-sliding_start",
+  "end-impact_limit",
 ];
 
 const caches = new Map();
@@ -29,7 +52,11 @@ export function colours(scheme = "") {
 
 /** Between two colours: `part` of the way from the first to the second. */
 export function mix(from, to, part) {
-  const channels = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map(Number);
+  const channels = (colour) =>
+    colour
+      .match(/[\d.]+/g)
+      .slice(0, 3)
+      .map(Number);
   const [a, b] = [channels(from), channels(to)];
   const k = Math.min(Math.max(part, 0), 1);
   return `rgb(${a.map((v, i) => Math.round(v + (b[i] - v) * k)).join(" ")})`;

@@ -61,7 +61,8 @@ export class Trajectory {
     this.#ghost(context, colours);
     context.restore();
     this.#letters(context, colours);
-    const words = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L; y at most ${number(run.norms.y_max, 3)} L`;
+    const reach = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L`;
+    const words = `${reach}; y at most ${number(run.norms.y_max, 3)} L`;
     this.base.setAttribute("aria-label", `Path of the body's centre, y against x, ${words}.`);
   }
 
@@ -106,7 +107,11 @@ export class Trajectory {
 
   #legs(context, colours) {
     const { motion, modes, horizon } = this.run;
-    const styles = [[colours.ink, 1.1], [colours["cable-1"], 2.4], [colours["cable-2"], 2]];
+    const styles = [
+      [colours.ink, 1.1],
+      [colours["cable-1"], 2.4],
+      [colours["cable-2"], 2],
+    ];
     const [from, to] = this.rows;
     context.lineJoin = "round";
     let i = from;
@@ -152,7 +157,10 @@ export class Trajectory {
   /** I where the motion starts, E where it ends: the letters of the thesis's figures. */
   #letters(context, colours) {
     const { t, x, y } = this.run.motion;
-    const ends = [["I", 0], ["E", t.length - 1]];
+    const ends = [
+      ["I", 0],
+      ["E", t.length - 1],
+    ];
     context.font = FONT;
     for (const [letter, i] of ends) {
       if (i < this.rows[0] || i >= this.rows[1]) continue;
@@ -175,7 +183,11 @@ export class Trajectory {
     set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
     const now = this.run.at(Math.min(t, this.run.tEnd));
     this.run.geometry.cables.forEach((cable, i) => {
-      set(this.boundaries[i], { points: this.#boundary(cable, now.theta).map((point) => point.map(short).join()).join(" ") });
+      set(this.boundaries[i], {
+        points: this.#boundary(cable, now.theta)
+          .map((point) => point.map(short).join())
+          .join(" "),
+      });
     });
     set(this.now, { cx: this.frame.x(now.x), cy: this.frame.y(now.y) });
     const read = hover ? this.run.at(hover.t) : now;

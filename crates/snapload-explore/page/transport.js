@@ -58,8 +58,7 @@ export class Transport {
     Object.assign($("scrub"), { min: from, max: to, value: t });
     const words = `${fixed(t, 3)} of ${fixed(this.run.tEnd, 3)} T, ${modeName(this.run.tautAt(t))}`;
     if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words);
-    const impacts = this.run.impactsWithin(0, t)[0];
-    const count = impacts === undefined ? 0 : impacts + 1;
+    const count = this.run.latestImpact(t) + 1;
     $("clock").dataset.t = t;
     $("clock").value = `t = ${fixed(t, 4)} T`;
     $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
@@ -84,7 +83,8 @@ export class Transport {
     const { modes, horizon, impacts } = this.run;
     if (horizon.t !== null) band(horizon.t, this.run.tEnd, paints.shade, 0, height);
     modes.taut.forEach((taut, i) => {
-      if (taut.length) band(modes.t_start[i], modes.t_end[i], paints[taut.length === 1 ? "cable-1" : "cable-2"], height - 4, 4);
+      if (taut.length)
+        band(modes.t_start[i], modes.t_end[i], paints[taut.length === 1 ? "cable-1" : "cable-2"], height - 4, 4);
     });
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;
