@@ -6,8 +6,9 @@ use snapload_explore::{Server, Start};
 use std::io;
 
 const EXAMPLES: &str = "\
-The page is served by this program, to this machine alone, and needs no network. It shows the motion, its
-plots and how far they can be trusted; every key can be changed there, and the case saved as a file.
+The page is served by this program, to this machine alone, and needs no network. It shows the
+motion, its plots and how far they can be trusted; every key can be changed there, and the case
+saved as a file.
 
 Examples:
   snapload explore
