@@ -7,7 +7,7 @@ const LEFT = 50;
 const RIGHT = 10;
 const NEAR_PX = 9;
 
-export const CHARTS = [
+const CHARTS = [
   { id: "theta", symbol: "θ", unit: "rad", name: "Rotation" },
   { id: "snaps", symbol: "vₙ", unit: "L/T", name: "Snap velocity" },
   { id: "tensions", symbol: "T", unit: "F", name: "Tensions" },

@@ -3,7 +3,7 @@
 const $ = (id) => document.getElementById(id);
 
 /** Keys, what they do in words, and what they do. */
-export function keyTable({ playback, transport, state, map }) {
+function keyTable({ playback, transport, state, map }) {
   const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one });
   return [
     [[" "], "space", "play or pause", () => playback.toggle()],

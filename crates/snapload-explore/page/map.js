@@ -12,7 +12,7 @@ const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
 const COLUMNS = ["reason", "t", "rho3", "y_max", "theta_max", "impacts", "error"];
-export const REASONS = ["settled", "rotation_limit", "upper_bound", "end_time", "sliding_start", "impact_limit"];
+const REASONS = ["settled", "rotation_limit", "upper_bound", "end_time", "sliding_start", "impact_limit"];
 const COLOUR_WORDS = {
   reason: "how the run ends",
   t: "time of the end [T]",

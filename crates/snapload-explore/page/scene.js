@@ -6,7 +6,7 @@ import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
 
 /** How long a snap stays to be seen, in seconds of watching. */
-export const AFTERGLOW_S = 0.45;
+const AFTERGLOW_S = 0.45;
 const PATH_BEHIND = 4;
 
 /**

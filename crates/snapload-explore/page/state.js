@@ -1,8 +1,8 @@
 // Everything the page shows follows from this state; the link holds all of it.
 
 export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
-export const PICTURES = ["real", "thesis"];
-export const VIEWS = ["whole", "close"];
+const PICTURES = ["real", "thesis"];
+const VIEWS = ["whole", "close"];
 export const MAP_COLOURS = ["reason", "t", "impacts", "rho3", "y_max", "theta_max"];
 export const MOST_CELLS = 200;
 

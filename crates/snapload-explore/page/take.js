@@ -107,7 +107,7 @@ export class Take {
   }
 }
 
-export const sheet = (fill) => ({
+const sheet = (fill) => ({
   points: [
     [0, 0],
     [SIZE.width, 0],

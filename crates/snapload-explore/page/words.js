@@ -46,7 +46,7 @@ export function prose(text) {
 
 export const unitText = (unit) => (unit === "1" ? "" : unit.replaceAll("^2", "²").replaceAll(" ", "\u2009"));
 
-export const MODES = ["slack", "sliding", "rocking", "locked"];
+const MODES = ["slack", "sliding", "rocking", "locked"];
 
 export function modeName(taut) {
   return MODES[Math.min(taut.length, MODES.length - 1)];
