@@ -434,6 +434,14 @@ def test_back_and_forward_go_through_the_values(open_page):
     expect(page.locator("#field-f_o")).to_have_value("0.4")
 
 
+def test_the_link_to_the_scene_leaves_the_state_alone(open_page):
+    page = open_page("f_o=0.31&t=1.5")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.evaluate("() => document.activeElement.id") == "scene"
+    assert (page.locator("#field-f_o").input_value(), exact_time(page)) == ("0.31", 1.5)
+
+
 def test_a_broken_link_is_told_and_left_out(open_page):
     page = open_page("f_o=0.31&omega=fast&foo=1&picture=sideways&t=%E0%A4%A&speed=1e400")
     expect(page.locator("#note")).to_contain_text("omega=fast, foo=1, picture=sideways")
