@@ -1,6 +1,6 @@
 //! `snapload cases`: the built-in cases.
 use crate::failure::{Failure, print};
-use snapload::{NamedCase, Value, named_cases, series_of};
+use snapload::{Value, named_cases};
 use std::fmt::Write;
 
 /// Keys in which the built-in cases differ.
@@ -22,20 +22,10 @@ pub(crate) fn run() -> Result<(), Failure> {
                 .map(|value: Value| value.to_string());
             let _ = write!(text, "  {:<5}", value.unwrap_or_default());
         }
-        let _ = writeln!(text, "  {}", origin(&case));
+        let _ = writeln!(text, "  {}", case.origin());
     }
     text.push_str(
         "\nAll start at rest at x = 0, y = 0.1, theta = 0. The examples have stop_when_settled = false.\nRun one with: snapload run --case CODE\n",
     );
     print(&text)
-}
-
-/// The series of Table 6.1 that the case belongs to, or what else there is to say of it.
-fn origin(case: &NamedCase) -> String {
-    let series: Vec<&str> = series_of(case.code).collect();
-    if series.is_empty() {
-        case.about.to_owned()
-    } else {
-        series.join(", ")
-    }
 }

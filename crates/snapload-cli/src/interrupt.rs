@@ -2,7 +2,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Directories to take away if the program is interrupted: scratch ones with all they hold, and
 /// new output directories, which are taken away only if empty.
@@ -37,14 +37,27 @@ impl Leftovers {
     }
 }
 
-/// Whether a first interruption only asks to stop, as what is at work comes to a good end by itself.
-static GENTLE: AtomicBool = AtomicBool::new(false);
-/// Whether that was asked.
+/// What is at work and comes to a good end by itself once it is asked to stop.
+pub(crate) struct Gentle {
+    /// What a first interruption does.
+    pub(crate) first: Box<dyn Fn() + Send + Sync>,
+    /// What a second one says, which ends the program at once.
+    pub(crate) second: &'static str,
+}
+
+static GENTLE: OnceLock<Gentle> = OnceLock::new();
+/// Whether it was asked to stop.
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From here on the first interruption is for [`asked`] to tell; the second ends the program at once.
-pub(crate) fn be_gentle() {
-    GENTLE.store(true, Ordering::Relaxed);
+/// From here on the first interruption only asks to stop; the second ends the program at once.
+pub(crate) fn be_gentle(gentle: Gentle) {
+    // There is one verb in a program, and one work that it does.
+    let _ = GENTLE.set(gentle);
+}
+
+/// Says something on standard error, which may be closed.
+pub(crate) fn say(words: &str) {
+    let _ = writeln!(std::io::stderr(), "{words}");
 }
 
 /// Whether it is time to stop.
@@ -55,20 +68,14 @@ pub(crate) fn asked() -> bool {
 /// Installs the handler; where that is not possible the system's own answer to Ctrl-C remains.
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
-        let gentle = GENTLE.load(Ordering::Relaxed);
-        // Standard error may be closed; the status still tells.
-        if gentle && !ASKED.swap(true, Ordering::Relaxed) {
-            let words = "stopping after the cases at work; once more to stop at once";
-            let _ = writeln!(std::io::stderr(), "{words}");
+        let gentle = GENTLE.get();
+        if let Some(gentle) = gentle.filter(|_| !ASKED.swap(true, Ordering::Relaxed)) {
+            (gentle.first)();
             return;
         }
         leftovers().clear();
-        let left = if gentle {
-            "what was saved is safe, and --resume goes on from there"
-        } else {
-            "nothing was written"
-        };
-        let _ = writeln!(std::io::stderr(), "interrupted: {left}");
+        let left = gentle.map_or("nothing was written", |gentle| gentle.second);
+        say(&format!("interrupted: {left}"));
         std::process::exit(130);
     });
 }

@@ -2,6 +2,7 @@
 use crate::failure::Failure;
 use crate::stage::{Room, Stage};
 use serde::Serialize;
+use snapload_report::write_json;
 use std::fs::OpenOptions;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -48,13 +49,13 @@ impl Json {
         value: &impl Serialize,
     ) -> Result<Option<Vec<PathBuf>>, Failure> {
         if let Self::File(room, path) = &self {
-            stage.write(*room, path.clone(), |out| to_line(value, out))?;
+            stage.write(*room, path.clone(), |out| write_json(value, out))?;
         }
         let mut written = stage.commit()?;
         match self {
             Self::Stdout => {
                 let mut out = BufWriter::new(io::stdout().lock());
-                to_line(value, &mut out)
+                write_json(value, &mut out)
                     .and_then(|()| out.flush())
                     .map_err(|error| Failure::write("standard output", &error))?;
                 return Ok(None);
@@ -63,7 +64,7 @@ impl Json {
                 let file = OpenOptions::new().write(true).open(&path);
                 let file = file.map_err(|error| Failure::no_place(&path, &error))?;
                 let mut out = BufWriter::new(file);
-                to_line(value, &mut out)
+                write_json(value, &mut out)
                     .and_then(|()| out.flush())
                     .map_err(|error| Failure::write(path.display(), &error))?;
                 written.push(path);
@@ -72,12 +73,6 @@ impl Json {
         }
         Ok(Some(written))
     }
-}
-
-/// One line of JSON.
-pub(crate) fn to_line(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
-    serde_json::to_writer(&mut *out, value)?;
-    writeln!(out)
 }
 
 /// Opens the directory in which a file is to be written, and creates it where it is absent.

@@ -7,6 +7,7 @@ mod completions;
 mod critical;
 mod doubt;
 mod elastic;
+mod explore;
 mod failure;
 mod interrupt;
 mod json;
@@ -22,7 +23,6 @@ mod stage;
 mod study_input;
 mod study_picture;
 mod sweep;
-mod tables;
 mod verify;
 
 use clap::{Parser, Subcommand};
@@ -48,6 +48,7 @@ Examples:
                                                a map of 3060 cases
   snapload assess cylinder.toml --out note.html
                                                a structure in metres, with waves: do its lines break?
+  snapload explore                             the standard case on a page in the browser, to look at and change
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -73,6 +74,8 @@ enum Verb {
     Elastic(elastic::Args),
     /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
     Moordyn(moordyn::Args),
+    /// Open a page in the browser on which a run moves and answers to every slider
+    Explore(explore::Args),
     /// List the built-in cases
     Cases,
     /// Explain the keys of a case: meaning, default, what is allowed
@@ -94,6 +97,7 @@ fn main() -> ExitCode {
         Verb::Seas(args) => seas::run(&args),
         Verb::Elastic(args) => elastic::run(&args),
         Verb::Moordyn(args) => moordyn::run(&args),
+        Verb::Explore(args) => explore::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
         Verb::Completions(args) => completions::run(&args),

@@ -1,6 +1,6 @@
 //! The pictures of a run, as the files they become.
 use crate::failure::Failure;
-use snapload_figures::{FigureError, Plot, RunPlots, Width, draw};
+use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::Trusted;
 
 /// A picture, ready to be written.
@@ -11,24 +11,15 @@ pub(crate) struct Picture {
     pub(crate) bytes: Vec<u8>,
 }
 
-/// Pixels per point of the PNGs: 300 dpi, what journals ask of a line drawing in a raster format.
-const PNG_SCALE: f32 = 300.0 / 72.0;
-
 /// Draws the pictures of a run; `title` is the code or the file name of the case.
 pub(crate) fn pictures(title: &str, trusted: &Trusted) -> Result<Vec<Picture>, Failure> {
     let mut files = Vec::new();
-    for (name, plot) in RunPlots::new(&trusted.run)
-        .with_horizon(trusted.horizon())
-        .all()
-    {
-        let plot = Plot {
-            title: title.to_owned(),
-            ..plot
-        };
-        let picture = draw(name, Width::Page, &[plot]).map_err(|error| broken(name, &error))?;
-        let png = picture
-            .png(PNG_SCALE)
-            .map_err(|error| broken(name, &error))?;
+    let plots = RunPlots::new(&trusted.run).with_horizon(trusted.horizon());
+    for plot in RunPlot::ALL {
+        let name = plot.name();
+        let broken = |error: FigureError| broken(name, &error);
+        let picture = plots.picture(plot, title).map_err(broken)?;
+        let png = picture.png(PNG_SCALE).map_err(broken)?;
         files.push(Picture {
             name: format!("{name}.svg"),
             bytes: picture.svg().as_bytes().to_vec(),

@@ -2,13 +2,14 @@
 use crate::case_input::{CaseArgs, Input};
 use crate::doubt::{DoubtArgs, EnsembleArgs, trusted};
 use crate::failure::{Failure, print};
-use crate::json::{Json, refuse_directory, to_line};
+use crate::json::{Json, refuse_directory};
 use crate::pictures::pictures;
 use crate::progress::Progress;
 use crate::stage::{Room, Stage};
-use crate::tables;
 use snapload::Trajectory;
-use snapload_report::{MOST_ROWS, Report, Sampling, Trusted, case_in_words, summary};
+use snapload_report::{
+    MOST_ROWS, Report, Sampling, Trusted, case_in_words, summary, tables, write_json,
+};
 use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let stage = &mut outputs.stage;
         write_directory(stage, room, &directory, &input, &trusted, sampling)?;
         stage.write(room, directory.join("run.json"), |out| {
-            to_line(&report, out)
+            write_json(&report, out)
         })?;
     }
     match outputs.json.write(outputs.stage, &report)? {
@@ -146,7 +147,7 @@ fn write_directory(
     let sampling = sampling.unwrap_or_else(|| Sampling::thousand(trajectory.end().t));
     let place = |name: &str| directory.join(name);
     stage.write(room, place("impacts.csv"), |out| {
-        tables::impacts(trusted, out)
+        tables::impacts(trajectory, trusted.trust.digits(), out)
     })?;
     stage.write(room, place("modes.csv"), |out| {
         tables::modes(trajectory, out)

@@ -1,6 +1,6 @@
 //! `snapload sweep`: a study, a row a case, in one Parquet file.
 use crate::failure::{Failure, print};
-use crate::interrupt;
+use crate::interrupt::{self, Gentle, say};
 use crate::progress::Counter;
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
@@ -70,7 +70,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     match Store::open(&args.out, identity, args.resume)? {
         Opened::Complete => {}
         Opened::Work(store) => {
-            interrupt::be_gentle();
+            interrupt::be_gentle(Gentle {
+                first: Box::new(|| {
+                    say("stopping after the cases at work; once more to stop at once");
+                }),
+                second: "what was saved is safe, and --resume goes on from there",
+            });
             let counter = Counter::new("sweep", store.asked(), store.safe());
             let watch = Watch {
                 done: &|| counter.one(),

@@ -55,8 +55,8 @@ pub use draw::draw;
 pub use error::FigureError;
 pub use figures::{Leg, Mode, energy, rotation, snap_velocities, tensions, trajectory};
 pub use map::{Cell, Map, draw_map};
-pub use picture::Picture;
+pub use picture::{PNG_SCALE, Picture};
 pub use plot::{
     Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
 };
-pub use run::RunPlots;
+pub use run::{RunPlot, RunPlots};

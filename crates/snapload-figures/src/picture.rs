@@ -4,6 +4,9 @@ use crate::error::FigureError;
 use crate::text;
 use resvg::{tiny_skia, usvg};
 
+/// Pixels per point of a PNG with 300 dots per inch: what journals ask of a line drawing in a raster format.
+pub const PNG_SCALE: f32 = 300.0 / 72.0;
+
 /// The most pixels that a PNG may have.
 const MOST_PIXELS: f64 = 1.0e8;
 

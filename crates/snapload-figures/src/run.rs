@@ -1,7 +1,7 @@
 //! The plots of a run: what of the motion goes into which.
 
 use crate::figures;
-use crate::{Leg, Mark, Mode, Plot, Point, Range};
+use crate::{FigureError, Leg, Mark, Mode, Picture, Plot, Point, Range, Width, draw};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory};
 
 /// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
@@ -9,6 +9,43 @@ const STEP: f64 = 0.01;
 const MOST_STEPS: f64 = 20_000.0;
 /// Shorter pieces than this are of no use to the eye.
 const SHORTEST: f64 = 2e-3;
+
+/// The plots of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RunPlot {
+    /// y against x.
+    Trajectory,
+    /// θ against t.
+    Rotation,
+    /// v_n⁻ against t.
+    Snaps,
+    /// Tensions against t.
+    Tensions,
+    /// Energy against t.
+    Energy,
+}
+
+impl RunPlot {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Trajectory,
+        Self::Rotation,
+        Self::Snaps,
+        Self::Tensions,
+        Self::Energy,
+    ];
+
+    /// Its name, as that of its file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trajectory => "trajectory",
+            Self::Rotation => "rotation",
+            Self::Snaps => "snaps",
+            Self::Tensions => "tensions",
+            Self::Energy => "energy",
+        }
+    }
+}
 
 /// A run, sampled once for all its plots.
 #[derive(Clone, Debug)]
@@ -128,15 +165,27 @@ impl<'a> RunPlots<'a> {
         ))
     }
 
-    /// All five with their names.
-    pub fn all(&self) -> [(&'static str, Plot); 5] {
-        [
-            ("trajectory", self.trajectory()),
-            ("rotation", self.rotation()),
-            ("snaps", self.snaps()),
-            ("tensions", self.tensions()),
-            ("energy", self.energy()),
-        ]
+    /// One of them.
+    pub fn plot(&self, which: RunPlot) -> Plot {
+        match which {
+            RunPlot::Trajectory => self.trajectory(),
+            RunPlot::Rotation => self.rotation(),
+            RunPlot::Snaps => self.snaps(),
+            RunPlot::Tensions => self.tensions(),
+            RunPlot::Energy => self.energy(),
+        }
+    }
+
+    /// One of them on a page of its own.
+    ///
+    /// # Errors
+    /// Those of [`draw()`].
+    pub fn picture(&self, which: RunPlot, title: &str) -> Result<Picture, FigureError> {
+        let plot = Plot {
+            title: title.to_owned(),
+            ..self.plot(which)
+        };
+        draw(which.name(), Width::Page, &[plot])
     }
 
     fn points(&self, of: impl Fn(&Motion) -> Point) -> Vec<Point> {

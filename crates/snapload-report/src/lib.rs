@@ -1,16 +1,23 @@
 //! What is said of a run, in words for a person and in JSON for a program: the same from the command line and
 //! from Python.
 
+mod case_file;
 mod critical;
+mod followed;
 mod report;
 mod summary;
+pub mod tables;
 mod trust;
 mod trusted;
 mod verified;
 
+pub use case_file::{case_file, python_lines, shell_line};
 pub use critical::{CriticalRow, Probability};
-pub use report::{CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, components};
-pub use summary::{case_in_words, summary};
-pub use trust::{OutcomeRow, ShareRow, TrustRow};
+pub use followed::Followed;
+pub use report::{
+    CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, components, write_json,
+};
+pub use summary::{case_in_words, end_in_words, summary};
+pub use trust::{OutcomeRow, ShareRow, TrustRow, because};
 pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};
 pub use verified::{Verified, VerifiedRow};

@@ -6,6 +6,7 @@ use snapload::{
     End, Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
 };
 use snapload_study::reason;
+use std::io::{self, Write};
 
 /// Everything there is to say about a run.
 #[derive(Serialize)]
@@ -47,6 +48,15 @@ impl<'a> Report<'a> {
             }),
         }
     }
+}
+
+/// Writes something as one line of JSON.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_json(value: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, value)?;
+    writeln!(out)
 }
 
 /// Every key in effect, in the order of the schema.

@@ -17,7 +17,7 @@ pub fn summary(
     let trajectory = &trusted.run;
     let mut lines = Lines(String::new());
     lines.add("Case", &case_in_words(name, parameters));
-    lines.add("End", &end(trajectory, parameters));
+    lines.add("End", &end_in_words(trajectory, parameters));
     if let Some(limit) = trajectory.end().t_limit {
         lines.add(
             "",
@@ -93,7 +93,8 @@ fn rounded(value: &Value) -> String {
     }
 }
 
-fn end(trajectory: &Trajectory, parameters: &Parameters) -> String {
+/// How a run ended, and when.
+pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String {
     let end = trajectory.end();
     let t = digits(end.t);
     match end.reason {

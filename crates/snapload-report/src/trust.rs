@@ -7,7 +7,7 @@ use snapload::analysis::{Doubt, Loss, START_KEYS, Sensitivity, Share, Trust};
 use snapload_study::reason;
 
 /// The name of a loss of trust.
-fn because(loss: Loss) -> &'static str {
+pub fn because(loss: Loss) -> &'static str {
     match loss {
         Loss::Tolerance => "tolerance",
         Loss::Graze { .. } => "graze",

@@ -2,8 +2,9 @@
 use snapload::analysis::{
     Doubt, Ensemble, Horizon, Loss, Sensitivity, Tally, Trust, Witness, sensitivity,
 };
-use snapload::{Case, CaseError, Stop, Trajectory};
+use snapload::{Case, CaseError, Simulation, Stop, Trajectory};
 use snapload_study::reason;
+use std::ops::ControlFlow;
 
 /// The impacts of which it is told how they depend on every key.
 const SENSITIVE_IMPACTS: usize = 3;
@@ -43,20 +44,71 @@ impl Trusted {
             witness.follow(simulation, step);
             running(simulation.time());
         });
-        let trust = witness.verdict();
-        let tally = if trust.decides_the_end() || members == 0 {
-            None
-        } else {
-            Some(Ensemble::about(case, &doubt, members, seed).tally(neighbour)?)
-        };
-        Ok(Self {
-            sensitivity: sensitivity(case, SENSITIVE_IMPACTS),
+        let mut trusted = Self::followed(run, witness, doubt);
+        trusted.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
+        trusted.seed = seed;
+        if trusted.takes_neighbours(members) {
+            let ensemble = Ensemble::about(case, &trusted.doubt, members, seed);
+            trusted.tally = Some(ensemble.tally(neighbour)?);
+        }
+        Ok(trusted)
+    }
+
+    /// The run alone, and how far it can be trusted: without neighbours and sensitivities, which take longer.
+    /// None where `running`, which is shown the motion after every step, did not let it come to its end.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
+    pub fn run_alone(
+        case: &Case,
+        doubt: Doubt,
+        mut running: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Result<Option<Self>, CaseError> {
+        let mut witness = Witness::of_case(case, &doubt)?;
+        let run = Trajectory::record_while(case.simulation(), |simulation, step| {
+            witness.follow(simulation, step);
+            running(simulation)
+        });
+        Ok(run.map(|run| Self::followed(run, witness, doubt)))
+    }
+
+    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`] gives. None
+    /// where `neighbour` did not let them come to their end.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a neighbour could not be drawn.
+    pub fn completed(
+        mut self,
+        case: &Case,
+        members: u32,
+        seed: u64,
+        neighbour: impl Fn() -> ControlFlow<()> + Sync,
+    ) -> Result<Option<Self>, CaseError> {
+        self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
+        self.seed = seed;
+        if self.takes_neighbours(members) {
+            let ensemble = Ensemble::about(case, &self.doubt, members, seed);
+            self.tally = ensemble.tally_while(neighbour)?;
+            if self.tally.is_none() {
+                return Ok(None);
+            }
+        }
+        Ok(Some(self))
+    }
+
+    fn followed(run: Trajectory, witness: Witness, doubt: Doubt) -> Self {
+        Self {
             run,
-            trust,
+            trust: witness.verdict(),
             doubt,
-            seed,
-            tally,
-        })
+            seed: 0,
+            tally: None,
+            sensitivity: Vec::new(),
+        }
+    }
+
+    fn takes_neighbours(&self, members: u32) -> bool {
+        members > 0 && !self.trust.decides_the_end()
     }
 
     /// Where trust ends, as pictures show it.
@@ -96,12 +148,16 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
 
 /// Where trust ends, and on a second line why.
 pub fn trust_in_words(trusted: &Trusted) -> String {
-    let known = format!("known to {:e}", trusted.doubt.tolerance);
     let impacts = trusted.run.impacts().len();
-    let Some(horizon) = &trusted.trust.horizon else {
+    horizon_in_words(trusted.trust.horizon, trusted.doubt.tolerance, impacts)
+}
+
+/// The same of a run of so many impacts.
+pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts: usize) -> String {
+    let known = format!("known to {tolerance:e}");
+    let Some(Horizon { t, impact, loss }) = horizon else {
         return format!("{known} to the end");
     };
-    let Horizon { t, impact, loss } = *horizon;
     let what = match loss {
         Loss::Start { cable } => {
             let cable = cable + 1;

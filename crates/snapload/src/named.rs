@@ -29,6 +29,16 @@ impl NamedCase {
             .filter_map(|(key, value)| Some((key, value?)))
             .collect()
     }
+
+    /// The series of Table 6.1 that the case belongs to, or what else there is to say of it.
+    pub fn origin(&self) -> String {
+        let series: Vec<&str> = series_of(self.code).collect();
+        if series.is_empty() {
+            self.about.to_owned()
+        } else {
+            series.join(", ")
+        }
+    }
 }
 
 const fn row(code: &'static str, r: f64, e: f64, a: f64, b: f64, f_o: f64, omega: f64) -> Row {

@@ -1,6 +1,7 @@
 //! What a run comes to, without keeping the run.
 
 use crate::{Case, End, Norms, Simulation, Step};
+use std::ops::ControlFlow;
 
 /// The cables of a case.
 pub(crate) const CABLES: usize = 2;
@@ -52,6 +53,23 @@ impl Outcome {
             watch(&simulation, &step);
         }
         outcome.ended(&simulation)
+    }
+
+    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on; none where it
+    /// did not let it come to its end.
+    pub fn of_while(
+        case: &Case,
+        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let mut simulation = case.simulation();
+        let mut outcome = Self::begun(&simulation);
+        while let Some(step) = simulation.step() {
+            outcome.take(&step);
+            if watch(&simulation).is_break() {
+                return None;
+            }
+        }
+        Some(outcome.ended(&simulation))
     }
 
     /// Of a motion that has just begun.

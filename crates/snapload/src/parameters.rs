@@ -196,6 +196,36 @@ impl Parameters {
         KEYS.iter().map(|key| (key.name, key.get(self)))
     }
 
+    /// The shortest list of keys and values that makes this case: those that are neither the default nor follow
+    /// from the others, as the inertia does from the size.
+    ///
+    /// ```
+    /// use snapload::{Parameters, Value};
+    /// let square = [("a", Value::Number(0.2)), ("b", Value::Number(0.2))];
+    /// let case = Parameters::from_entries(square.clone())?;
+    /// assert_eq!(case.differing(), square);
+    /// # Ok::<(), snapload::CaseError>(())
+    /// ```
+    pub fn differing(&self) -> Vec<(&'static str, Value)> {
+        let natural = natural_inertia(self.a, self.b);
+        let default = match self.body {
+            BodyKind::Rigid => Self {
+                inertia: natural,
+                ..Self::STANDARD
+            },
+            BodyKind::Point => Self {
+                a: 0.0,
+                b: 0.0,
+                inertia: None,
+                ..Self::STANDARD
+            },
+        };
+        self.entries()
+            .filter(|(key, value)| *value != default.get(key))
+            .filter_map(|(key, value)| Some((key, value?)))
+            .collect()
+    }
+
     /// Checks every range, and what the keys ask of each other. The start's place among the cables
     /// is not looked at here: that is geometry, and the business of the engine.
     pub fn check(&self) -> Result<(), CaseError> {

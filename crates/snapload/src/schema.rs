@@ -46,6 +46,34 @@ pub enum Kind {
     Choice(&'static [&'static str]),
 }
 
+/// What a key is about; the keys of a group stand together wherever they are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Group {
+    /// The body: its shape and inertia.
+    Body,
+    /// The cables and their snaps.
+    Cables,
+    /// The force of the waves.
+    Forcing,
+    /// Where and how the motion begins.
+    Start,
+    /// What ends a run.
+    Stops,
+}
+
+impl Group {
+    /// Its name, in lower case.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Body => "body",
+            Self::Cables => "cables",
+            Self::Forcing => "forcing",
+            Self::Start => "start",
+            Self::Stops => "stops",
+        }
+    }
+}
+
 /// Where a key's value is kept.
 enum Slot {
     Number(fn(&mut Parameters) -> &mut f64),
@@ -65,8 +93,12 @@ pub struct Key {
     pub unit: &'static str,
     /// What it means.
     pub meaning: &'static str,
+    /// What it is about.
+    pub group: Group,
     /// Its type and range.
     pub kind: Kind,
+    /// Where one looks first, from and to: what a slider spans. None where sliding tells nothing.
+    pub usual: Option<[f64; 2]>,
     /// A condition beside the range; empty where there is none.
     also: &'static str,
     /// The default in words where it depends on other keys; empty where it is a plain value.
@@ -116,6 +148,7 @@ const IMPACTS: Kind = Kind::Count {
 
 /// Short form of a row whose symbol, conditions and default need no words.
 const fn key(
+    group: Group,
     name: &'static str,
     unit: &'static str,
     kind: Kind,
@@ -127,7 +160,9 @@ const fn key(
         symbol: name,
         unit,
         meaning,
+        group,
         kind,
+        usual: None,
         also: "",
         derived_default: "",
         slot,
@@ -135,6 +170,11 @@ const fn key(
 }
 
 impl Key {
+    const fn usual(mut self, low: f64, high: f64) -> Self {
+        self.usual = Some([low, high]);
+        self
+    }
+
     const fn symbol(mut self, symbol: &'static str) -> Self {
         self.symbol = symbol;
         self
@@ -154,41 +194,48 @@ impl Key {
 /// Every key of a case, in the order in which they are echoed.
 #[rustfmt::skip] // one row a key
 pub static KEYS: &[Key] = &[
-    key("r", "L", POSITIVE, Slot::Number(|p| &mut p.r), "length of the cables")
-        .also("and r > |1 - a|"),
-    key("e", "1", FRACTION, Slot::Number(|p| &mut p.e),
-        "coefficient of restitution of a snap: v_n after = -e v_n before"),
-    key("a", "L", SIZE, Slot::Number(|p| &mut p.a), "half-width of the body")
-        .default_in_words("0.1; 0 for a point mass"),
-    key("b", "L", SIZE, Slot::Number(|p| &mut p.b), "half-height of the body; 0 is the circle")
-        .default_in_words("0"),
-    key("inertia", "m L^2", INERTIA, Slot::MaybeNumber(|p| &mut p.inertia), "moment of inertia")
+    key(Group::Cables, "r", "L", POSITIVE, Slot::Number(|p| &mut p.r), "length of the cables")
+        .also("and r > |1 - a|").usual(0.95, 3.0),
+    key(Group::Cables, "e", "1", FRACTION, Slot::Number(|p| &mut p.e),
+        "coefficient of restitution of a snap: v_n after = -e v_n before").usual(0.0, 1.0),
+    key(Group::Body, "a", "L", SIZE, Slot::Number(|p| &mut p.a), "half-width of the body")
+        .default_in_words("0.1; 0 for a point mass").usual(0.02, 0.5),
+    key(Group::Body, "b", "L", SIZE, Slot::Number(|p| &mut p.b),
+        "half-height of the body; 0 is the circle")
+        .default_in_words("0").usual(0.0, 0.5),
+    key(Group::Body, "inertia", "m L^2", INERTIA, Slot::MaybeNumber(|p| &mut p.inertia),
+        "moment of inertia")
         .symbol("I").also("at least 1e-6 (a^2 + b^2); never given for a point mass")
-        .default_in_words("a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle)"),
-    key("f_o", "F", ANY, Slot::Number(|p| &mut p.f_o), "force amplitude: f_x = f_o cos(omega t)"),
-    key("nu", "1", ANY, Slot::Number(|p| &mut p.nu),
-        "axis ratio of the forcing ellipse: f_y = nu f_o sin(omega t)").symbol("ν"),
-    key("omega", "rad/T", ANY, Slot::Number(|p| &mut p.omega), "frequency of the forcing")
-        .symbol("Ω"),
-    key("x", "L", ANY, Slot::Number(|p| &mut p.x), "start: horizontal position of the centre"),
-    key("y", "L", ANY, Slot::Number(|p| &mut p.y),
-        "start: vertical position, towards the anchors; 0 with both cables taut"),
-    key("theta", "rad", ANY, Slot::Number(|p| &mut p.theta), "start: rotation").symbol("θ")
-        .also("0 for a point mass"),
-    key("vx", "L/T", ANY, Slot::Number(|p| &mut p.vx), "start: horizontal velocity").symbol("ẋ"),
-    key("vy", "L/T", ANY, Slot::Number(|p| &mut p.vy), "start: vertical velocity").symbol("ẏ"),
-    key("vtheta", "rad/T", ANY, Slot::Number(|p| &mut p.vtheta), "start: angular velocity")
-        .symbol("θ̇").also("0 for a point mass"),
-    key("t_end", "T", DURATION, Slot::Number(|p| &mut p.t_end), "the run ends here at the latest"),
-    key("v_stick", "L/T", STICKING, Slot::Number(|p| &mut p.v_stick),
+        .default_in_words("a^2 if b = 0 (ring), (a^2 + b^2)/3 if b > 0 (rectangle)").usual(1e-3, 0.2),
+    key(Group::Forcing, "f_o", "F", ANY, Slot::Number(|p| &mut p.f_o),
+        "force amplitude: f_x = f_o cos(omega t)").usual(0.0, 1.0),
+    key(Group::Forcing, "nu", "1", ANY, Slot::Number(|p| &mut p.nu),
+        "axis ratio of the forcing ellipse: f_y = nu f_o sin(omega t)").symbol("ν").usual(-1.0, 1.0),
+    key(Group::Forcing, "omega", "rad/T", ANY, Slot::Number(|p| &mut p.omega),
+        "frequency of the forcing").symbol("Ω").usual(0.1, 3.0),
+    key(Group::Start, "x", "L", ANY, Slot::Number(|p| &mut p.x),
+        "start: horizontal position of the centre").usual(-0.5, 0.5),
+    key(Group::Start, "y", "L", ANY, Slot::Number(|p| &mut p.y),
+        "start: vertical position, towards the anchors; 0 with both cables taut").usual(0.0, 1.0),
+    key(Group::Start, "theta", "rad", ANY, Slot::Number(|p| &mut p.theta), "start: rotation")
+        .symbol("θ").also("0 for a point mass").usual(-1.5, 1.5),
+    key(Group::Start, "vx", "L/T", ANY, Slot::Number(|p| &mut p.vx), "start: horizontal velocity")
+        .symbol("ẋ").usual(-1.0, 1.0),
+    key(Group::Start, "vy", "L/T", ANY, Slot::Number(|p| &mut p.vy), "start: vertical velocity")
+        .symbol("ẏ").usual(-1.0, 1.0),
+    key(Group::Start, "vtheta", "rad/T", ANY, Slot::Number(|p| &mut p.vtheta),
+        "start: angular velocity").symbol("θ̇").also("0 for a point mass").usual(-3.0, 3.0),
+    key(Group::Stops, "t_end", "T", DURATION, Slot::Number(|p| &mut p.t_end),
+        "the run ends here at the latest").usual(5.0, 200.0),
+    key(Group::Cables, "v_stick", "L/T", STICKING, Slot::Number(|p| &mut p.v_stick),
         "a slower snap makes the cable stay taut if its tension would be positive"),
-    key("stop_when_settled", "", Kind::Flag, Slot::Flag(|p| &mut p.stop_when_settled),
+    key(Group::Stops, "stop_when_settled", "", Kind::Flag, Slot::Flag(|p| &mut p.stop_when_settled),
         "stop where a cable sticks, or both are taut, below y = 0.05"),
-    key("stop_when_sliding", "", Kind::Flag, Slot::Flag(|p| &mut p.stop_when_sliding),
+    key(Group::Stops, "stop_when_sliding", "", Kind::Flag, Slot::Flag(|p| &mut p.stop_when_sliding),
         "stop where a cable sticks at y = 0.05 or above"),
-    key("max_impacts", "", IMPACTS, Slot::Count(|p| &mut p.max_impacts),
+    key(Group::Stops, "max_impacts", "", IMPACTS, Slot::Count(|p| &mut p.max_impacts),
         "the run ends at more impacts than this"),
-    key("body", "", Kind::Choice(BodyKind::NAMES), Slot::Body(|p| &mut p.body),
+    key(Group::Body, "body", "", Kind::Choice(BodyKind::NAMES), Slot::Body(|p| &mut p.body),
         "a rigid body that turns, or a point mass (a = b = 0) that does not"),
 ];
 
@@ -267,6 +314,11 @@ impl Key {
         };
         let join = if self.also.is_empty() { "" } else { "; " };
         format!("{range}{join}{}", self.also)
+    }
+
+    /// The default where it depends on other keys, in words; empty where it is a plain value.
+    pub fn derived_default(&self) -> &'static str {
+        self.derived_default
     }
 
     /// The default in words.

@@ -3,6 +3,7 @@
 use crate::playback::{Motion, Playback};
 use crate::simulate::{Simulation, Step};
 use crate::{State, System, TautSet};
+use std::ops::ControlFlow;
 
 /// A cable snapping taut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,9 +128,31 @@ impl Trajectory {
 
     /// The same; `watch` is shown the simulation after every step, and the step.
     pub fn record_watched(
-        mut simulation: Simulation,
+        simulation: Simulation,
         mut watch: impl FnMut(&Simulation, &Step),
     ) -> Self {
+        let watch = |simulation: &Simulation, step: &Step| {
+            watch(simulation, step);
+            ControlFlow::Continue(())
+        };
+        Self::record_until(simulation, watch).0
+    }
+
+    /// The same, as long as `watch` lets it go on; none where it did not let it come to its end.
+    pub fn record_while(
+        simulation: Simulation,
+        watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        match Self::record_until(simulation, watch) {
+            (run, ControlFlow::Continue(())) => Some(run),
+            (_, ControlFlow::Break(())) => None,
+        }
+    }
+
+    fn record_until(
+        mut simulation: Simulation,
+        mut watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+    ) -> (Self, ControlFlow<()>) {
         let mut run = Self {
             system: simulation.system().clone(),
             segments: Vec::new(),
@@ -140,7 +163,9 @@ impl Trajectory {
         };
         while let Some(step) = simulation.step() {
             run.take(&step);
-            watch(&simulation, &step);
+            if watch(&simulation, &step).is_break() {
+                return (run, ControlFlow::Break(()));
+            }
         }
         run.end = End::of(&simulation);
         run.segments.push(Segment {
@@ -150,7 +175,7 @@ impl Trajectory {
         });
         run.norms.y_max = simulation.y_max();
         run.norms.theta_max = simulation.theta_max();
-        run
+        (run, ControlFlow::Continue(()))
     }
 
     fn take(&mut self, step: &Step) {

@@ -32,6 +32,38 @@ fn nothing_given_is_the_standard_case() {
 }
 
 #[test]
+fn what_differs_is_the_case() {
+    assert_eq!(Parameters::STANDARD.differing(), []);
+    let differing = |entries: &[_]| given(entries).unwrap().differing();
+    let point = [("y", 0.2.into()), ("body", text("point"))];
+    assert_eq!(differing(&point), point);
+    // The inertia follows, unless it is another.
+    let sized = [("a", 0.2.into())];
+    assert_eq!(differing(&sized), sized);
+    let odd = [("a", 0.2.into()), ("inertia", 0.01.into())];
+    assert_eq!(differing(&odd), odd);
+    for case in snapload::named_cases() {
+        assert_eq!(
+            given(&case.parameters.differing()).unwrap(),
+            case.parameters
+        );
+    }
+}
+
+#[test]
+fn where_one_looks_first_is_allowed() {
+    for key in KEYS {
+        for end in key.usual.into_iter().flatten() {
+            assert!(
+                snapload::check_entry(key.name, &end.into()).is_ok(),
+                "{}",
+                key.name
+            );
+        }
+    }
+}
+
+#[test]
 fn inertia_follows_from_the_size_unless_given() {
     let inertia = |entries: &[_]| given(entries).unwrap().inertia.unwrap();
     assert_eq!(inertia(&[("a", 0.2.into())]), 0.2 * 0.2);
@@ -397,6 +429,9 @@ proptest! {
         if let Ok(p) = Parameters::from_entries(entries) {
             let echo = p.entries().filter_map(|(key, value)| Some((key, value?)));
             prop_assert_eq!(Parameters::from_entries(echo).unwrap(), p);
+            let differing = p.differing();
+            prop_assert!(differing.len() <= 3, "{:?}", differing);
+            prop_assert_eq!(Parameters::from_entries(differing).unwrap(), p);
         }
     }
 

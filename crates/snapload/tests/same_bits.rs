@@ -1,7 +1,11 @@
 //! The same case gives the same bits, whatever it is computed beside and by how many.
 
-use snapload::analysis::outcomes;
-use snapload::{Case, Lanes, Outcome, Parameters, Simulation, Value, named_case};
+use snapload::analysis::{Doubt, Ensemble, outcomes};
+use snapload::{
+    Case, CaseError, Lanes, Outcome, Parameters, Simulation, Trajectory, Value, named_case,
+};
+use std::ops::ControlFlow::{Break, Continue};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state after).
 fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
@@ -209,4 +213,40 @@ fn runs_that_stop_at_once_are_no_burden() {
     let cases = vec![case.expect("legal"); 50_000];
     let (outcomes, usage) = Lanes::best().outcomes(&cases);
     assert_eq!((outcomes.len(), usage.bounces), (50_000, 0));
+}
+
+/// What may be ended on its way is the same where it is not, and nothing where it is.
+#[test]
+fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), CaseError> {
+    let case = Case::new(named_case("1910001000-459")?.parameters)?;
+    let run = case.run();
+    let whole = Trajectory::record_while(case.simulation(), |_, _| Continue(()));
+    let whole = whole.expect("a run that was not ended");
+    assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
+    let outcome = Outcome::of_while(&case, |_| Continue(()));
+    assert_eq!(outcome, Some(Outcome::of(&case)));
+    let ensemble = Ensemble::about(&case, &Doubt::default(), 20, 1);
+    let tally = ensemble.tally_while(|| Continue(()))?;
+    assert_eq!(tally, Some(ensemble.tally(|| ())?));
+
+    let half = run.end().t / 2.0;
+    let until = |t: f64| if t < half { Continue(()) } else { Break(()) };
+    let mut reached = 0.0;
+    let ended = Trajectory::record_while(case.simulation(), |simulation, _| {
+        assert!(reached < half, "went on after it was ended");
+        reached = simulation.time();
+        until(reached)
+    });
+    assert!(ended.is_none() && reached >= half);
+    assert_eq!(
+        Outcome::of_while(&case, |simulation| until(simulation.time())),
+        None
+    );
+    let members = AtomicU64::new(0);
+    let tally = ensemble.tally_while(|| match members.fetch_add(1, Ordering::Relaxed) {
+        0..5 => Continue(()),
+        _ => Break(()),
+    });
+    assert_eq!(tally?, None);
+    Ok(())
 }

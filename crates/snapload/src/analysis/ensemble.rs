@@ -7,6 +7,7 @@ use crate::{Case, CaseError, Parameters, Stop, Value};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
+use std::ops::ControlFlow;
 
 /// A cloud of cases about one, drawn evenly from what its uncertainty allows.
 ///
@@ -113,15 +114,32 @@ impl Ensemble {
     /// # Errors
     /// A [`CaseError`] if a member could not be drawn.
     pub fn tally(&self, watch: impl Fn() + Sync) -> Result<Tally, CaseError> {
-        let ends: Vec<Stop> = (0..self.count)
+        let watch = || {
+            watch();
+            ControlFlow::Continue(())
+        };
+        // Without a break there is a tally, if only one of no members.
+        Ok(self
+            .tally_while(watch)?
+            .unwrap_or(Tally { ends: Vec::new() }))
+    }
+
+    /// The same, as long as `watch` lets it go on; none where it did not let it come to its end.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a member could not be drawn.
+    pub fn tally_while(
+        &self,
+        watch: impl Fn() -> ControlFlow<()> + Sync,
+    ) -> Result<Option<Tally>, CaseError> {
+        let ends: Option<Vec<Stop>> = (0..self.count)
             .into_par_iter()
             .map(|index| {
                 let outcome = Outcome::of(&self.member(index)?);
-                watch();
-                Ok(outcome.end.reason)
+                Ok(watch().is_continue().then_some(outcome.end.reason))
             })
             .collect::<Result<_, CaseError>>()?;
-        Ok(Tally { ends })
+        Ok(ends.map(|ends| Tally { ends }))
     }
 }
 

@@ -1,7 +1,8 @@
 //! The tables of a run as CSV: the columns carry the names of the JSON.
+use crate::{MotionRow, Sampling, components};
 use serde::Serialize;
 use snapload::{Playback, Trajectory};
-use snapload_report::{MotionRow, Sampling, Trusted, components};
+
 use std::io::{self, Write};
 
 const IMPACTS: [&str; 18] = [
@@ -25,13 +26,21 @@ const IMPACTS: [&str; 18] = [
     "digits",
 ];
 const MODES: [&str; 4] = ["mode", "taut", "t_start", "t_end"];
-const MOTION: [&str; 10] = [
+/// The columns of the motion.
+pub const MOTION: [&str; 10] = [
     "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
 ];
 
-/// `impacts.csv`: one row an impact and cable.
-pub(crate) fn impacts(trusted: &Trusted, out: &mut dyn Write) -> io::Result<()> {
-    let impacts = trusted.run.impacts().iter().zip(trusted.trust.digits());
+/// `impacts.csv`: one row an impact and cable, with the digits that are known of each.
+///
+/// # Errors
+/// Those of the writer.
+pub fn impacts(
+    trajectory: &Trajectory,
+    digits: impl Iterator<Item = f64>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let impacts = trajectory.impacts().iter().zip(digits);
     let rows = impacts.map(|(impact, digits)| {
         let scalars = (
             impact.t,
@@ -51,7 +60,10 @@ pub(crate) fn impacts(trusted: &Trusted, out: &mut dyn Write) -> io::Result<()> 
 }
 
 /// `modes.csv`: one row an interval; the taut cables stand with blanks between them.
-pub(crate) fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
+///
+/// # Errors
+/// Those of the writer.
+pub fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
     let rows = trajectory.modes().iter().map(|interval| {
         let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
         (
@@ -65,11 +77,10 @@ pub(crate) fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<
 }
 
 /// `motion.csv`: one row a time.
-pub(crate) fn motion(
-    trajectory: &Trajectory,
-    sampling: Sampling,
-    out: &mut dyn Write,
-) -> io::Result<()> {
+///
+/// # Errors
+/// Those of the writer.
+pub fn motion(trajectory: &Trajectory, sampling: Sampling, out: &mut dyn Write) -> io::Result<()> {
     let mut playback = Playback::new(trajectory);
     let rows = sampling.times().map(|t| MotionRow::new(&playback.at(t)));
     write(&MOTION, rows, out)

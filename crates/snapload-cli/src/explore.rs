@@ -1,0 +1,72 @@
+//! `snapload explore`: a run on a page in the browser, which this program serves itself.
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, plain, print};
+use crate::interrupt::{Gentle, be_gentle, say};
+use snapload_explore::{Server, Start};
+use std::io;
+
+const EXAMPLES: &str = "\
+The page is served by this program, to this machine alone, and needs no network. It shows the
+motion, its plots and how far they can be trusted; every key can be changed there, and the case
+saved as a file.
+
+Examples:
+  snapload explore
+      begin with the standard case
+  snapload explore --case 1922001000-359 --set f_o=0.4
+      begin with a built-in case, changed
+  snapload explore mooring.toml
+      begin with a case of your own
+  snapload explore --port 8000 --no-browser
+      at http://127.0.0.1:8000/, for a browser that you open yourself
+
+Ctrl-C ends it.";
+
+/// What to begin with, and where.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// Port of this machine to serve at; 0 is any free one
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    port: u16,
+    /// Print the address, and leave it to you to open it
+    #[arg(long)]
+    no_browser: bool,
+}
+
+/// Serves it until it is interrupted.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let input = args.case.read()?;
+    let name = match input.name.as_str() {
+        "standard case" => "the standard case".to_owned(),
+        name => name.to_owned(),
+    };
+    let start = Start {
+        name,
+        parameters: *input.case.parameters(),
+    };
+    let server = Server::bind(args.port, start).map_err(|error| no_port(args.port, &error))?;
+    let (address, stop) = (server.address(), server.stop());
+    be_gentle(Gentle {
+        first: Box::new(move || stop.now()),
+        second: "the page is no longer served",
+    });
+    print(&format!("{address}\n"))?;
+    // What follows is for a person; whoever reads the address may have closed this.
+    say("Ctrl-C ends it");
+    if !args.no_browser && open::that_detached(&address).is_err() {
+        say("no browser could be opened; open the address above in one");
+    }
+    let served = server.serve();
+    served
+        .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
+}
+
+fn no_port(port: u16, error: &io::Error) -> Failure {
+    Failure::BadInput(format!(
+        "--port {port}: {}\nhint: choose another port, or leave --port out for any free one",
+        plain(error)
+    ))
+}

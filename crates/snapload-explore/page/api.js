@@ -1,0 +1,96 @@
+// What is asked of the server.
+
+/** An answer that is an error: its text is that of the command. */
+export class Refused extends Error {}
+
+async function post(path, body, signal) {
+  const response = await fetch(path, {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+    signal,
+  });
+  if (response.ok) return response;
+  const text = await response.text();
+  let words = text;
+  try {
+    words = JSON.parse(text).error ?? text;
+  } catch {
+    // Not JSON: the text says it itself.
+  }
+  throw new Refused(words || `the server answered ${response.status}`);
+}
+
+export async function fetchSchema() {
+  const response = await fetch("api/schema");
+  if (!response.ok) throw new Refused(`the server answered ${response.status}`);
+  return response.json();
+}
+
+/** A longer wait than this is cut short by a newer question; a shorter one is worth its picture. */
+const PATIENCE_MS = 120;
+
+/** Runs, one at a time; of the questions that come meanwhile only the latest is asked. */
+export class Runner {
+  constructor({ onAnswer, onError, onBusy }) {
+    Object.assign(this, { onAnswer, onError, onBusy, flying: null, waiting: null });
+  }
+
+  ask(question, since) {
+    this.waiting = { question, since };
+    if (!this.flying) this.#next();
+    else if (performance.now() - this.flying.begun > PATIENCE_MS) this.flying.controller.abort();
+    else {
+      const { flying } = this;
+      setTimeout(() => {
+        if (this.flying === flying && this.waiting) flying.controller.abort();
+      }, PATIENCE_MS);
+    }
+  }
+
+  async #next() {
+    const { question, since } = this.waiting;
+    const controller = new AbortController();
+    this.waiting = null;
+    this.flying = { controller, begun: performance.now() };
+    this.onBusy(true);
+    let answer = null;
+    try {
+      answer = await (await post("api/run", question, controller.signal)).json();
+    } catch (error) {
+      if (error.name !== "AbortError") this.onError(inWords(error), question);
+    }
+    this.flying = null;
+    if (this.waiting) this.#next();
+    else this.onBusy(false);
+    if (answer) this.onAnswer(answer, since, question);
+  }
+}
+
+/** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
+function inWords(error) {
+  return error instanceof Refused
+    ? error
+    : new Error("the program does not answer. Is snapload explore still running?");
+}
+
+/** A map line by line as it is computed; ends early when the signal aborts. */
+export async function* fetchMap(question, signal) {
+  const response = await post("api/map", question, signal);
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { value, done } = await reader.read();
+    if (done) break;
+    const lines = (rest + value).split("\n");
+    rest = lines.pop();
+    for (const line of lines) if (line) yield JSON.parse(line);
+  }
+  if (rest.trim()) yield JSON.parse(rest);
+}
+
+/** A file as the command writes it. */
+export async function fetchFile(name, question) {
+  const response = await post(`api/export/${name}`, question);
+  return response.blob();
+}

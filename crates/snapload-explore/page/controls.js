@@ -1,0 +1,207 @@
+// A slider and a field for every key, from the schema.
+
+import { plain, prose, symbolHtml, unitText } from "./words.js";
+import { readValue } from "./state.js";
+
+const GROUPS = [
+  ["forcing", "Forcing"],
+  ["cables", "Cables"],
+  ["body", "Body"],
+  ["start", "Start"],
+  ["stops", "Stops"],
+];
+
+export class Controls {
+  /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: not being dragged. */
+  constructor(root, state, { onChange }) {
+    Object.assign(this, { root, state, onChange, rows: new Map(), latest: null, typing: null });
+    for (const [group, title] of GROUPS) {
+      const keys = state.schema.keys.filter((key) => key.group === group);
+      if (keys.length) root.append(this.#group(title, keys, group));
+    }
+    this.show();
+  }
+
+  #group(title, keys, group) {
+    const details = element("details", { className: "group" });
+    details.open = group !== "stops" && (group === "forcing" || matchMedia("(min-width: 700px)").matches);
+    details.append(element("summary", { textContent: title }));
+    for (const key of keys) details.append(this.#row(key));
+    return details;
+  }
+
+  #row(key) {
+    const row = element("div", { className: "key" });
+    const parts = { row, key };
+    if (key.kind.type === "flag") this.#flag(parts);
+    else if (key.kind.type === "choice") this.#choice(parts);
+    else this.#numeric(parts);
+    parts.error = element("p", { className: "key-error", id: `error-${key.name}`, hidden: true });
+    parts.field.setAttribute("aria-describedby", `meaning-${key.name} error-${key.name}`);
+    row.append(parts.error);
+    this.rows.set(key.name, parts);
+    return row;
+  }
+
+  #label(key) {
+    const label = element("label", { className: "key-label", htmlFor: `field-${key.name}` });
+    const unit = unitText(key.unit);
+    const wordy = symbolHtml(key.symbol) === key.symbol;
+    const name = element("span", { className: wordy ? "symbol wordy" : "symbol" });
+    if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
+    else name.innerHTML = symbolHtml(key.symbol);
+    const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
+    meaning.textContent = shortMeaning(key);
+    label.title = prose(key.meaning) + (key.default_in_words ? `. Default: ${prose(key.default_in_words)}` : "");
+    label.append(name, meaning);
+    if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
+    return label;
+  }
+
+  #numeric(parts) {
+    const { key, row } = parts;
+    const field = element("input", { type: "text", inputMode: "decimal", id: `field-${key.name}`, className: "field" });
+    field.autocomplete = "off";
+    field.spellcheck = false;
+    const reset = element("button", {
+      type: "button",
+      className: "reset",
+      textContent: "↺",
+      title: "Back to the default",
+    });
+    reset.setAttribute("aria-label", `${key.name}: back to the default`);
+    row.append(this.#label(key), reset, field);
+    Object.assign(parts, { field, reset });
+    if (key.usual) row.append(this.#slider(parts));
+    field.addEventListener("input", (event) => {
+      // While one types, only what is a number is tried; the rest waits for the end of typing.
+      this.typing = key.name;
+      if (readValue(key, field.value) !== undefined) this.#take(parts, field.value, event, true);
+    });
+    field.addEventListener("change", (event) => {
+      this.typing = null;
+      this.#take(parts, field.value, event, true);
+    });
+    field.addEventListener("keydown", (event) => this.#stepField(parts, event));
+    reset.addEventListener("click", (event) => {
+      this.#give(parts, null, event, true);
+      this.show();
+      field.focus();
+    });
+  }
+
+  #slider(parts) {
+    const { key } = parts;
+    const { low, high } = key.usual;
+    const slider = element("input", { type: "range", className: "slider", id: `slider-${key.name}` });
+    Object.assign(slider, { min: low, max: high, step: sliderStep(low, high) });
+    slider.setAttribute("aria-label", `${key.name}: ${prose(key.meaning)}`);
+    slider.addEventListener("input", (event) => {
+      parts.field.value = slider.value;
+      this.#give(parts, Number(slider.value), event, false);
+    });
+    slider.addEventListener("change", (event) => this.#give(parts, Number(slider.value), event, true));
+    parts.slider = slider;
+    return slider;
+  }
+
+  #stepField(parts, event) {
+    const direction = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    const value = Number(parts.field.value);
+    if (!direction || !parts.key.usual || !Number.isFinite(value)) return;
+    event.preventDefault();
+    const step = sliderStep(parts.key.usual.low, parts.key.usual.high) * (event.shiftKey ? 10 : 1);
+    parts.field.value = String(Number((value + direction * step).toPrecision(12)));
+    this.#take(parts, parts.field.value, event, true);
+  }
+
+  #flag(parts) {
+    const { key, row } = parts;
+    const field = element("input", { type: "checkbox", id: `field-${key.name}`, className: "tick" });
+    row.classList.add("key-flag");
+    row.append(field, this.#label(key));
+    field.addEventListener("change", (event) => this.#give(parts, field.checked, event, true));
+    parts.field = field;
+  }
+
+  #choice(parts) {
+    const { key, row } = parts;
+    const field = element("select", { id: `field-${key.name}`, className: "choice" });
+    for (const option of key.kind.options) field.append(element("option", { value: option, textContent: option }));
+    row.append(this.#label(key), field);
+    field.addEventListener("change", (event) => this.#give(parts, field.value, event, true));
+    parts.field = field;
+  }
+
+  /** What stands in a field: a number, nothing (the default), or text that the server will refuse in words. */
+  #take(parts, text, event, settled) {
+    const value = text.trim() === "" ? null : (readValue(parts.key, text) ?? text.trim());
+    this.#give(parts, value, event, settled);
+  }
+
+  #give(parts, value, event, settled) {
+    this.latest = parts.key.name;
+    this.state.setValue(parts.key.name, value);
+    this.onChange(event.timeStamp, settled);
+  }
+
+  /** Shows the values of the state; what is being typed stays. `effective` has those that follow from others. */
+  show(effective = {}) {
+    for (const [name, { key, field, slider, reset }] of this.rows) {
+      // Where the default depends on other keys, what it comes to is known from the run.
+      const given = this.state.values[name];
+      const value =
+        given === undefined && key.default_in_words
+          ? (effective[name] ?? this.state.value(name))
+          : this.state.value(name);
+      if (key.kind.type === "flag") field.checked = value;
+      else if (this.typing !== name) field.value = plain(given ?? (key.default_in_words ? rounded(value) : value));
+      if (reset) {
+        reset.hidden = !(name in this.state.values);
+      }
+      if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
+      if (slider) slider.setAttribute("aria-valuetext", `${plain(value)} ${unitText(key.unit)}`.trim());
+    }
+  }
+
+  /** Shows the text of an error at the field that it names, else at the one that was changed last. */
+  showError(text) {
+    this.clearError();
+    const named = /^(?:--set: )?([a-z_]+) = /.exec(text)?.[1];
+    // What is no key, such as the ghost, has its text beside the picture.
+    const parts = this.rows.get(named ?? this.latest);
+    if (!parts) return;
+    parts.error.textContent = text;
+    parts.error.hidden = false;
+    parts.field.setAttribute("aria-invalid", "true");
+    const group = parts.row.closest("details");
+    if (group) group.open = true;
+  }
+
+  clearError() {
+    for (const { error, field } of this.rows.values()) {
+      error.hidden = true;
+      field.removeAttribute("aria-invalid");
+    }
+  }
+}
+
+/** A number that was computed, as short as it is read. */
+const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
+
+/** A round step, some hundreds of which make the range. */
+function sliderStep(low, high) {
+  const rough = (high - low) / 300;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  return Number(([1, 2, 5, 10].find((m) => m * power >= rough * 0.6) * power).toPrecision(3));
+}
+
+function shortMeaning(key) {
+  const text = prose(key.meaning);
+  if (key.kind.type === "choice") return text;
+  return text.replace(/^start: /, "").split(/[:;,]/)[0];
+}
+
+function element(tag, properties) {
+  return Object.assign(document.createElement(tag), properties);
+}

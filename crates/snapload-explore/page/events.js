@@ -1,0 +1,102 @@
+// What happened, as a table: it says what the charts show, and each row leads to its instant.
+
+import { fixed, modeName, number } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+const ROWS = 50;
+const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost parts from it", end: "end" };
+
+export class EventTable {
+  constructor({ onJump }) {
+    Object.assign(this, { onJump, run: null, page: 0, at: null });
+    this.body = $("events-body");
+    $("events-previous").addEventListener("click", () => this.#turn(-1));
+    $("events-next").addEventListener("click", () => this.#turn(1));
+    this.body.addEventListener("click", (event) => {
+      const row = event.target.closest("tr");
+      if (row) onJump(this.run.events[Number(row.dataset.event)].t);
+    });
+  }
+
+  take(run) {
+    this.run = run;
+    this.at = null;
+    this.page = Math.min(this.page, this.#pages - 1);
+    this.#fill();
+  }
+
+  get #pages() {
+    return Math.max(1, Math.ceil(this.run.events.length / ROWS));
+  }
+
+  #turn(by) {
+    this.page = Math.min(Math.max(this.page + by, 0), this.#pages - 1);
+    this.#fill();
+    this.#mark();
+  }
+
+  /** Marks the row of the latest event at time t, and turns to its page if the page is to follow. */
+  show(t, follow) {
+    if (!this.run) return;
+    const at = this.run.eventAt(t);
+    if (at === this.at) return;
+    this.at = at;
+    const page = Math.floor(at / ROWS);
+    if (follow && page !== this.page) {
+      this.page = page;
+      this.#fill();
+    }
+    this.#mark();
+  }
+
+  #mark() {
+    for (const row of this.body.rows) {
+      const here = Number(row.dataset.event) === this.at;
+      if (here) row.setAttribute("aria-current", "true");
+      else row.removeAttribute("aria-current");
+      const box = this.body.closest(".scroll");
+      if (
+        here &&
+        (row.offsetTop < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
+      ) {
+        box.scrollTop = row.offsetTop - box.clientHeight / 2;
+      }
+    }
+  }
+
+  #fill() {
+    const { events } = this.run;
+    const first = this.page * ROWS;
+    this.body.innerHTML = events
+      .slice(first, first + ROWS)
+      .map((event, k) => this.#row(event, first + k))
+      .join("");
+    $("events-words").value = `${first + 1} to ${Math.min(first + ROWS, events.length)} of ${events.length}`;
+    $("events-previous").disabled = this.page === 0;
+    $("events-next").disabled = this.page === this.#pages - 1;
+  }
+
+  #row(event, index) {
+    const { what, cable = "", figures = ["", "", "", ""] } = this.#describe(event);
+    const label = `${what}, go to t = ${number(event.t, 7)}`;
+    const time = `<button type="button" class="go" data-t="${event.t}" aria-label="${label}">${fixed(event.t, 6)}</button>`;
+    const numbers = figures.map((figure) => `<td class="num">${figure}</td>`).join("");
+    return `<tr data-event="${index}"><td>${time}</td><td>${what}</td><td>${cable}</td>${numbers}</tr>`;
+  }
+
+  #describe({ kind, impact: i, taut }) {
+    if (kind === "mode") return { what: modeWords(taut) };
+    if (kind !== "impact") return { what: WORDS[kind] };
+    const { cable, v_n, impulse, energy_lost, digits } = this.run.impacts;
+    return {
+      what: impactWords(v_n[i], i),
+      cable: `<span class="c${cable[i]}">${cable[i] === 1 ? "×" : "○"} ${cable[i]}</span>`,
+      figures: [number(v_n[i], 5), number(impulse[i], 5), number(energy_lost[i], 4), digitsKnown(digits[i])],
+    };
+  }
+}
+
+/** An impulse that passes into a taut cable has no velocity of its own. */
+const impactWords = (v_n, i) => `${v_n > 0 ? "snap" : "impulse passed on"} ${i + 1}`;
+const modeWords = (taut) => (taut.length ? `${modeName(taut)}, cable ${taut.join(" and ")} taut` : "slack");
+const digitsKnown = (value) => (Number.isFinite(value) ? fixed(Math.max(0, value), 1) : "–");

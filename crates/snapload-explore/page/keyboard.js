@@ -1,0 +1,61 @@
+// The page by keyboard: one table of keys, which the help shows too.
+
+const $ = (id) => document.getElementById(id);
+
+/** Keys, what they do in words, and what they do. */
+function keyTable({ playback, transport, state, map }) {
+  const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one });
+  return [
+    [[" "], "space", "play or pause", () => playback.toggle()],
+    [["ArrowRight"], "→", "next event", (event) => (event.shiftKey ? playback.fine(1) : playback.next())],
+    [["ArrowLeft"], "←", "previous event", (event) => (event.shiftKey ? playback.fine(-1) : playback.previous())],
+    [[], "shift + → ←", "a small step of time", null],
+    [["Home"], "Home", "to the start", () => go(playback, 0)],
+    [["End"], "End", "to the end", () => go(playback, Infinity)],
+    [["+", "="], "+", "faster", () => playback.faster(1)],
+    [["-", "_"], "−", "slower", () => playback.faster(-1)],
+    [["["], "[", "zoom in on the time cursor", () => transport.zoom(0.5)],
+    [["]"], "]", "zoom out", () => transport.zoom(2)],
+    [["v"], "v", "real picture, or the thesis's", () => toggle("picture", "real", "thesis")],
+    [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
+    [["g"], "g", "ghost on or off", () => $("ghost").click()],
+    [["m"], "m", "map open or closed", () => map.toggle()],
+    [["?"], "?", "these keys", () => $("help").click()],
+  ];
+}
+
+function go(playback, t) {
+  playback.pause();
+  playback.seek(t);
+}
+
+/** Elements that need certain keys themselves. */
+function needed(target, key) {
+  if (target.matches("input[type=range]")) return /^(Arrow|Home|End|Page)/.test(key);
+  if (target.matches("input[type=checkbox], button, summary, a")) return key === " " || key === "Enter";
+  if (target.matches("input[type=radio]")) return key === " " || key.startsWith("Arrow");
+  return target.matches("input, select, textarea");
+}
+
+export class Keyboard {
+  constructor(parts) {
+    const table = keyTable(parts);
+    const dialog = $("help-dialog");
+    $("help-keys").innerHTML = table
+      .map(([, shown, words]) => `<dt><kbd>${shown}</kbd></dt><dd>${words}</dd>`)
+      .join("");
+    $("help").addEventListener("click", () => dialog.showModal());
+    $("help-close").addEventListener("click", () => dialog.close());
+    document.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented || dialog.open) return;
+      const single = event.key.length === 1 && event.key !== " ";
+      if (single && !$("single-keys").checked) return;
+      const stepping = event.target === $("scrub") && /^Arrow(Left|Right)$|^Home$|^End$/.test(event.key);
+      if (!stepping && needed(event.target, event.key)) return;
+      const entry = table.find(([keys]) => keys.includes(event.key));
+      if (!entry || !parts.playback.run) return;
+      event.preventDefault();
+      entry[3](event);
+    });
+  }
+}

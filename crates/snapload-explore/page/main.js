@@ -1,0 +1,253 @@
+// Wires state, server, scene, charts and controls together.
+
+import { Runner, fetchSchema } from "./api.js";
+import { Charts } from "./charts.js";
+import { EventTable } from "./events.js";
+import { Keyboard } from "./keyboard.js";
+import { SweepMap } from "./map.js";
+import { Take } from "./take.js";
+import { Controls } from "./controls.js";
+import { Link } from "./link.js";
+import { onResize } from "./plot.js";
+import { Playback } from "./playback.js";
+import { Run } from "./run.js";
+import { Stage } from "./stage.js";
+import { State } from "./state.js";
+import { chooseTheme, chosenTheme, colours, onSystemScheme, THEMES } from "./theme.js";
+import { Trajectory } from "./trajectory.js";
+import { Transport } from "./transport.js";
+
+const $ = (id) => document.getElementById(id);
+/** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
+const SAMPLES = { first: 1200, finer: 6000 };
+const LONG_T = 20;
+const REST_MS = 300;
+
+chooseTheme(chosenTheme());
+
+class Page {
+  constructor(schema) {
+    this.state = new State(schema);
+    this.run = null;
+    this.hover = null;
+    this.link = new Link(this.state, {
+      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+    });
+    this.playback = new Playback(this.state, () => this.run);
+    this.stage = new Stage(this.state, this.playback);
+    this.transport = new Transport(this.state, this.playback);
+    this.controls = new Controls($("controls"), this.state, {
+      onChange: (since, settled) => {
+        this.ask(since);
+        this.link.held = !settled;
+        if (settled) this.link.write({ now: true });
+      },
+    });
+    const jump = (t) => {
+      this.playback.pause();
+      this.playback.seek(t);
+    };
+    const hover = (t, at) => this.setHover(t === null ? null : { t, at });
+    this.charts = new Charts($("charts"), {
+      colours,
+      onJump: jump,
+      onHover: hover,
+      onZoom: (window) => this.state.set({ window }),
+    });
+    this.events = new EventTable({ onJump: jump });
+    this.map = new SweepMap(this.state, {
+      colours,
+      onPick: (values) => {
+        this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
+        this.link.write({ now: true });
+      },
+    });
+    this.exports = new Take({
+      state: this.state,
+      stage: this.stage,
+      now: () => this.run,
+      question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
+      address: () => this.link.address,
+    });
+    this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
+    this.runner = new Runner({
+      onAnswer: (answer, since, question) => this.take(answer, since, question),
+      onError: (error) => this.fail(error),
+      onBusy: (busy) => document.body.classList.toggle("busy", busy),
+    });
+    this.state.listen((changed) => this.follow(changed));
+    this.keyboard = new Keyboard({
+      playback: this.playback,
+      transport: this.transport,
+      state: this.state,
+      map: this.map,
+    });
+    this.cases();
+    this.tools();
+    this.link.read();
+    this.ask();
+    onResize(() => this.drawAll());
+  }
+
+  /** Asks for the run of the values as they are, which changed at a time; once, however often one asks. */
+  ask(since = performance.now()) {
+    const { values, ghost } = this.state;
+    const asked = JSON.stringify([values, ghost]);
+    if (asked === this.asked) return;
+    this.asked = asked;
+    clearTimeout(this.refining);
+    this.runner.ask({ values, ghost, samples: SAMPLES.first }, since);
+  }
+
+  take(answer, since, question) {
+    this.run = new Run(answer);
+    const latest = this.asked === JSON.stringify([question.values, question.ghost]);
+    if (latest) {
+      $("failed").hidden = true;
+      this.controls.clearError();
+      this.controls.show(answer.values);
+    }
+    this.stage.take(this.run);
+    this.transport.take(this.run);
+    if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
+    if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
+    this.drawAll();
+    if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
+  }
+
+  /** What follows the picture: how long it took, what is read rather than seen, and more rows of a long run. */
+  afterwards(question, since, latest) {
+    paintedSince(since);
+    clearTimeout(this.later);
+    this.later = setTimeout(() => {
+      this.events.take(this.run);
+      this.events.show(this.state.t, true);
+      this.exports.take(this.run);
+    }, 60);
+    clearTimeout(this.refining);
+    if (!latest || this.run.tEnd < LONG_T) return;
+    this.refining = setTimeout(() => this.runner.ask({ ...question, samples: SAMPLES.finer }), REST_MS);
+  }
+
+  fail(error) {
+    this.controls.showError(error.message);
+    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of the last values that could be run.`;
+    $("failed").hidden = false;
+    // A link may begin with values that can not be run: then there is the case of the start to look at.
+    if (!this.run) {
+      this.runner.ask(
+        { values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first },
+        performance.now(),
+      );
+    }
+  }
+
+  /** Redraws what a change of the state concerns. */
+  follow(changed) {
+    if (changed.has("values") || changed.has("ghost")) {
+      this.controls.show(this.run?.values);
+      this.showCase();
+      // A change that came from the controls is asked for by them, with the time of its event.
+      queueMicrotask(() => this.ask());
+    }
+    if (["picture", "view", "window"].some((name) => changed.has(name))) this.drawAll();
+    else if (changed.has("t") || changed.has("speed")) this.drawMoment();
+    if (changed.has("values") || changed.has("map")) this.map.follow();
+    this.stage.showChoices();
+    this.transport.show();
+    this.link.write();
+  }
+
+  setHover(hover) {
+    this.hover = hover;
+    this.drawMoment();
+  }
+
+  drawAll() {
+    if (!this.run) return;
+    const { window, picture } = this.state;
+    this.charts.draw(this.run, window);
+    this.trajectory.draw(this.run, window, picture);
+    this.transport.draw();
+    this.drawMoment();
+  }
+
+  drawMoment() {
+    if (!this.run || this.framed) return;
+    // However many events ask for it, a picture is painted once a frame.
+    this.framed = requestAnimationFrame(() => {
+      this.framed = null;
+      this.stage.draw();
+      this.charts.cursor(this.state.t, this.hover);
+      this.trajectory.cursor(this.state.t, this.hover);
+      this.transport.show();
+      this.events.show(this.state.t, !this.playback.playing);
+    });
+  }
+
+  cases() {
+    const select = $("case");
+    const { start, cases } = this.state.schema;
+    const own = cases.some(({ code }) => code === start.name) ? [] : [new Option(start.name, start.name)];
+    const thesis = document.createElement("optgroup");
+    thesis.label = "The thesis";
+    for (const { code, title } of cases) thesis.append(new Option(`${code}  ${title}`, code));
+    select.append(...own, thesis, new Option("values of your own", ""));
+    select.addEventListener("change", () => {
+      if (!select.value) return this.showCase();
+      const { values } = cases.find(({ code }) => code === select.value) ?? start;
+      this.state.set({ values: { ...values }, t: 0, window: null });
+      this.link.write({ now: true });
+    });
+    this.showCase();
+  }
+
+  showCase() {
+    const name = this.state.caseName;
+    $("case").value = name ?? "";
+    $("case").lastElementChild.hidden = name !== null;
+  }
+
+  tools() {
+    const show = () => ($("theme").textContent = `Theme: ${chosenTheme()}`);
+    $("theme").addEventListener("click", () => {
+      chooseTheme(THEMES[(THEMES.indexOf(chosenTheme()) + 1) % THEMES.length]);
+      show();
+      this.drawAll();
+    });
+    show();
+    onSystemScheme(() => this.drawAll());
+    // The address belongs to the state: a link within the page must not write into it.
+    $("skip").addEventListener("click", (event) => {
+      event.preventDefault();
+      $("scene").focus();
+    });
+  }
+}
+
+function note(text) {
+  $("note").textContent = text;
+  $("note").hidden = !text;
+}
+
+/** Says how long it took from an event to the picture that follows from it. */
+function paintedSince(since) {
+  requestAnimationFrame(() => {
+    // After the frame's paint, and not before it.
+    const channel = new MessageChannel();
+    channel.port1.onmessage = () => {
+      const took = performance.now() - since;
+      $("took").textContent = `picture in ${Math.round(took)} ms`;
+      $("took").dataset.ms = took.toFixed(2);
+      $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;
+    };
+    channel.port2.postMessage(null);
+  });
+}
+
+try {
+  new Page(await fetchSchema());
+} catch (error) {
+  note(`The page could not start: ${error.message}. Is snapload explore still running?`);
+  throw error;
+}

@@ -1,0 +1,81 @@
+// Time: play, pause, step, scrub.
+
+import { SPEEDS } from "./state.js";
+
+export class Playback {
+  /** `now` gives the run that is shown. */
+  constructor(state, now) {
+    Object.assign(this, { state, now, playing: false, frame: null, onPlaying: () => {} });
+  }
+
+  get run() {
+    return this.now();
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  play() {
+    if (!this.run) return;
+    if (this.state.t >= this.#last) this.state.set({ t: this.#first });
+    this.playing = true;
+    this.onPlaying(true);
+    let before = null;
+    const tick = (time) => {
+      if (!this.playing) return;
+      // A page that was hidden goes on from where it was, and does not leap.
+      const elapsed = before === null ? 0 : Math.min((time - before) / 1000, 0.1);
+      before = time;
+      const t = this.state.t + elapsed * this.state.speed;
+      this.state.set({ t: Math.min(t, this.#last) });
+      if (t >= this.#last) this.pause();
+      else this.frame = requestAnimationFrame(tick);
+    };
+    this.frame = requestAnimationFrame(tick);
+  }
+
+  pause() {
+    if (!this.playing) return;
+    this.playing = false;
+    cancelAnimationFrame(this.frame);
+    this.onPlaying(false);
+  }
+
+  seek(t) {
+    if (!this.run) return;
+    this.state.set({ t: Math.min(Math.max(t, 0), this.run.tEnd) });
+  }
+
+  next() {
+    this.pause();
+    this.seek(this.run.nextStop(this.state.t));
+  }
+
+  previous() {
+    this.pause();
+    this.seek(this.run.previousStop(this.state.t));
+  }
+
+  /** A small step: a five-hundredth of the time that is shown. */
+  fine(direction) {
+    this.pause();
+    this.seek(this.state.t + (direction * (this.#last - this.#first)) / 500);
+  }
+
+  faster(direction) {
+    const i = SPEEDS.indexOf(this.state.speed) + direction;
+    if (SPEEDS[i]) this.state.set({ speed: SPEEDS[i] });
+  }
+
+  get #first() {
+    return this.state.window?.[0] ?? 0;
+  }
+
+  get #last() {
+    const end = this.run.tEnd;
+    const last = Math.min(this.state.window?.[1] ?? end, end);
+    return this.state.t > last ? end : last;
+  }
+}

@@ -1,0 +1,158 @@
+// Axes on a canvas: what the charts, the trajectory and the map have in common.
+
+import { fixed, number } from "./words.js";
+
+/** Round values across a range, about so many. */
+export function ticks(low, high, about) {
+  const rough = (high - low) / Math.max(about, 1);
+  if (!(rough > 0) || !Number.isFinite(rough)) return { values: [low], label: (v) => number(v) };
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999);
+  const values = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) values.push(k * step);
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const label = (v) => (decimals > 6 ? number(v, 3) : fixed(Math.abs(v) < step * 1e-6 ? 0 : v, decimals));
+  return { values, label };
+}
+
+/** A rectangle of the page that shows a range of x and a range of y. */
+export class Frame {
+  constructor([left, top, width, height], [x0, x1], [y0, y1]) {
+    Object.assign(this, { left, top, width, height, x0, x1, y0, y1 });
+  }
+
+  x(value) {
+    return this.left + ((value - this.x0) / (this.x1 - this.x0)) * this.width;
+  }
+
+  y(value) {
+    return this.top + this.height - ((value - this.y0) / (this.y1 - this.y0)) * this.height;
+  }
+
+  atX(px) {
+    return this.x0 + ((px - this.left) / this.width) * (this.x1 - this.x0);
+  }
+
+  atY(px) {
+    return this.y0 + ((this.top + this.height - px) / this.height) * (this.y1 - this.y0);
+  }
+
+  holdsX(value) {
+    return value >= this.x0 && value <= this.x1;
+  }
+
+  clip(context) {
+    context.beginPath();
+    context.rect(this.left, this.top, this.width, this.height);
+    context.clip();
+  }
+}
+
+export const FONT = '11px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif';
+
+/** Grid lines and the numbers at them; those of x only where asked. */
+export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTicks }) {
+  context.save();
+  context.font = FONT;
+  context.lineWidth = 1;
+  context.fillStyle = colours.muted;
+  context.strokeStyle = colours.rule;
+  context.textBaseline = "middle";
+  context.textAlign = "right";
+  for (const value of yTicks.values) {
+    const y = crisp(frame.y(value));
+    stroke(context, [
+      [frame.left, y],
+      [frame.left + frame.width, y],
+    ]);
+    context.fillText(yTicks.label(value), frame.left - 6, y);
+  }
+  context.textBaseline = "top";
+  context.textAlign = "center";
+  for (const value of xTicks.values) {
+    const x = crisp(frame.x(value));
+    stroke(context, [
+      [x, frame.top],
+      [x, frame.top + frame.height],
+    ]);
+    if (xLabels) context.fillText(xTicks.label(value), x, frame.top + frame.height + 6);
+  }
+  context.strokeStyle = colours.faint;
+  context.strokeRect(crisp(frame.left), crisp(frame.top), Math.round(frame.width), Math.round(frame.height));
+  context.restore();
+}
+
+const crisp = (px) => Math.round(px) + 0.5;
+
+export function stroke(context, points) {
+  context.beginPath();
+  points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+  context.stroke();
+}
+
+/** A column against another as one line, from row to row. */
+export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length) {
+  context.beginPath();
+  for (let i = from; i < to; i += 1) {
+    const [x, y] = [frame.x(xs[i]), frame.y(ys[i])];
+    if (i === from) context.moveTo(x, y);
+    else context.lineTo(x, y);
+  }
+  context.stroke();
+}
+
+/** The mark of a snap: a cross for cable 1, a ring for cable 2. */
+export function drawMark(context, cable, x, y, size) {
+  context.beginPath();
+  if (cable === 1) {
+    context.moveTo(x - size, y - size);
+    context.lineTo(x + size, y + size);
+    context.moveTo(x - size, y + size);
+    context.lineTo(x + size, y - size);
+  } else {
+    context.arc(x, y, size * 1.1, 0, 2 * Math.PI);
+  }
+  context.stroke();
+}
+
+/** Low and high of a column with some air; never empty. */
+export function span(columns, air = 0.06) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const column of columns) {
+    for (const value of column) {
+      if (value === null) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  if (low > high) return [0, 1];
+  const pad = air * (high - low) || Math.max(0.05, 0.1 * Math.abs(high));
+  return [low - pad, high + pad];
+}
+
+const sizes = new Map();
+const resized = new Set();
+const watcher = new ResizeObserver((entries) => {
+  for (const { target } of entries) sizes.set(target, [target.clientWidth, target.clientHeight]);
+  for (const listener of resized) listener();
+});
+
+/** Calls back when a canvas that was drawn on has changed its size. */
+export const onResize = (listener) => resized.add(listener);
+
+/** A canvas at the resolution of the screen, cleared, with its context in CSS pixels. */
+export function prepare(canvas) {
+  if (!sizes.has(canvas)) {
+    // Asking the page each time would have it laid out anew before every picture.
+    sizes.set(canvas, [canvas.clientWidth, canvas.clientHeight]);
+    watcher.observe(canvas);
+  }
+  const [width, height] = sizes.get(canvas);
+  const ratio = window.devicePixelRatio || 1;
+  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== w || canvas.height !== h) Object.assign(canvas, { width: w, height: h });
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, width, height);
+  return { context, width, height };
+}

@@ -1,0 +1,121 @@
+// The scene on its canvas, what is said of the run, and how the scene is to be shown.
+
+import { prepare } from "./plot.js";
+import { paint } from "./shapes.js";
+import { sceneShapes, sceneWords } from "./scene.js";
+import { colours, stillness } from "./theme.js";
+import { modeName, number, plain, prose } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+/** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
+const REST_MS = 900;
+
+export class Stage {
+  constructor(state, playback) {
+    Object.assign(this, { state, playback, run: null, saying: null });
+    this.canvas = $("scene");
+    for (const name of ["picture", "view"]) {
+      for (const radio of document.getElementsByName(name)) {
+        radio.addEventListener("change", () => state.set({ [name]: radio.value }));
+      }
+    }
+    const ghost = () => {
+      const size = Number($("ghost-size").value);
+      const legal = size > 0 && Number.isFinite(size);
+      $("ghost-size").setAttribute("aria-invalid", String(!legal));
+      if (legal || !$("ghost").checked) state.set({ ghost: $("ghost").checked ? size : null });
+    };
+    $("ghost").addEventListener("change", ghost);
+    $("ghost-size").addEventListener("change", ghost);
+  }
+
+  take(run) {
+    this.run = run;
+    this.#summarise();
+    clearTimeout(this.saying);
+    const words = this.#words();
+    this.saying = setTimeout(
+      () => words !== $("said").textContent && ($("said").textContent = words),
+      $("said").textContent ? REST_MS : 0,
+    );
+    $("ramp-words").textContent =
+      run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
+  }
+
+  /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
+  #words() {
+    const { end, horizon, ghost, cut } = this.run;
+    const parts = [end.words, horizon.words].flatMap((words) => shortened(words).split("\n").map(sentence));
+    if (ghost) {
+      const apart =
+        ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
+      parts.push(`The neighbour, started ${number(Math.abs(ghost.by))} away in ${ghost.key}, ${apart}.`);
+    }
+    if (this.run.ghost_error) parts.push(sentence(`no neighbour: ${this.run.ghost_error}`));
+    if (cut) parts.push(`Of ${cut.impacts} impacts the first ${cut.shown} are shown.`);
+    return parts.join(" ");
+  }
+
+  #summarise() {
+    const { norms, impacts, modes } = this.run;
+    const taut = modes.taut.reduce((sum, set, i) => sum + (set.length ? modes.t_end[i] - modes.t_start[i] : 0), 0);
+    const rows = [
+      ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length), "impacts"],
+      ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
+      ["ρ<sub>2</sub> to t = 10", number(norms.rho2, 5), "rho2"],
+      ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
+      ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
+      ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
+      ["Hardest impulse", number(this.run.hardest, 5)],
+      ["Time taut", `${number(taut, 4)} T`],
+    ];
+    $("summary").innerHTML = rows
+      .map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`)
+      .join("");
+  }
+
+  draw() {
+    const { run, canvas, state } = this;
+    const { context, width, height } = prepare(canvas);
+    paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), this.options(width, height)));
+    this.#caption();
+  }
+
+  options(width, height, scheme) {
+    const { picture, view, speed } = this.state;
+    return { width, height, picture, view, speed, colours: colours(scheme), still: stillness.matches };
+  }
+
+  #caption() {
+    const t = Math.min(this.state.t, this.run.tEnd);
+    const moment = this.run.at(t);
+    const past = this.run.beyond(t) ? ", past the horizon" : "";
+    const taut = moment.taut.length
+      ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
+      : "";
+    $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
+    if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
+  }
+
+  /** Shows how the scene is chosen to be shown. */
+  showChoices() {
+    const { picture, view, ghost } = this.state;
+    for (const [name, value] of Object.entries({ picture, view })) {
+      for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
+    }
+    $("ghost").checked = ghost !== null;
+    if (ghost !== null) $("ghost-size").value = plain(ghost);
+  }
+}
+
+/** With numbers of no more digits than one reads. */
+function shortened(words) {
+  return prose(words)
+    .replaceAll("pi/2", "π/2")
+    .replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
+}
+
+function sentence(text) {
+  const begun = text.charAt(0).toUpperCase() + text.slice(1);
+  return begun.endsWith(".") ? begun : `${begun}.`;
+}

@@ -1,0 +1,171 @@
+// Everything the page shows follows from this state; the link holds all of it.
+
+export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
+const PICTURES = ["real", "thesis"];
+const VIEWS = ["whole", "close"];
+export const MAP_COLOURS = ["reason", "t", "impacts", "rho3", "y_max", "theta_max"];
+export const MOST_CELLS = 200;
+
+const BEGINNING = {
+  t: 0,
+  speed: 1,
+  picture: "real",
+  view: "whole",
+  ghost: null,
+  window: null,
+  map: null,
+};
+
+/** The state with whoever listens to it. */
+export class State {
+  constructor(schema) {
+    this.schema = schema;
+    this.defaults = Object.fromEntries(schema.keys.map((key) => [key.name, key.default]));
+    this.derived = new Set(schema.keys.filter(isDerived).map((key) => key.name));
+    this.values = { ...schema.start.values };
+    Object.assign(this, BEGINNING);
+    this.listeners = [];
+  }
+
+  /** Calls back with the names of what changed. */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  set(changes) {
+    const changed = Object.keys(changes).filter((name) => !same(this[name], changes[name]));
+    if (changed.length === 0) return;
+    Object.assign(this, changes);
+    for (const listener of this.listeners) listener(new Set(changed));
+  }
+
+  /** One key; a value of null, or its default, leaves it out. */
+  setValue(name, value) {
+    const values = { ...this.values };
+    if (value === null || (value === this.defaults[name] && !this.derived.has(name))) delete values[name];
+    else values[name] = value;
+    this.set({ values });
+  }
+
+  /** The value of a key; null where it follows from others. */
+  value(name) {
+    return this.values[name] ?? (this.derived.has(name) ? null : this.defaults[name]);
+  }
+
+  /** The built-in case with exactly these values, or that from which the program was started. */
+  get caseName() {
+    const { start, cases } = this.schema;
+    const all = [start, ...cases.map(({ code, values }) => ({ name: code, values }))];
+    return all.find(({ values }) => same(values, this.values))?.name ?? null;
+  }
+
+  /** The state as the fragment of a link. */
+  toFragment() {
+    const parts = Object.entries(this.values).map(([name, value]) => [name, String(value)]);
+    const add = (name, value, beginning) => value !== beginning && parts.push([name, String(value)]);
+    parts.push(["t", String(this.t)]);
+    add("speed", this.speed, BEGINNING.speed);
+    add("picture", this.picture, BEGINNING.picture);
+    add("view", this.view, BEGINNING.view);
+    add("ghost", this.ghost, BEGINNING.ghost);
+    if (this.window) parts.push(["window", this.window.join(",")]);
+    if (this.map) parts.push(["map", mapToText(this.map)]);
+    return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
+  }
+
+  /**
+   * Takes the state of a fragment, whole: what it does not name is as in the beginning. Gives what could not be read.
+   */
+  takeFragment(fragment) {
+    if (!fragment) {
+      this.set({ ...BEGINNING, values: { ...this.schema.start.values } });
+      return [];
+    }
+    const next = { ...BEGINNING, values: {} };
+    const broken = [];
+    for (const part of fragment.split("&")) {
+      const [name, ...rest] = part.split("=");
+      const text = decode(rest.join("="));
+      const key = this.schema.keys.find((one) => one.name === name);
+      const value = text === null ? undefined : key ? readValue(key, text) : readView(name, text, this.schema);
+      if (value === undefined) broken.push(part);
+      else if (key) next.values[name] = value;
+      else next[name] = value;
+    }
+    for (const name of Object.keys(next.values)) {
+      if (next.values[name] === this.defaults[name] && !this.derived.has(name)) delete next.values[name];
+    }
+    this.set(next);
+    return broken;
+  }
+}
+
+/** Whether the default of a key is a rule rather than a number. */
+const isDerived = (key) => key.default === null || Number.isNaN(parseFloat(key.default_in_words || "0"));
+
+const same = (one, other) => JSON.stringify(sorted(one)) === JSON.stringify(sorted(other));
+
+function sorted(value) {
+  if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
+  return Object.fromEntries(Object.entries(value).sort(([a], [b]) => (a < b ? -1 : 1)));
+}
+
+function decode(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return null;
+  }
+}
+
+function finite(text) {
+  const value = text.trim() === "" ? NaN : Number(text);
+  return Number.isFinite(value) ? value : undefined;
+}
+
+/** The value of a key from text; undefined where it can be none. Whether it is allowed is for the server to say. */
+export function readValue(key, text) {
+  if (key.kind.type === "flag") return text === "true" ? true : text === "false" ? false : undefined;
+  if (key.kind.type === "choice") return key.kind.options.includes(text) ? text : undefined;
+  return finite(text);
+}
+
+function readView(name, text, schema) {
+  const number = finite(text);
+  const oneOf = (list, value) => (list.includes(value) ? value : undefined);
+  switch (name) {
+    case "t":
+      return number >= 0 ? number : undefined;
+    case "speed":
+      return oneOf(SPEEDS, number);
+    case "picture":
+      return oneOf(PICTURES, text);
+    case "view":
+      return oneOf(VIEWS, text);
+    case "ghost":
+      return number > 0 ? number : undefined;
+    case "window": {
+      const [from, to] = text.split(",").map(finite);
+      return from >= 0 && to > from ? [from, to] : undefined;
+    }
+    case "map":
+      return mapFromText(text, schema);
+    default:
+      return undefined;
+  }
+}
+
+const axisToText = ({ key, low, high, count }) => [key, low, high, count].join(",");
+const mapToText = ({ x, y, colour }) => [axisToText(x), axisToText(y), colour].join(",");
+
+function mapFromText(text, schema) {
+  const parts = text.split(",");
+  const axis = ([key, ...rest]) => {
+    const [low, high, count] = rest.map(finite);
+    const numeric = schema.keys.some((one) => one.name === key && one.kind.type === "number");
+    const legal = numeric && high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
+    return legal ? { key, low, high, count } : undefined;
+  };
+  const [x, y, colour] = [axis(parts.slice(0, 4)), axis(parts.slice(4, 8)), parts[8]];
+  return parts.length === 9 && x && y && x.key !== y.key && MAP_COLOURS.includes(colour) ? { x, y, colour } : undefined;
+}

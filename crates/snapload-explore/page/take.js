@@ -1,0 +1,137 @@
+// What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
+
+import { fetchFile } from "./api.js";
+import { Film } from "./film.js";
+import { paint, svg } from "./shapes.js";
+import { sceneShapes } from "./scene.js";
+
+const $ = (id) => document.getElementById(id);
+/** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
+const SIZE = { width: 960, height: 676 };
+const FINENESS = 2;
+const MAY_MS = 4000;
+
+export class Take {
+  /** `question` gives what is asked of the server now; `now` the run that is shown. */
+  constructor({ state, stage, now, question, address }) {
+    Object.assign(this, { state, stage, now, question, address, film: null });
+    for (const button of document.querySelectorAll("[data-file]")) {
+      button.addEventListener("click", () => this.#try(() => this.#file(button.dataset.file)));
+    }
+    $("scene-svg").addEventListener("click", () => this.#try(() => this.#sceneSvg()));
+    $("scene-png").addEventListener("click", () => this.#try(() => this.#scenePng()));
+    $("film").addEventListener("click", () => this.#try(() => this.#film()));
+    $("film-cancel").addEventListener("click", () => this.film?.cancel());
+    for (const [id, text] of [
+      ["copy-shell", () => this.now().shell],
+      ["copy-python", () => this.now().python],
+      ["copy-link", address],
+    ]) {
+      $(id).addEventListener("click", () => copy($(id), text()));
+    }
+  }
+
+  take(run) {
+    $("shell").textContent = run.shell;
+    $("python").textContent = run.python;
+  }
+
+  /** Says in words what goes wrong. */
+  async #try(action) {
+    this.say("");
+    try {
+      await action();
+    } catch (error) {
+      this.say(error.message);
+    }
+  }
+
+  say(text) {
+    $("take-said").textContent = text;
+  }
+
+  async #file(name) {
+    save(await fetchFile(name, this.question()), name);
+    this.say(`${name} is saved.`);
+  }
+
+  #shapes(scheme) {
+    const { t } = this.state;
+    return sceneShapes(this.now(), Math.min(t, this.now().tEnd), this.stage.options(SIZE.width, SIZE.height, scheme));
+  }
+
+  #sceneSvg() {
+    // On paper a picture is light, whatever the page is.
+    const title = `${this.now().shell}, t = ${this.state.t}`;
+    save(
+      new Blob([svg(this.#shapes("light"), SIZE.width, SIZE.height, title)], { type: "image/svg+xml" }),
+      "scene.svg",
+    );
+    this.say("scene.svg is saved.");
+  }
+
+  async #scenePng() {
+    const canvas = document.createElement("canvas");
+    Object.assign(canvas, { width: SIZE.width * FINENESS, height: SIZE.height * FINENESS });
+    const context = canvas.getContext("2d");
+    context.scale(FINENESS, FINENESS);
+    paint(context, [sheet("#fdfdfb"), ...this.#shapes("light")]);
+    save(await new Promise((done) => canvas.toBlob(done, "image/png")), "scene.png");
+    this.say("scene.png is saved.");
+  }
+
+  async #film() {
+    const run = this.now();
+    const [from, to] = this.state.window ?? [0, run.tEnd];
+    const film = (this.film = new Film({
+      run,
+      from,
+      to: Math.min(to, run.tEnd),
+      options: this.stage.options(SIZE.width, SIZE.height),
+      size: SIZE,
+    }));
+    $("film").disabled = true;
+    $("film-cancel").hidden = $("film-progress").hidden = false;
+    try {
+      const blob = await film.record((part, left) => {
+        $("film-progress").value = part;
+        this.say(`Recording: ${Math.ceil(left)} s left. Keep this page in view.`);
+      });
+      if (blob) save(blob, "run.webm");
+      this.say(blob ? "run.webm is saved." : "The recording was given up.");
+    } finally {
+      $("film").disabled = false;
+      $("film-cancel").hidden = $("film-progress").hidden = true;
+      this.film = null;
+    }
+  }
+}
+
+const sheet = (fill) => ({
+  points: [
+    [0, 0],
+    [SIZE.width, 0],
+    [SIZE.width, SIZE.height],
+    [0, SIZE.height],
+  ],
+  closed: true,
+  fill,
+});
+
+function save(blob, name) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), MAY_MS);
+}
+
+async function copy(button, text) {
+  const before = button.dataset.words ?? (button.dataset.words = button.textContent);
+  try {
+    await navigator.clipboard.writeText(text);
+    button.textContent = "Copied";
+  } catch {
+    // Where a page may not write there, the text is shown to be copied by hand.
+    prompt("Copy this:", text);
+  }
+  setTimeout(() => (button.textContent = before), 1600);
+}

@@ -1,0 +1,97 @@
+// Colours are named in theme.css alone; whoever paints on a canvas asks for them here.
+
+const NAMES = [
+  "paper",
+  "panel",
+  "ink",
+  "muted",
+  "faint",
+  "rule",
+  "accent",
+  "cable-1",
+  "cable-2",
+  "ghost",
+  "taut",
+  "strained",
+  "shade",
+  "past",
+  "water-high",
+  "water-deep",
+  "floor",
+  "body",
+  "body-edge",
+  "wave",
+  "snap",
+  "end-settled",
+  "end-rotation_limit",
+  "end-upper_bound",
+  "end-end_time",
+  "end-sliding_start",
+  "end-impact_limit",
+];
+
+const caches = new Map();
+
+/** All colours of the scheme in effect, or of the one named. */
+export function colours(scheme = "") {
+  const known = caches.get(scheme);
+  if (known) return known;
+  const probe = document.createElement("span");
+  probe.hidden = true;
+  if (scheme) probe.style.colorScheme = scheme;
+  document.body.append(probe);
+  const found = {};
+  for (const name of NAMES) {
+    probe.style.color = `var(--${name})`;
+    found[name] = getComputedStyle(probe).color;
+  }
+  probe.remove();
+  caches.set(scheme, found);
+  return found;
+}
+
+/** Between two colours: `part` of the way from the first to the second. */
+export function mix(from, to, part) {
+  const channels = (colour) =>
+    colour
+      .match(/[\d.]+/g)
+      .slice(0, 3)
+      .map(Number);
+  const [a, b] = [channels(from), channels(to)];
+  const k = Math.min(Math.max(part, 0), 1);
+  return `rgb(${a.map((v, i) => Math.round(v + (b[i] - v) * k)).join(" ")})`;
+}
+
+const KEY = "snapload-theme";
+export const THEMES = ["auto", "light", "dark"];
+
+/** The theme that was chosen before; `auto` follows the system. A browser may keep nothing for us. */
+export function chosenTheme() {
+  try {
+    const kept = localStorage.getItem(KEY);
+    return THEMES.includes(kept) ? kept : "auto";
+  } catch {
+    return "auto";
+  }
+}
+
+export function chooseTheme(theme) {
+  if (theme === "auto") delete document.documentElement.dataset.theme;
+  else document.documentElement.dataset.theme = theme;
+  caches.clear();
+  try {
+    localStorage.setItem(KEY, theme);
+  } catch {
+    // The choice then lasts as long as the page.
+  }
+}
+
+/** Calls back when the system's scheme changes. */
+export function onSystemScheme(listener) {
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    caches.clear();
+    listener();
+  });
+}
+
+export const stillness = matchMedia("(prefers-reduced-motion: reduce)");

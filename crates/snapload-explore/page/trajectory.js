@@ -1,0 +1,212 @@
+// The path of the body's centre, with the boundaries at which a cable is taut.
+
+import { label } from "./charts.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, stroke, ticks } from "./plot.js";
+import { fixed, number } from "./words.js";
+
+const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
+const REACH_PX = 40;
+const MOST_MARKS = 2500;
+const PIECES = 64;
+
+export class Trajectory {
+  constructor(figure, { colours, onJump, onHover }) {
+    const over = figure.querySelector("svg");
+    Object.assign(this, { base: figure.querySelector("canvas"), over, colours, run: null, frame: null });
+    [this.boundaries, this.now, this.hovered] = [over.querySelectorAll(".boundary"), ...over.querySelectorAll(".at")];
+    this.window = over.querySelector("svg");
+    this.reading = figure.querySelector("output");
+    over.addEventListener("pointermove", (event) => {
+      if (event.buttons === 0 || event.pointerType === "mouse") onHover(this.#timeNear(event));
+    });
+    over.addEventListener("pointerleave", () => onHover(null));
+    over.addEventListener("click", (event) => {
+      const t = this.#timeNear(event);
+      if (t !== null) onJump(t);
+    });
+  }
+
+  /** The time at which the path passes nearest to the pointer, if it does so within reach. */
+  #timeNear(event) {
+    if (!this.run) return null;
+    const { t, x, y } = this.run.motion;
+    const box = this.over.getBoundingClientRect();
+    const [px, py] = [event.clientX - box.left, event.clientY - box.top];
+    let best = [REACH_PX, null];
+    for (let i = this.rows[0]; i < this.rows[1]; i += 1) {
+      const distance = Math.hypot(this.frame.x(x[i]) - px, this.frame.y(y[i]) - py);
+      if (distance < best[0]) best = [distance, t[i]];
+    }
+    return best[1];
+  }
+
+  draw(run, window, picture) {
+    this.run = run;
+    this.rows = rowsWithin(run.motion.t, window ?? [0, run.tEnd]);
+    const colours = this.colours();
+    const { context, width, height } = prepare(this.base);
+    this.frame = this.#frameFor(width, height, picture);
+    const { frame } = this;
+    drawAxes(context, frame, colours, {
+      xTicks: ticks(frame.x0, frame.x1, frame.width / 75),
+      yTicks: ticks(Math.min(frame.y0, frame.y1), Math.max(frame.y0, frame.y1), frame.height / 34),
+    });
+    label(context, colours, "x  [L]", frame.left + frame.width / 2, height - 5);
+    label(context, colours, "y  [L], towards the anchors", 11, frame.top + frame.height / 2, -Math.PI / 2);
+    context.save();
+    frame.clip(context);
+    this.#upright(context, colours);
+    this.#legs(context, colours);
+    this.#marks(context, colours);
+    this.#ghost(context, colours);
+    context.restore();
+    this.#letters(context, colours);
+    const reach = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L`;
+    const words = `${reach}; y at most ${number(run.norms.y_max, 3)} L`;
+    this.base.setAttribute("aria-label", `Path of the body's centre, y against x, ${words}.`);
+  }
+
+  /** One scale for both axes, as in the scene; y grows downwards on the page where the anchors are below. */
+  #frameFor(width, height, picture) {
+    const [from, to] = this.rows;
+    const of = (column) => span([column.slice(from, to)]);
+    const [w, h] = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
+    const [x, y] = [of(this.run.motion.x), of(this.run.motion.y)];
+    const scale = Math.max((x[1] - x[0]) / w, (y[1] - y[0]) / h, 1e-12);
+    const around = ([low, high], size) => [0.5 * (low + high - size * scale), 0.5 * (low + high + size * scale)];
+    const [ys, xs] = [around(y, h), around(x, w)];
+    this.perPx = scale;
+    return new Frame([MARGIN.left, MARGIN.top, w, h], xs, picture === "real" ? ys.reverse() : ys);
+  }
+
+  /**
+   * Where the centre is when a cable is just taut at this rotation: on a circle about the anchor less the arm. Only the
+   * part that passes the frame, as the circle of a long cable is larger than what can be drawn.
+   */
+  #boundary({ anchor, arm, length }, theta) {
+    const { frame } = this;
+    const [c, s] = [Math.cos(theta), Math.sin(theta)];
+    const [x, y] = [frame.x(anchor[0] - (c * arm[0] - s * arm[1])), frame.y(anchor[1] - (s * arm[0] + c * arm[1]))];
+    const radius = length / this.perPx;
+    const towards = Math.atan2(frame.top + frame.height / 2 - y, frame.left + frame.width / 2 - x);
+    const half = Math.min(Math.hypot(frame.width, frame.height) / radius, Math.PI);
+    return Array.from({ length: PIECES + 1 }, (_, k) => {
+      const angle = towards + half * ((2 * k) / PIECES - 1);
+      return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)];
+    });
+  }
+
+  /** The boundaries of a body that is upright. */
+  #upright(context, colours) {
+    context.strokeStyle = colours.muted;
+    context.lineWidth = 1.1;
+    context.setLineDash([2, 3]);
+    for (const cable of this.run.geometry.cables) stroke(context, this.#boundary(cable, 0));
+    context.setLineDash([]);
+  }
+
+  #legs(context, colours) {
+    const { motion, modes, horizon } = this.run;
+    const styles = [
+      [colours.ink, 1.1],
+      [colours["cable-1"], 2.4],
+      [colours["cable-2"], 2],
+    ];
+    const [from, to] = this.rows;
+    context.lineJoin = "round";
+    let i = from;
+    let leg = 0;
+    while (i < to - 1) {
+      const t = motion.t[i];
+      while (leg < modes.t_end.length - 1 && modes.t_end[leg] <= t) leg += 1;
+      const lost = horizon.t !== null && t >= horizon.t;
+      const until = Math.min(modes.t_end[leg] ?? Infinity, lost || horizon.t === null ? Infinity : horizon.t);
+      let j = i + 1;
+      while (j < to - 1 && motion.t[j] < until) j += 1;
+      const [stroke, width] = styles[Math.min(modes.taut[leg]?.length ?? 0, 2)];
+      context.strokeStyle = lost ? colours.past : stroke;
+      context.lineWidth = width;
+      drawColumn(context, this.frame, motion.x, motion.y, i, j + 1);
+      i = j;
+    }
+  }
+
+  #marks(context, colours) {
+    const { t, x, y, cable } = this.run.impacts;
+    if (t.length > MOST_MARKS) return;
+    const [first, last] = [this.run.motion.t[this.rows[0]], this.run.motion.t[this.rows[1] - 1]];
+    context.lineWidth = 1.2;
+    t.forEach((time, i) => {
+      if (time < first || time > last) return;
+      context.strokeStyle = colours[`cable-${cable[i]}`];
+      drawMark(context, cable[i], this.frame.x(x[i]), this.frame.y(y[i]), 2.3);
+    });
+  }
+
+  #ghost(context, colours) {
+    if (!this.run.ghost) return;
+    const { t, x, y } = this.run.ghost.motion;
+    const [from, to] = rowsWithin(t, [this.run.motion.t[this.rows[0]], this.run.motion.t[this.rows[1] - 1]]);
+    context.strokeStyle = colours.ghost;
+    context.lineWidth = 1.1;
+    context.setLineDash([5, 3]);
+    drawColumn(context, this.frame, x, y, from, to);
+    context.setLineDash([]);
+  }
+
+  /** I where the motion starts, E where it ends: the letters of the thesis's figures. */
+  #letters(context, colours) {
+    const { t, x, y } = this.run.motion;
+    const ends = [
+      ["I", 0],
+      ["E", t.length - 1],
+    ];
+    context.font = FONT;
+    for (const [letter, i] of ends) {
+      if (i < this.rows[0] || i >= this.rows[1]) continue;
+      const [px, py] = [this.frame.x(x[i]), this.frame.y(y[i])];
+      context.beginPath();
+      context.arc(px, py, 2.6, 0, 2 * Math.PI);
+      context.fillStyle = colours.ink;
+      context.fill();
+      context.strokeStyle = colours.panel;
+      context.lineWidth = 3;
+      context.strokeText(letter, px + 6, py - 5);
+      context.fillText(letter, px + 6, py - 5);
+    }
+  }
+
+  /** The body's centre and the boundaries at its rotation, at the time of the cursor, and what is hovered over. */
+  cursor(t, hover) {
+    if (!this.run) return;
+    const { left, top, width, height } = this.frame;
+    set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
+    const now = this.run.at(Math.min(t, this.run.tEnd));
+    this.run.geometry.cables.forEach((cable, i) => {
+      set(this.boundaries[i], {
+        points: this.#boundary(cable, now.theta)
+          .map((point) => point.map(short).join())
+          .join(" "),
+      });
+    });
+    set(this.now, { cx: this.frame.x(now.x), cy: this.frame.y(now.y) });
+    const read = hover ? this.run.at(hover.t) : now;
+    this.hovered.style.display = hover ? "" : "none";
+    set(this.hovered, { cx: this.frame.x(read.x), cy: this.frame.y(read.y) });
+    const words = `t ${fixed(read.t, 3)}  x ${fixed(read.x, 4)}  y ${fixed(read.y, 4)}`;
+    if (this.reading.value !== words) this.reading.value = words;
+  }
+}
+
+const short = (px) => Math.round(px * 10) / 10;
+
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+}
+
+function rowsWithin(t, [from, to]) {
+  let [low, high] = [0, t.length];
+  while (low < high - 1 && t[low] < from) low += 1;
+  while (high > low + 1 && t[high - 1] > to) high -= 1;
+  return [low, high];
+}

@@ -1,0 +1,96 @@
+// The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
+
+import { prepare } from "./plot.js";
+import { SPEEDS } from "./state.js";
+import { colours } from "./theme.js";
+import { fixed, modeName, number } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+
+export class Transport {
+  constructor(state, playback) {
+    Object.assign(this, { state, playback, run: null });
+    for (const speed of SPEEDS) $("speed").append(new Option(`${speed} T/s`, speed));
+    const on = (id, action) => $(id).addEventListener("click", action);
+    on("play", () => playback.toggle());
+    on("first", () => this.#jump(0));
+    on("last", () => this.#jump(this.run.tEnd));
+    on("previous", () => playback.previous());
+    on("next", () => playback.next());
+    on("zoom-in", () => this.zoom(0.5));
+    on("zoom-out", () => this.zoom(2));
+    on("zoom-all", () => state.set({ window: null }));
+    $("speed").addEventListener("change", () => state.set({ speed: Number($("speed").value) }));
+    $("scrub").addEventListener("input", () => {
+      playback.pause();
+      playback.seek(Number($("scrub").value));
+    });
+    playback.onPlaying = (playing) => {
+      $("play").textContent = playing ? "Pause" : "Play";
+      this.show();
+    };
+  }
+
+  #jump(t) {
+    this.playback.pause();
+    this.playback.seek(t);
+  }
+
+  /** Shows so many times as much time about the cursor. */
+  zoom(factor) {
+    const end = this.run.tEnd;
+    const [from, to] = this.state.window ?? [0, end];
+    const length = (to - from) * factor;
+    if (length >= end) return this.state.set({ window: null });
+    const least = Math.max(length, 1e-6);
+    const start = Math.min(Math.max(this.state.t - least / 2, 0), end - least);
+    this.state.set({ window: [Number(start.toPrecision(9)), Number((start + least).toPrecision(9))] });
+  }
+
+  take(run) {
+    this.run = run;
+  }
+
+  show() {
+    if (!this.run) return;
+    const { t, speed, window } = this.state;
+    const [from, to] = window ?? [0, this.run.tEnd];
+    Object.assign($("scrub"), { min: from, max: to, value: t });
+    const words = `${fixed(t, 3)} of ${fixed(this.run.tEnd, 3)} T, ${modeName(this.run.tautAt(t))}`;
+    if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words);
+    const count = this.run.latestImpact(t) + 1;
+    $("clock").dataset.t = t;
+    $("clock").value = `t = ${fixed(t, 4)} T`;
+    $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
+    $("speed").value = speed;
+    $("window-words").value = window ? `t ${number(from, 4)} to ${number(to, 4)}` : "";
+    $("zoom-all").disabled = window === null;
+  }
+
+  /** The strip behind the slider: modes as bands, impacts as ticks, what is past the horizon grey. */
+  draw() {
+    const { context, width, height } = prepare($("strip"));
+    const paints = colours();
+    const [from, to] = this.state.window ?? [0, this.run.tEnd || 1];
+    const inset = 8;
+    const x = (t) => inset + ((t - from) / (to - from)) * (width - 2 * inset);
+    const band = (a, b, colour, y, h) => {
+      const [left, right] = [Math.max(x(a), inset), Math.min(x(b), width - inset)];
+      if (right <= left) return;
+      context.fillStyle = colour;
+      context.fillRect(left, y, Math.max(right - left, 1), h);
+    };
+    const { modes, horizon, impacts } = this.run;
+    if (horizon.t !== null) band(horizon.t, this.run.tEnd, paints.shade, 0, height);
+    modes.taut.forEach((taut, i) => {
+      if (taut.length)
+        band(modes.t_start[i], modes.t_end[i], paints[taut.length === 1 ? "cable-1" : "cable-2"], height - 4, 4);
+    });
+    impacts.t.forEach((t, i) => {
+      if (t < from || t > to) return;
+      const part = Math.sqrt(impacts.impulse[i] / (this.run.hardest || 1));
+      context.fillStyle = paints[`cable-${impacts.cable[i]}`];
+      context.fillRect(x(t) - 0.6, height - 5 - (height - 6) * part, 1.2, (height - 6) * part);
+    });
+  }
+}

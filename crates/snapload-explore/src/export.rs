@@ -1,0 +1,154 @@
+//! `/api/export/NAME`: the files that `snapload run --out` writes, with the same bytes.
+use crate::refusal::Refusal;
+use crate::request;
+use crate::run::follow;
+use crate::work::Leash;
+use serde::Deserialize;
+use snapload::Case;
+use snapload::analysis::{DEFAULT_MEMBERS, Doubt};
+use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
+use snapload_report::{
+    Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
+};
+use std::time::Duration;
+
+/// What the neighbours of a run may take.
+const BUDGET: Duration = Duration::from_secs(20);
+/// A table of more impacts than this is for the command line.
+const MOST_WRITTEN: usize = 100_000;
+/// The same for a picture: a path that scribbles all over the plane takes minutes to draw.
+const MOST_DRAWN: usize = 10_000;
+/// The neighbours that the command draws unless it is told otherwise.
+const SEED: u64 = 1;
+
+/// A file that can be asked for.
+#[derive(Clone, Copy)]
+pub(crate) enum File {
+    Case,
+    Impacts,
+    Modes,
+    Motion,
+    Run,
+    Svg(RunPlot),
+    Png(RunPlot),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Request {
+    #[serde(default)]
+    values: request::Values,
+    /// As in `/api/run`; a file has neither.
+    #[serde(default, rename = "ghost")]
+    _ghost: serde::de::IgnoredAny,
+    #[serde(default, rename = "samples")]
+    _samples: serde::de::IgnoredAny,
+}
+
+impl File {
+    /// The file of a name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let plot = |stem: &str| RunPlot::ALL.into_iter().find(|plot| plot.name() == stem);
+        match name {
+            "case.toml" => Some(Self::Case),
+            "impacts.csv" => Some(Self::Impacts),
+            "modes.csv" => Some(Self::Modes),
+            "motion.csv" => Some(Self::Motion),
+            "run.json" => Some(Self::Run),
+            name => match name.rsplit_once('.')? {
+                (stem, "svg") => plot(stem).map(Self::Svg),
+                (stem, "png") => plot(stem).map(Self::Png),
+                _ => None,
+            },
+        }
+    }
+
+    /// Its type, as browsers know it.
+    pub(crate) fn content_type(self) -> &'static str {
+        match self {
+            Self::Case => "application/toml",
+            Self::Impacts | Self::Modes | Self::Motion => "text/csv; charset=utf-8",
+            Self::Run => "application/json",
+            Self::Svg(_) => "image/svg+xml",
+            Self::Png(_) => "image/png",
+        }
+    }
+
+    /// What is in it, for the case of a request.
+    pub(crate) fn write(self, body: &[u8], leash: &Leash) -> Result<Vec<u8>, Refusal> {
+        let Request { values, .. } = request::read(body)?;
+        let case = request::case(values)?;
+        if matches!(self, Self::Case) {
+            return Ok(case_file(case.parameters()).into_bytes());
+        }
+        let followed = follow(&case, leash)?;
+        let impacts = followed.run.impacts().len();
+        let most = match self {
+            Self::Svg(_) | Self::Png(_) => MOST_DRAWN,
+            _ => MOST_WRITTEN,
+        };
+        if impacts > most {
+            let why = format!("this run has {impacts} impacts");
+            return Err(for_the_command(&case, &why));
+        }
+        let mut bytes = Vec::new();
+        match self {
+            Self::Run | Self::Impacts => self.fill_trusted(&case, leash, &mut bytes)?,
+            file => file.fill(&case, &followed, &mut bytes)?,
+        }
+        Ok(bytes)
+    }
+
+    fn fill(self, case: &Case, followed: &Followed, out: &mut Vec<u8>) -> Result<(), Refusal> {
+        let run = &followed.run;
+        let written = match self {
+            Self::Modes => tables::modes(run, out),
+            Self::Motion => tables::motion(run, Sampling::thousand(run.end().t), out),
+            Self::Svg(plot) | Self::Png(plot) => {
+                out.extend(picture(self, plot, case, followed).map_err(Refusal::failed)?);
+                Ok(())
+            }
+            Self::Case | Self::Impacts | Self::Run => Ok(()),
+        };
+        written.map_err(Refusal::failed)
+    }
+
+    /// What tells of the time past the horizon, too: digits, and how neighbours end.
+    fn fill_trusted(self, case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
+        let leash = leash.within(BUDGET);
+        let long = || for_the_command(case, "its neighbours take long");
+        let run = Trusted::run_alone(case, Doubt::default(), |_| leash.holds())?;
+        let run = run.ok_or_else(long)?;
+        if matches!(self, Self::Impacts) {
+            let written = tables::impacts(&run.run, run.trust.digits(), out);
+            return written.map_err(Refusal::failed);
+        }
+        let run = run.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
+        let run = run.ok_or_else(long)?;
+        let report = Report::new(case.parameters(), &run, None, &|_| ());
+        write_json(&report, out).map_err(Refusal::failed)
+    }
+}
+
+fn picture(
+    file: File,
+    plot: RunPlot,
+    case: &Case,
+    followed: &Followed,
+) -> Result<Vec<u8>, FigureError> {
+    let horizon = followed.horizon.map(|horizon| horizon.t);
+    let plots = RunPlots::new(&followed.run).with_horizon(horizon);
+    let title = case_in_words("standard case", case.parameters());
+    let picture = plots.picture(plot, &title)?;
+    match file {
+        File::Png(_) => picture.png(PNG_SCALE),
+        _ => Ok(picture.svg().as_bytes().to_vec()),
+    }
+}
+
+fn for_the_command(case: &Case, why: &str) -> Refusal {
+    let command = shell_line(case.parameters());
+    Refusal::values(format!(
+        "{why}, which is more than the page waits for\nhint: {command} --out results"
+    ))
+}

@@ -1,0 +1,550 @@
+"""The page of `snapload explore` in a real browser: it shows the command's numbers, by mouse, by keyboard, to all."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import shutil
+import signal
+import struct
+import subprocess
+import tomllib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+DESKTOP = {"width": 1440, "height": 900}
+SMALLER = {"width": 1024, "height": 768}
+PHONE = {"width": 390, "height": 844}
+PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
+
+
+@pytest.fixture(scope="module")
+def url() -> Iterator[str]:
+    """The address at which the program serves the page; it ends with 0 when interrupted."""
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    program = [target / "debug" / "snapload", "explore", "--no-browser"]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+        assert server.stdout is not None
+        said = server.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:\d+/", said)
+        assert found, said
+        yield found[0]
+        server.send_signal(signal.SIGINT)
+        assert server.wait(timeout=10) == 0
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    chromium = shutil.which("chromium")
+    assert chromium, "there is no chromium on the PATH; ./test.sh installs it"
+    quiet = ["--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run"]
+    with sync_playwright() as playwright:
+        # Chromium refuses to sandbox itself when root runs it.
+        browser = playwright.chromium.launch(executable_path=chromium, args=[*quiet, "--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
+    """Opens the page with a state; afterwards nothing may have gone wrong in it, nor asked another host."""
+    contexts, wrong = [], []
+
+    def visit(fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any) -> Page:
+        context = browser.new_context(viewport=viewport, accept_downloads=True, **options)
+        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=url.rstrip("/"))
+        contexts.append(context)
+        page = context.new_page()
+        page.set_default_timeout(15_000)
+        page.on("pageerror", lambda error: wrong.append(f"error in the page: {error}"))
+        page.on("request", lambda request: outside(request.url) and wrong.append(f"asked {request.url}"))
+        # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
+        page.on("console", lambda line: refused or wrong.append(f"console: {line.text}"))
+        page.goto(url + (f"#{fragment}" if fragment else ""))
+        settled(page)
+        return page
+
+    def outside(address: str) -> bool:
+        return not address.startswith((url, "blob:" + url, "data:"))
+
+    yield visit
+    for context in contexts:
+        context.close()
+    assert wrong == []
+
+
+def settled(page: Page, after: int = 0) -> None:
+    """Waits until a picture is painted, one later than so many."""
+    comes_true(page, lambda: count(page) > after)
+
+
+def comes_true(page: Page, what: Callable[[], bool]) -> None:
+    """Waits for something; the page's rules forbid what Playwright's own wait for a function needs."""
+    for _ in range(1000):
+        if what():
+            return
+        page.wait_for_timeout(15)
+    raise AssertionError("it did not come true in time")
+
+
+def count(page: Page) -> int:
+    return int(page.locator("#took").get_attribute("data-count") or 0)
+
+
+def clock(page: Page) -> float:
+    return float(page.locator("#clock").inner_text().removeprefix("t = ").removesuffix(" T"))
+
+
+def exact_time(page: Page) -> float:
+    return float(page.locator("#clock").get_attribute("data-t") or "nan")
+
+
+def times(page: Page) -> list[float]:
+    """The times of the events that the table shows."""
+    return page.locator("#events-body .go").evaluate_all("all => all.map(one => Number(one.dataset.t))")
+
+
+def read(text: str) -> float:
+    return float(re.findall(r"[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?", text)[0].replace("−", "-"))
+
+
+def shown_is(page: Page, run: dict[str, Any]) -> None:
+    """The page shows the run that the command computed: impacts to the last bit, norms as far as they are printed."""
+    impacts = [impact["t"] for impact in run["impacts"]]
+    comes_true(page, lambda: set(impacts[:40]) <= set(times(page)))
+    assert page.locator('[data-norm="impacts"]').inner_text() == str(len(impacts))
+    for norm in ["rho1", "rho2", "rho3", "y_max", "theta_max"]:
+        assert read(page.locator(f'[data-norm="{norm}"]').inner_text()) == pytest.approx(run["norms"][norm], rel=1e-4)
+    page.locator("#last").click()
+    assert exact_time(page) == run["end"]["t"]
+
+
+def test_it_opens_with_the_standard_case(open_page, command_json):
+    page = open_page()
+    assert page.title() == "snapload explore"
+    assert "standard case" in page.locator("#case option:checked").inner_text()
+    shown_is(page, command_json("run", "--ensemble", "0"))
+    assert "Settled at t = 7.246" in page.locator("#said").inner_text()
+
+
+def test_a_slider_answers_with_the_numbers_of_the_command(open_page, command_json, capsys):
+    page = open_page()
+    slider = page.locator("#slider-f_o")
+    slider.focus()
+    took = []
+    for key in ["ArrowRight"] * 3 + ["PageUp", "ArrowLeft"]:
+        before = count(page)
+        page.keyboard.press(key)
+        settled(page, before)
+        took.append(float(page.locator("#took").get_attribute("data-ms")))
+    value = page.locator("#field-f_o").input_value()
+    assert float(value) > 0.3 and value == slider.input_value()
+    expect(page.locator("#shell")).to_contain_text(f"f_o={value}")
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", f"f_o={value}"))
+    with capsys.disabled():
+        print(f"\nfrom a change to the painted picture (debug build): {', '.join(f'{ms:.0f}' for ms in took)} ms")
+
+
+def test_a_field_takes_what_a_slider_does_not(open_page, command_json):
+    page = open_page()
+    before = count(page)
+    page.locator("#field-e").fill("0.123456789")
+    settled(page, before)
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", "e=0.123456789"))
+    page.locator("#field-e").focus()
+    before = count(page)
+    page.get_by_role("button", name="e: back to the default").click()
+    settled(page, before)
+    assert page.locator("#field-e").input_value() == "0.9"
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "words"),
+    [
+        ("e", "1.2", "e = 1.2 is not allowed; allowed: a number, 0 <= e <= 1"),
+        ("f_o", "much", 'f_o = "much" is not allowed'),
+        ("a", "5", "r = 1.5 is not allowed; allowed: r > |1 - a| = 4 (a = 5)"),
+    ],
+)
+def test_a_bad_value_is_refused_in_the_words_of_the_command(open_page, field, text, words):
+    page = open_page(refused=1)
+    kept = times(page)
+    page.locator(f"#field-{field}").fill(text)
+    page.locator(f"#field-{field}").press("Enter")
+    named = words.split(" ")[0]
+    expect(page.locator(f"#error-{named}")).to_contain_text(words)
+    expect(page.locator("#failed")).to_contain_text("last values that could be run")
+    assert page.locator(f"#field-{named}").get_attribute("aria-invalid") == "true"
+    assert times(page) == kept
+    before = count(page)
+    page.locator(f"#field-{field}").fill("0.1")
+    settled(page, before)
+    expect(page.locator("#failed")).to_be_hidden()
+    expect(page.locator(f"#error-{named}")).to_be_hidden()
+
+
+def test_built_in_cases_are_there(open_page, command_json):
+    page = open_page()
+    before = count(page)
+    page.locator("#case").select_option("1920001000-359")
+    settled(page, before)
+    assert page.locator("#field-a").input_value() == "0.2"
+    shown_is(page, command_json("run", "--ensemble", "0", "--case", "1920001000-359"))
+    codes = set(page.locator("#case option").evaluate_all("all => all.map(one => one.value)"))
+    assert {"sliding-example", "rocking-example", "2921001000-359"} <= codes
+
+
+def test_time_goes_on_while_it_plays(open_page, command_json):
+    page = open_page()
+    page.keyboard.press("Space")
+    expect(page.locator("#play")).to_have_text("Pause")
+    comes_true(page, lambda: exact_time(page) > 0.3)
+    page.keyboard.press("Space")
+    expect(page.locator("#play")).to_have_text("Play")
+    paused = exact_time(page)
+    page.wait_for_timeout(150)
+    assert exact_time(page) == paused > 0.3
+    page.locator("#speed").select_option("20")
+    page.locator("#play").click()
+    expect(page.locator("#play")).to_have_text("Play", timeout=5000)
+    assert exact_time(page) == command_json("run", "--ensemble", "0")["end"]["t"]
+
+
+def test_the_keyboard_steps_from_event_to_event(open_page, command_json):
+    run = command_json("run", "--ensemble", "0")
+    page = open_page()
+    for impact in run["impacts"][:5]:
+        page.keyboard.press("ArrowRight")
+        assert exact_time(page) == impact["t"]
+        expect(page.locator("#events-body tr[aria-current] .go")).to_have_attribute("data-t", str(impact["t"]))
+    page.keyboard.press("ArrowLeft")
+    assert exact_time(page) == run["impacts"][3]["t"]
+    page.keyboard.press("Shift+ArrowRight")
+    assert run["impacts"][3]["t"] < exact_time(page) < run["impacts"][4]["t"]
+    page.locator("#scrub").focus()
+    page.keyboard.press("ArrowRight")
+    assert exact_time(page) == run["impacts"][4]["t"]
+    page.keyboard.press("End")
+    assert exact_time(page) == run["end"]["t"]
+    page.keyboard.press("Home")
+    assert exact_time(page) == 0
+    page.keyboard.press("+")
+    assert page.locator("#speed").input_value() == "2"
+
+
+def test_scrubbing_and_hovering_read_the_motion(open_page, command_json):
+    motion = command_json("run", "--ensemble", "0", "--sample", "0.001")["motion"]
+    page = open_page()
+    box = page.locator("#scrub").bounding_box()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2)
+    assert clock(page) == pytest.approx(7.2464 / 2, abs=0.05)
+    over = page.locator("#charts .over").first
+    area = over.bounding_box()
+    page.mouse.move(area["x"] + 0.4 * area["width"], area["y"] + area["height"] / 2)
+    reading = page.locator("#trajectory .reading")
+    expect(reading).not_to_have_text(re.compile(f"^t {clock(page):.3f} "))
+    t, x, y = (read(part) for part in reading.inner_text().split("  "))
+    near = motion[round(t / 0.001)]
+    assert (x, y) == pytest.approx((near["x"], near["y"]), abs=1e-3)
+    theta = read(page.locator("#charts .reading").first.inner_text())
+    assert theta == pytest.approx(near["theta"], abs=5e-3)
+    page.mouse.down()
+    page.mouse.up()
+    assert clock(page) == pytest.approx(t, abs=1e-3)
+
+
+def test_a_click_on_a_mark_or_a_row_jumps_to_its_impact(open_page, command_json):
+    run = command_json("run", "--ensemble", "0")
+    hardest = max(run["impacts"], key=lambda impact: impact["v_n"])
+    page = open_page()
+    chart = page.locator("#charts .over").nth(1)
+    area = chart.bounding_box()
+    # The hardest snap is as high as the axis goes, less the air above it.
+    x = 50 + hardest["t"] / run["end"]["t"] * (area["width"] - 60)
+    mark = {"x": x, "y": 6 + (area["height"] - 14) * (1 - 1 / 1.06)}
+    chart.hover(position=mark)
+    expect(page.locator("#charts .reading").nth(1)).to_contain_text("impact 2, cable 1")
+    chart.click(position=mark)
+    assert exact_time(page) == hardest["t"]
+    page.locator("#events-body .go").nth(4).focus()
+    page.keyboard.press("Enter")
+    assert exact_time(page) == run["impacts"][3]["t"]
+    path = page.locator("#trajectory > .stack")
+    area = path.bounding_box()
+    path.click(position={"x": 0.5 * area["width"], "y": 0.5 * area["height"]})
+    assert exact_time(page) != run["impacts"][3]["t"]
+
+
+def test_the_map_fills_and_a_cell_is_its_run(open_page, command_json):
+    page = open_page()
+    page.evaluate("""() => {
+        window.seen = new Set();
+        const look = () => window.seen.add(document.getElementById('map-progress').textContent);
+        new MutationObserver(look).observe(document.getElementById('map-progress'), { childList: true });
+    }""")
+    page.locator("#map-box summary").click()
+    expect(page.locator("#map-progress")).to_have_text(re.compile("^2091 runs$"), timeout=60_000)
+    assert len(page.evaluate("() => [...window.seen]")) > 3, "it did not fill in little by little"
+    expect(page.locator("#map-legend")).to_contain_text("rotation limit")
+    area = page.locator("#map").bounding_box()
+    before = count(page)
+    # The cell of f_o = 0.5 in the middle of 51 from 0 to 1, and the uppermost but one of e.
+    place = {"x": 56 + 0.5 * (area["width"] - 68), "y": 10 + 1.5 / 41 * (area["height"] - 50)}
+    page.locator("#map").click(position=place)
+    settled(page, before)
+    assert page.locator("#field-f_o").input_value() == "0.5"
+    e = page.locator("#field-e").input_value()
+    run = command_json("run", "--ensemble", "0", "--set", "f_o=0.5", "--set", f"e={e}")
+    shown_is(page, run)
+    page.locator("#map").focus()
+    said = page.locator("#map-said")
+    expect(said).to_contain_text(f"f_o = 0.5, e = {e}: {run['end']['reason'].replace('_', ' ')}")
+    expect(said).to_contain_text(f"{len(run['impacts'])} impacts")
+    page.keyboard.press("ArrowRight")
+    expect(said).to_contain_text("f_o = 0.52")
+    before = count(page)
+    page.keyboard.press("Enter")
+    settled(page, before)
+    assert page.locator("#field-f_o").input_value() == "0.52"
+
+
+def test_the_ghost_is_a_neighbour_that_parts(open_page):
+    page = open_page()
+    before = count(page)
+    page.keyboard.press("g")
+    settled(page, before)
+    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−6 away in x, parts from it at t =")
+    parts_at = read(page.locator("#said").inner_text().split("parts from it at t = ")[1])
+    assert 0.5 < parts_at < 7.25
+    before = count(page)
+    page.locator("#ghost-size").fill("1e-12")
+    page.locator("#ghost-size").press("Enter")
+    settled(page, before)
+    expect(page.locator("#said")).to_contain_text("1e−12")
+    later = read((page.locator("#said").inner_text() + " parts from it at t = 99").split("parts from it at t = ")[1])
+    assert later > parts_at
+
+
+def test_files_are_those_of_the_command(open_page, command, tmp_path: Path):
+    page = open_page("f_o=0.27&stop_when_settled=false&t_end=9")
+    case = tmp_path / "case.toml"
+    download(page, '[data-file="case.toml"]', case)
+    assert tomllib.loads(case.read_text(encoding="utf-8"))["f_o"] == 0.27
+    command(*page.locator("#shell").inner_text().split()[1:], "--out", str(tmp_path / "out"))
+    pictures = [f"{name}.{kind}" for name in PICTURES for kind in ["svg", "png"]]
+    for name in ["impacts.csv", "modes.csv", "run.json", *pictures]:
+        download(page, f'[data-file="{name}"]', tmp_path / name)
+        assert (tmp_path / name).read_bytes() == (tmp_path / "out" / name).read_bytes(), name
+    # The command is told how often to sample; the page samples a thousand times.
+    motion = download(page, '[data-file="motion.csv"]', tmp_path / "motion.csv")
+    command(
+        *page.locator("#shell").inner_text().split()[1:], "--out", str(tmp_path / "fine"), "--sample", str(9 / 1000)
+    )
+    assert motion == (tmp_path / "fine" / "motion.csv").read_bytes()
+
+
+def download(page: Page, button: str, path: Path) -> bytes:
+    with page.expect_download() as event:
+        page.locator(button).click()
+    assert event.value.suggested_filename == path.name
+    event.value.save_as(path)
+    return path.read_bytes()
+
+
+def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
+    page = open_page("t=0.4721795499019612&speed=20")
+    drawing = download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    assert drawing.startswith("<svg") and drawing.count("<path") > 20 and "NaN" not in drawing
+    picture = download(page, "#scene-png", tmp_path / "scene.png")
+    assert picture[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", picture[16:24]) == (1920, 1352)
+    film = download(page, "#film", tmp_path / "run.webm")
+    assert film[:4] == b"\x1a\x45\xdf\xa3" and b"webm" in film[:64] and len(film) > 10_000
+    page.locator("#speed").select_option("0.1")
+    page.locator("#film").click()
+    page.locator("#film-cancel").click()
+    expect(page.locator("#take-said")).to_have_text("The recording was given up.")
+
+
+def test_lines_to_copy_make_the_same_run(open_page, command_json):
+    page = open_page("f_o=0.31&nu=-0.25&body=rigid")
+    page.locator("#copy-shell").click()
+    expect(page.locator("#copy-shell")).to_have_text("Copied")
+    line = page.evaluate("() => navigator.clipboard.readText()")
+    assert line.startswith("snapload run ")
+    copied = command_json(*line.split()[1:], "--ensemble", "0")
+    assert (copied["case"]["f_o"], copied["case"]["nu"]) == (0.31, -0.25)
+    shown_is(page, copied)
+    page.locator("#copy-python").click()
+    assert "snapload.Case(f_o=0.31, nu=-0.25)" in page.evaluate("() => navigator.clipboard.readText()")
+
+
+def test_the_link_holds_everything(open_page):
+    page = open_page()
+    before = count(page)
+    page.locator("#case").select_option("sliding-example")
+    settled(page, before)
+    before = count(page)
+    page.get_by_text("Stops").click()
+    page.locator("#field-t_end").fill("12")
+    page.locator("#ghost").check()
+    settled(page, before)
+    page.get_by_text("Thesis", exact=True).click()
+    page.get_by_text("Close", exact=True).first.click()
+    page.locator("#speed").select_option("0.1")
+    for _ in range(6):
+        page.keyboard.press("ArrowRight")
+    page.locator("#zoom-in").click()
+    page.wait_for_timeout(300)
+    page.locator("#copy-link").click()
+    expect(page.locator("#copy-link")).to_have_text("Copied")
+    link = page.evaluate("() => navigator.clipboard.readText()")
+    other = open_page(urlsplit(link).fragment)
+    for selector in ["#speed", "#field-f_o", "#field-t_end", "#ghost-size"]:
+        assert other.locator(selector).input_value() == page.locator(selector).input_value(), selector
+    assert exact_time(other) == exact_time(page)
+    expect(other.locator("#window-words")).to_have_text(page.locator("#window-words").inner_text())
+    assert drawn(other) == drawn(page)
+
+
+def drawn(page: Page) -> list[str]:
+    """Every canvas, as it is painted."""
+    page.wait_for_timeout(400)
+    ids = ["#scene", "#strip", "#trajectory .base", "#charts .base"]
+    return page.evaluate("ids => ids.map(id => document.querySelector(id).toDataURL())", ids)
+
+
+def test_back_and_forward_go_through_the_values(open_page):
+    page = open_page()
+    for value in ["0.2", "0.4"]:
+        before = count(page)
+        page.locator("#field-f_o").fill(value)
+        page.locator("#field-f_o").press("Enter")
+        settled(page, before)
+    page.go_back()
+    expect(page.locator("#field-f_o")).to_have_value("0.2")
+    page.go_forward()
+    expect(page.locator("#field-f_o")).to_have_value("0.4")
+
+
+def test_the_link_to_the_scene_leaves_the_state_alone(open_page):
+    page = open_page("f_o=0.31&t=1.5")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    assert page.evaluate("() => document.activeElement.id") == "scene"
+    assert (page.locator("#field-f_o").input_value(), exact_time(page)) == ("0.31", 1.5)
+
+
+def test_a_broken_link_is_told_and_left_out(open_page):
+    page = open_page("f_o=0.31&omega=fast&foo=1&picture=sideways&t=%E0%A4%A&speed=1e400")
+    expect(page.locator("#note")).to_contain_text("omega=fast, foo=1, picture=sideways")
+    assert page.locator("#field-f_o").input_value() == "0.31"
+    assert page.locator("#field-omega").input_value() == "0.9"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [DESKTOP, SMALLER, PHONE], ids=["desktop", "smaller", "phone"])
+def test_it_is_for_everyone(open_page, viewport, scheme):
+    page = open_page(
+        "f_o=0.27&stop_when_settled=false&t=8.7&t_end=12&map=f_o,0,1,5,e,0.5,1,4,reason",
+        viewport=viewport,
+        color_scheme=scheme,
+    )
+    expect(page.locator("#map-progress")).to_have_text("20 runs")
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    blameless(page)
+
+
+def blameless(page: Page) -> None:
+    """axe-core finds nothing that would keep anybody out."""
+    result = Axe().run(page)
+    assert result.violations_count == 0, result.generate_report()
+
+
+def test_the_keys_are_told_and_can_be_turned_off(open_page):
+    page = open_page()
+    page.keyboard.press("?")
+    expect(page.locator("#help-dialog")).to_be_visible()
+    assert "next event" in page.locator("#help-keys").inner_text()
+    blameless(page)
+    page.locator("#single-keys").uncheck()
+    page.keyboard.press("Escape")
+    page.keyboard.press("v")
+    expect(page.get_by_label("Real")).to_be_checked()
+    page.keyboard.press("ArrowRight")
+    assert exact_time(page) > 0
+
+
+@pytest.mark.parametrize("floor", ["Infinity", "0"])
+def test_a_slack_line_is_as_long_as_its_cable(open_page, floor):
+    page = open_page()
+    lines = page.evaluate(
+        """async floor => {
+            const { hang } = await import('./hang.js');
+            const ends = [[1, -1.2], [1.49, -0.05], [0.2, -1.3], [0, -1.1], [-0.7, -1.0], [0.9, -0.0001]];
+            return ends.map(end => ({ end, points: hang([0, 0], end, 1.6, Number(floor)) }));
+        }""",
+        floor,
+    )
+    for line in lines:
+        points = line["points"]
+        assert points[0] == [0, 0] and points[-1] == pytest.approx(line["end"], abs=1e-9)
+        # Forty chords of a curve are a little shorter than the curve, never longer.
+        assert 1.6 * (1 - 2e-3) < sum(map(math.dist, points, points[1:])) <= 1.6 * (1 + 1e-9), line["end"]
+        assert max(y for _, y in points) <= (1e-9 if floor == "0" else 1), "it hangs through the floor"
+
+
+def test_between_rows_the_motion_is_the_engines(open_page, command_json):
+    page = open_page()
+    exact = command_json("run", "--ensemble", "0", "--sample", "0.0317")["motion"]
+    drawn = page.evaluate(
+        """async times => {
+            const { Motion } = await import('./run.js');
+            const body = JSON.stringify({ values: {}, ghost: null, samples: 1200 });
+            const headers = { 'Content-Type': 'application/json' };
+            const answer = await fetch('api/run', { method: 'POST', headers, body });
+            const motion = new Motion((await answer.json()).motion);
+            return times.map(t => motion.at(t));
+        }""",
+        [row["t"] for row in exact],
+    )
+    for row, moment in zip(exact, drawn, strict=True):
+        for name in ["x", "y", "theta", "vx", "vy", "vtheta"]:
+            assert moment[name] == pytest.approx(row[name], abs=1e-8), (name, row["t"])
+
+
+def test_the_theme_can_be_chosen(open_page):
+    page = open_page()
+    paper = "() => getComputedStyle(document.documentElement).backgroundColor"
+    light = page.evaluate(paper)
+    for _ in range(2):
+        page.locator("#theme").click()
+    assert page.locator("#theme").inner_text() == "Theme: dark" and page.evaluate(paper) != light
+
+
+def test_those_who_want_no_motion_get_none(open_page):
+    at_a_snap = "t=0.4721795499019612"
+    moving, still = open_page(at_a_snap), open_page(at_a_snap, reduced_motion="reduce")
+    assert drawn(moving)[0] != drawn(still)[0], "the flash is left out"
+    assert drawn(moving)[2:] == drawn(still)[2:]
+    assert exact_time(still) == 0.4721795499019612
+
+
+def test_a_screen_reader_is_told(open_page):
+    page = open_page("f_o=0.27&stop_when_settled=false&t=30")
+    words = page.locator("#scene").get_attribute("aria-label")
+    assert "rocking: cable 1 taut, tension" in words and "t = 30.000" in words
+    assert "of 100.000 T, rocking" in page.locator("#scrub").get_attribute("aria-valuetext")
+    for chart in page.locator("canvas.base").all():
+        assert len(chart.get_attribute("aria-label")) > 40
+    unnamed = page.evaluate("""() => [...document.querySelectorAll('input, select, button')]
+        .filter(one => !one.labels?.length && !one.ariaLabel && !one.textContent.trim()).map(one => one.id)""")
+    assert unnamed == []
