@@ -16,6 +16,7 @@ from matplotlib.patches import Polygon
 
 from ._check import whole
 from ._plot import CABLES, GREY, geometry, times_of
+from ._progress import bar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -88,7 +89,10 @@ class Animation:
             raise ValueError(f"{target}: there is no {writer} on this machine; install it, or write a .gif or .html")
         figure, artist = self._animation()
         try:
-            artist.save(target, writer=writer, fps=self._fps, dpi=110)
+            with bar(f"writing {target.name}", self._count, shown=True) as more:
+                artist.save(
+                    target, writer=writer, fps=self._fps, dpi=110, progress_callback=lambda *_: more and more(1)
+                )
         finally:
             pyplot.close(figure)
         return target

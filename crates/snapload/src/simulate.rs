@@ -1,21 +1,20 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
-use crate::bounce::UNMOVED;
 use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Reached, first_crossing};
 use crate::extremes::Extremes;
 use crate::flight::Flight;
-use crate::impact::{Shock, impact};
+use crate::impact::Shock;
 use crate::mooring::{Moment, Mooring};
-use crate::real::{Real, length};
+use crate::real::Real;
 use crate::series::Series;
 use crate::start::{self, StartError};
-use crate::taut::{
-    Hold, normal_acceleration, project_position, project_velocity, taut_next, unloaded,
-};
+use crate::taut::{Hold, project_position, project_velocity};
 use crate::trajectory::{Impact, Stop};
 use crate::{State, StopRules, System, TautSet};
 
+#[path = "simulate_event.rs"]
+mod at_events;
 #[path = "simulate_bounce.rs"]
 mod by_bounces;
 #[path = "simulate_within.rs"]
@@ -343,193 +342,5 @@ impl<T: Real> Simulation<T> {
     pub(crate) fn resting(&self) -> TautSet {
         let still = |&cable: &usize| self.contacts[cable].resting;
         self.closed().iter().filter(still).collect()
-    }
-
-    fn apply_law(&mut self, event: &Event) -> Option<Shock<T>> {
-        let reached = event.reached;
-        if reached.rotation {
-            self.stop = Some(Stop::RotationLimit);
-        } else if reached.top {
-            self.stop = Some(Stop::UpperBound);
-        } else if !reached.gaps.is_empty() {
-            return Some(self.snap(event));
-        } else if !reached.tensions.is_empty() {
-            self.release(reached.tensions);
-        } else if self.t >= self.rules.t_end {
-            self.stop = Some(Stop::EndTime);
-        }
-        None
-    }
-
-    /// Cables snap taut: impact, then sticking, then the choice of the taut set.
-    fn snap(&mut self, event: &Event) -> Shock<T> {
-        let Event { closed, still, .. } = *event;
-        let struck = event.reached.gaps;
-        let shock = impact(&self.system, &self.state, closed, still);
-        self.state = shock.after;
-        let hit: TautSet = struck.intersection(shock.pulling);
-        self.count(&shock, hit);
-
-        let slow: TautSet = struck
-            .iter()
-            .filter(|&cable| shock.v_before[cable] < self.v_stick)
-            .collect();
-        let at_rest: TautSet = closed
-            .iter()
-            .filter(|&cable| self.unmoved(&shock, cable, struck))
-            .collect();
-        self.slow_snaps = if slow == struck {
-            self.slow_snaps + 1
-        } else {
-            0
-        };
-        let candidates = slow.union(at_rest).union(self.caught(&shock, closed));
-        let mut halted = shock.after;
-        project_velocity(&self.system, &mut halted, candidates);
-        let unloaded = TautSet::SLACK;
-        self.hold = taut_next(&self.system, self.t, &halted, candidates, unloaded);
-        project_velocity(&self.system, &mut self.state, self.hold.taut);
-
-        for cable in closed.iter() {
-            let resting = self.hold.taut.contains(cable) || at_rest.contains(cable);
-            self.contacts[cable] = if resting {
-                Contact::RESTING
-            } else {
-                Contact::CLOSED
-            };
-        }
-        self.check_rules(struck.intersection(self.hold.taut));
-        shock
-    }
-
-    /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
-    /// ones that leave by less: those snaps accumulate, and all of them may stick.
-    fn caught(&self, shock: &Shock<T>, closed: TautSet) -> TautSet {
-        if self.slow_snaps < CONVERGING {
-            return TautSet::SLACK;
-        }
-        let slow = |&cable: &usize| shock.v_after[cable].abs() < self.v_stick;
-        closed.iter().filter(slow).collect()
-    }
-
-    /// Whether a closed cable has no normal velocity after the shock. A struck one was closing; if its
-    /// normal velocity is not positive all the same, it is zero but for rounding.
-    fn unmoved(&self, shock: &Shock<T>, cable: usize, struck: TautSet) -> bool {
-        if struck.contains(cable) && shock.v_before[cable] <= T::ZERO {
-            return true;
-        }
-        let reach = length(self.system.cables[cable].fairlead());
-        let speed = |s: &State<T>| length([s.vx, s.vy]) + s.vtheta.abs() * reach;
-        let rounding = speed(&self.state).max(speed(&self.before)) * T::EPSILON;
-        shock.v_after[cable].abs() <= rounding * UNMOVED
-    }
-
-    fn count(&mut self, shock: &Shock<T>, hit: TautSet) {
-        self.impacts += hit.len() as u64;
-        if hit.is_empty() {
-            return;
-        }
-        let repeats = if hit == self.last.cables {
-            self.last.repeats + 1
-        } else {
-            1
-        };
-        self.last = LastImpacts {
-            cables: hit,
-            v_n: hit
-                .iter()
-                .fold(T::ZERO, |v, cable| v.max(shock.v_before[cable])),
-            repeats,
-        };
-    }
-
-    /// Time need not move on from one bounce to the next where they accumulate; steps of no length count
-    /// like impacts, so that every run has an end.
-    fn check_progress(&mut self, t_start: T) {
-        self.standstill = if self.t > t_start {
-            0
-        } else {
-            self.standstill + 1
-        };
-        if self.stop.is_none() && self.standstill > self.rules.max_impacts {
-            self.stop = Some(Stop::ImpactLimit);
-        }
-    }
-
-    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero. Where others hold closed as
-    /// well, those that share in nothing leave, and the load goes over to the rest.
-    fn release(&mut self, released: TautSet) {
-        let Hold { taut, carrying } = self.hold;
-        let without = |gone: TautSet| gone.iter().fold(taut, TautSet::without);
-        let idle = if taut == carrying {
-            released
-        } else {
-            unloaded(&self.system, self.t, &self.state, taut)
-        };
-        self.hold = if idle.is_empty() {
-            taut_next(
-                &self.system,
-                self.t,
-                &self.state,
-                without(released),
-                released,
-            )
-        } else {
-            taut_next(
-                &self.system,
-                self.t,
-                &self.state,
-                without(idle),
-                TautSet::SLACK,
-            )
-        };
-        self.check_rules(TautSet::SLACK);
-    }
-
-    /// The rules that are looked at at events; `stuck` are the cables that just stuck.
-    fn check_rules(&mut self, stuck: TautSet) {
-        let y = self.state.y;
-        let low = self.rules.settled_below.is_some_and(|height| y < height);
-        let high = self.rules.sliding_above.is_some_and(|height| y >= height);
-        if low && (!stuck.is_empty() || self.hold.taut.len() >= 2) {
-            self.stop = Some(Stop::Settled);
-        } else if high && !stuck.is_empty() {
-            self.stop = Some(Stop::SlidingStart);
-        } else if self.impacts > self.rules.max_impacts {
-            self.stop = Some(Stop::ImpactLimit);
-        }
-        if matches!(self.stop, Some(Stop::Settled | Stop::SlidingStart)) {
-            self.t_limit = self.limit_of_impacts(stuck);
-        }
-    }
-
-    /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began with
-    /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
-    fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
-        let e = self.system.restitution;
-        let LastImpacts {
-            cables,
-            v_n,
-            repeats,
-        } = self.last;
-        let converging = repeats >= CONVERGING
-            && e < T::ONE
-            && !stuck.is_empty()
-            && (cables.len() == 1 || cables == self.system.all_cables());
-        if !converging {
-            return None;
-        }
-        let others: TautSet = self
-            .hold
-            .taut
-            .iter()
-            .filter(|&cable| !cables.contains(cable))
-            .collect();
-        cables
-            .iter()
-            .map(|cable| normal_acceleration(&self.system, self.t, &self.state, cable, others))
-            .filter(|&alpha| alpha > T::ZERO)
-            .map(|alpha| self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha))
-            .reduce(T::max)
     }
 }

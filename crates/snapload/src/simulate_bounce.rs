@@ -73,6 +73,9 @@ impl<T: Real> Simulation<T> {
             y_max: moment.y_max,
             theta_max: moment.theta_max,
         };
+        if progress.impacts > self.impacts {
+            self.slow_snaps = 0;
+        }
         self.impacts = progress.impacts;
         self.last = progress.last;
     }
@@ -110,6 +113,7 @@ impl<T: Real> Simulation<T> {
             return (event, Some(self.snap(&event)));
         }
         self.state = next.state;
+        self.slow_snaps = 0;
         let e = self.system.restitution;
         let shock = Shock::of_one(
             struck,
