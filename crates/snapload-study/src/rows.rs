@@ -30,12 +30,16 @@ pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> 
 }
 
 fn side_by_side(drawn: &[Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
-    let made = |drawn: &Drawn| drawn.parameters.clone().and_then(Case::new);
-    let cases: Vec<Result<Case, CaseError>> = drawn.iter().map(made).collect();
-    let legal: Vec<Case> = cases.iter().flatten().cloned().collect();
-    let mut outcomes = Lanes::best().outcomes(&legal).0.into_iter();
-    let row = |(drawn, case): (&Drawn, Result<Case, CaseError>)| {
-        let certainty = case.as_ref().ok().filter(|_| trust).map(Certainty::of);
+    let mut cases = Vec::with_capacity(drawn.len());
+    let made = |drawn: &Drawn| {
+        let case = drawn.parameters.clone().and_then(Case::new)?;
+        let certainty = trust.then(|| Certainty::of(&case));
+        cases.push(case);
+        Ok(certainty)
+    };
+    let certainties: Vec<Result<Option<Certainty>, CaseError>> = drawn.iter().map(made).collect();
+    let mut outcomes = Lanes::best().outcomes(&cases).0.into_iter();
+    let row = |(drawn, certainty): (&Drawn, Result<Option<Certainty>, CaseError>)| {
         done();
         Some(Row {
             index: drawn.index,
@@ -43,14 +47,14 @@ fn side_by_side(drawn: &[Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
                 Ok(parameters) => parameters.entries().map(|(_, value)| value).collect(),
                 Err(_) => given(drawn),
             },
-            certainty,
-            outcome: match case {
+            certainty: certainty.as_ref().ok().copied().flatten(),
+            outcome: match certainty {
                 Ok(_) => Ok(outcomes.next()?),
                 Err(error) => Err(error),
             },
         })
     };
-    drawn.iter().zip(cases).filter_map(row).collect()
+    drawn.iter().zip(certainties).filter_map(row).collect()
 }
 
 /// The keys of a case that is none, as far as they were given.

@@ -1,9 +1,10 @@
 //! The loop of a study: the next cases, their rows, into the store.
 
-use crate::{Store, Study, StudyError, rows};
+use crate::{Row, Store, Study, StudyError, rows};
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// So long a chunk is to take: what a crash can cost.
+/// So long a chunk is to take; a crash can cost two of them.
 const AIM: Duration = Duration::from_secs(3);
 /// Cases of the first chunk, before anything is known of their pace.
 const FIRST: u64 = 256;
@@ -29,24 +30,54 @@ pub enum Finished {
     Stopped(u64),
 }
 
-/// Runs what is missing in the store, on the threads that there are, and completes the file.
+/// A chunk that is run and not yet safe.
+type Chunk = (Range<u64>, Vec<Row>);
+
+/// Runs what is missing in the store, on the threads that there are, and completes the file. While a chunk is run the one
+/// before it is written.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read.
 pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished, StudyError> {
     let mut size = FIRST;
-    while let Some(gap) = store.gap() {
-        if (watch.stop)() {
-            return Ok(Finished::Stopped(store.safe()));
+    let mut written: Option<Chunk> = None;
+    loop {
+        let stopped = (watch.stop)();
+        let range = next_range(&store, written.as_ref(), size).filter(|_| !stopped);
+        if range.is_none() && written.is_none() {
+            break;
         }
-        let range = gap.start..gap.end.min(gap.start.saturating_add(size));
         let began = Instant::now();
-        let rows = rows(&study.draw(range.clone())?, study.trust(), watch.done);
-        store.save(range, &rows)?;
+        let (saved, run) = rayon::join(
+            || match written.take() {
+                Some((range, rows)) => store.save(range, &rows),
+                None => Ok(()),
+            },
+            || range.map(|range| chunk(study, range, watch)).transpose(),
+        );
+        saved?;
+        written = run?;
         size = next_size(size, began.elapsed());
+    }
+    if store.gap().is_some() {
+        return Ok(Finished::Stopped(store.safe()));
     }
     store.finish()?;
     Ok(Finished::Complete)
+}
+
+fn chunk(study: &Study, range: Range<u64>, watch: &Watch) -> Result<Chunk, StudyError> {
+    let drawn = study.draw(range.clone())?;
+    Ok((range, rows(&drawn, study.trust(), watch.done)))
+}
+
+/// The next rows that are missing, after those that are being written.
+fn next_range(store: &Store, written: Option<&Chunk>, size: u64) -> Option<Range<u64>> {
+    let from = written.map_or(0, |(range, _)| range.end);
+    let mut missing = store.gaps().filter(|gap| gap.end > from);
+    let gap = missing.next()?;
+    let start = gap.start.max(from);
+    Some(start..gap.end.min(start.saturating_add(size)))
 }
 
 /// The size of a chunk that would take the time aimed at; a row does not depend on it.
