@@ -39,7 +39,7 @@ type Chunk = (Range<u64>, Vec<Row>);
 /// # Errors
 /// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read.
 pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished, StudyError> {
-    let mut size = FIRST;
+    let (done, mut size) = (watch.done, FIRST);
     let mut written: Option<Chunk> = None;
     loop {
         let stopped = (watch.stop)();
@@ -53,7 +53,7 @@ pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished,
                 Some((range, rows)) => store.save(range, &rows),
                 None => Ok(()),
             },
-            || range.map(|range| chunk(study, range, watch)).transpose(),
+            || range.map(|range| chunk(study, range, done)).transpose(),
         );
         saved?;
         written = run?;
@@ -66,9 +66,9 @@ pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished,
     Ok(Finished::Complete)
 }
 
-fn chunk(study: &Study, range: Range<u64>, watch: &Watch) -> Result<Chunk, StudyError> {
+fn chunk(study: &Study, range: Range<u64>, done: &(dyn Fn() + Sync)) -> Result<Chunk, StudyError> {
     let drawn = study.draw(range.clone())?;
-    Ok((range, rows(&drawn, study.trust(), watch.done)))
+    Ok((range, rows(&drawn, study.trust(), done)))
 }
 
 /// The next rows that are missing, after those that are being written.
