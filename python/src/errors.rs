@@ -14,7 +14,12 @@ pub(crate) fn of_case(error: CaseError) -> PyErr {
 /// A study that is not allowed, or that can not be read or written.
 pub(crate) fn of_study(error: StudyError) -> PyErr {
     match error {
-        StudyError::Input(words) => PyValueError::new_err(words),
+        // The words are the command's; an option is a keyword here.
+        StudyError::Input(words) => PyValueError::new_err(
+            words
+                .replace("--resume", "resume=True")
+                .replace("--out", "out"),
+        ),
         StudyError::Failed(words) => PyOSError::new_err(words),
     }
 }

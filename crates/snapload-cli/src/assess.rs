@@ -202,6 +202,7 @@ fn summary(name: &str, assessment: &Assessment, written: &[PathBuf]) -> String {
             end_words(outcome.stop)
         ),
     );
+    let utilisations = outcome.utilisations(structure);
     for (index, line) in structure.lines.iter().enumerate() {
         let result = &outcome.lines[index];
         let mut words = format!(
@@ -214,11 +215,17 @@ fn summary(name: &str, assessment: &Assessment, written: &[PathBuf]) -> String {
         if result.snaps > 0 {
             let _ = write!(words, " up to {:.2} m/s", result.speed_m_s);
         }
+        if result.jolts > 0 {
+            let _ = write!(words, ", {} jolts while taut", result.jolts);
+        }
         if let Some(peak) = result.peak_n {
             let _ = write!(words, ", about {:.0} kN", peak / 1e3);
         }
         if let Some(load) = line.breaking_load_n {
             let _ = write!(words, "; breaks at {:.0} kN", load / 1e3);
+        }
+        if let Some(utilisation) = utilisations[index] {
+            let _ = write!(words, ", utilisation {utilisation:.2}");
         }
         row(&format!("line {}", index + 1), words);
     }

@@ -58,6 +58,7 @@ fn snap(snap: &Snap) -> Value {
     json!({
         "t_s": snap.t_s,
         "line": snap.line + 1,
+        "jolt": snap.is_jolt,
         "speed_m_s": snap.speed_m_s,
         "impulse_n_s": snap.impulse_n_s,
         "energy_lost_j": snap.energy_lost_j,

@@ -137,11 +137,13 @@ fn inextensible(prepared: &Prepared) -> (Vec<Snap>, Vec<f64>) {
             }
         }
         let impacts: Vec<Impact> = step.impacts().collect();
-        let found = law.snaps(simulation.system(), &impacts);
+        let held = simulation.tensions_at_end(&step);
+        let held = |line: usize| step.taut.contains(line).then(|| held[line]);
+        let found = law.snaps(simulation.system(), &impacts, held);
         snaps.extend(
             found
                 .into_iter()
-                .filter(|snap| snap.counts() && !snap.is_jolt()),
+                .filter(|snap| snap.counts() && !snap.is_jolt),
         );
     }
     let end = simulation.time().max(f64::MIN_POSITIVE);

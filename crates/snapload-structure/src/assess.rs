@@ -41,7 +41,9 @@ pub struct LineOutcome {
     pub snaps: u64,
     /// The fastest \[m/s\].
     pub speed_m_s: f64,
-    /// The largest estimate of tension in a snap \[N\].
+    /// Jolts that snaps of other lines passed on to it while it was taut, as far as they count.
+    pub jolts: u64,
+    /// The largest estimate of tension in a snap or a jolt \[N\].
     pub peak_n: Option<f64>,
     /// The largest tension while the line stays taut \[N\].
     pub held_n: f64,
@@ -218,12 +220,19 @@ impl<'a> Tally<'a> {
 
     fn snaps(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
         let impacts: Vec<Impact> = step.impacts().collect();
-        let snaps = self.law.snaps(simulation.system(), &impacts);
+        if impacts.is_empty() {
+            return Vec::new();
+        }
+        let held = simulation.tensions_at_end(step);
+        let held = |line: usize| step.taut.contains(line).then(|| held[line]);
+        let snaps = self.law.snaps(simulation.system(), &impacts, held);
         let judged =
             |snap: &&Snap| snap.counts() && snap.t_s >= self.prepared.structure.transient_s;
         for snap in snaps.iter().filter(judged) {
             let line = &mut self.lines[snap.line];
-            if !snap.is_jolt() {
+            if snap.is_jolt {
+                line.jolts += 1;
+            } else {
                 line.snaps += 1;
                 line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
                 self.speeds_m_s.push(snap.speed_m_s);
@@ -271,7 +280,9 @@ impl Outcome {
         let lines = self.lines.iter().zip(&structure.lines);
         lines
             .map(|(outcome, line)| {
-                let snap = outcome.peak_n.or((outcome.snaps == 0).then_some(0.0));
+                let snap = outcome
+                    .peak_n
+                    .or((outcome.snaps + outcome.jolts == 0).then_some(0.0));
                 snap.zip(line.breaking_load_n)
                     .map(|(peak, load)| peak.max(outcome.held_n) / load)
             })

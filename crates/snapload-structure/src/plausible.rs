@@ -216,18 +216,23 @@ fn contact_time(
     omega_rad_s: f64,
     warn: &mut impl FnMut(&'static str, String),
 ) {
-    let longest = structure
+    let period = 2.0 * PI / omega_rad_s;
+    let soft: Vec<String> = structure
         .lines
         .iter()
-        .filter_map(|line| line.spring_rate_n_m())
-        .map(|rate| PI * (structure.moving_mass_kg() / rate).sqrt())
-        .fold(0.0, f64::max);
-    let period = 2.0 * PI / omega_rad_s;
-    if longest > 0.1 * period {
+        .enumerate()
+        .filter_map(|(line, properties)| {
+            let rate = properties.spring_rate_n_m()?;
+            let lasts = PI * (structure.moving_mass_kg() / rate).sqrt();
+            (lasts > 0.1 * period).then(|| format!("{lasts:.2} s in line {}", line + 1))
+        })
+        .collect();
+    if !soft.is_empty() {
         warn(
             "instant snap",
             format!(
-                "a snap lasts about π sqrt(M/k) = {longest:.2} s, more than a tenth of the period of {period:.1} s: the line is too soft to be taken as inextensible"
+                "a snap lasts about π sqrt(M/k) = {}, more than a tenth of the period of {period:.1} s: such a line is too soft to be taken as inextensible, and its tensions are not to be believed",
+                soft.join(", ")
             ),
         );
     }

@@ -12,15 +12,15 @@
 //! ```
 //!
 //! with v_i the closing speed, M/w_i the effective mass of the body along the line (w = 1 + s²/I of docs/model.md
-//! section 5, in the engine's units), T_0 the tension at rest. A line that closes by itself takes up all of the closing
+//! section 5, in the engine's units), T_0 the tension at rest, or of a line that was taut the one it had. A line that closes by itself takes up all of the closing
 //! energy, J v/2 = M v²/2w, and stops m = M/w at u = v. Lines that close together share it as they share the impulse. A
 //! line that was taut, v_i = 0, and has a jolt passed on to it takes up the energy that J_i alone would give it, and no
 //! more than there is.
 //!
 //! The spring is docs/model.md section 10; the front is the momentum balance of an elastic bar struck at its end (K. F.
 //! Graff, *Wave Motion in Elastic Solids* (1975), section 2.4). The peak is the sum of both, with the line's own mass
-//! added to what it stops: of the exact elastic line, fixed at one end and pulled at the other, it is at most 1 % short and
-//! 10 % over, whatever the masses. That is found by following the waves to and fro (a test), and of the kind that S.
+//! added to what it stops: of the exact elastic line, fixed at one end and pulled at the other, it is at most about 1 % short
+//! and 10 % over, whatever the masses. That is found by following the waves to and fro (a test), and of the kind that S.
 //! Timoshenko & J. N. Goodier, *Theory of Elasticity*, give for the longitudinal impact of bars.
 
 use crate::equilibrium::Equilibrium;
@@ -38,6 +38,8 @@ pub struct Snap {
     pub t_s: f64,
     /// The line, by index from 0.
     pub line: usize,
+    /// Whether the line was taut, and the snap of another was passed on to it.
+    pub is_jolt: bool,
     /// Closing speed v; 0 of a line that was taut \[m/s\].
     pub speed_m_s: f64,
     /// Impulse in the line \[N s\].
@@ -90,16 +92,31 @@ impl SnapLaw {
         }
     }
 
-    /// The snaps that the impacts of one instant are.
-    pub fn snaps(&self, system: &System, impacts: &[Impact]) -> Vec<Snap> {
+    /// The snaps that the impacts of one instant are. `held` are the tensions there of the cables that were taut before it, in
+    /// the engine's units; none of the others.
+    pub fn snaps(
+        &self,
+        system: &System,
+        impacts: &[Impact],
+        held: impl Fn(usize) -> Option<f64>,
+    ) -> Vec<Snap> {
         let stopping = |impact: &Impact| impact.impulse / (1.0 + system.restitution);
         let closing = impacts.iter().map(|i| 0.5 * stopping(i) * i.v_n).sum();
-        let snap = |impact| self.snap(system, impact, stopping(impact), closing);
+        let snap = |impact: &Impact| {
+            let held = held(impact.cable);
+            self.snap(system, impact, held, [stopping(impact), closing])
+        };
         impacts.iter().map(snap).collect()
     }
 
     /// One of them, with its J and the closing energy of all, in the engine's units.
-    fn snap(&self, system: &System, impact: &Impact, stopping: f64, closing: f64) -> Snap {
+    fn snap(
+        &self,
+        system: &System,
+        impact: &Impact,
+        held: Option<f64>,
+        [stopping, closing]: [f64; 2],
+    ) -> Snap {
         let normal = system.cables[impact.cable].normal(&impact.before);
         let inverse_mass = normal.coupling(&normal, system.body.inverse_inertia());
         let passed_on = (0.5 * stopping * stopping * inverse_mass).min(closing);
@@ -108,10 +125,12 @@ impl SnapLaw {
         let mass_kg = 0.5 * stopping * stopping / taken * self.scales.mass_kg;
         let speed_m_s = (2.0 * energy_j / mass_kg).sqrt();
         let law = &self.lines[impact.cable];
-        let peaks = law.peaks(mass_kg, speed_m_s);
+        let before_n = held.map_or(law.rest_tension_n, |force| force * self.scales.force_n);
+        let peaks = law.peaks(before_n, mass_kg, speed_m_s);
         Snap {
             t_s: impact.t * self.scales.time_s,
             line: impact.cable,
+            is_jolt: held.is_some(),
             speed_m_s: impact.v_n * self.scales.speed_m_s(),
             impulse_n_s: impact.impulse * self.scales.impulse_n_s(),
             energy_lost_j: impact.energy_lost * self.scales.energy_j(),
@@ -137,15 +156,15 @@ struct Peaks {
 
 impl LineLaw {
     /// Of a line that stops a mass at a speed. EA μ is the product of k = EA/length and the line's mass.
-    fn peaks(&self, stopped_kg: f64, speed_m_s: f64) -> Peaks {
+    fn peaks(&self, before_n: f64, stopped_kg: f64, speed_m_s: f64) -> Peaks {
         let pull = |rate: f64, mass_kg: f64| speed_m_s * (rate * mass_kg).sqrt();
         let spring_n = self
             .spring_rate_n_m
-            .map(|rate| self.rest_tension_n + pull(rate, stopped_kg));
+            .map(|rate| before_n + pull(rate, stopped_kg));
         let with_mass = self.spring_rate_n_m.zip(self.mass_kg);
         let front_n = with_mass.map(|(rate, mass_kg)| pull(rate, mass_kg));
         let bar_n = with_mass.map(|(rate, mass_kg)| {
-            self.rest_tension_n + pull(rate, mass_kg) + pull(rate, stopped_kg + mass_kg)
+            before_n + pull(rate, mass_kg) + pull(rate, stopped_kg + mass_kg)
         });
         Peaks {
             spring_n,
@@ -159,10 +178,5 @@ impl Snap {
     /// Whether it is a load, and not a line that settles down: what it stops comes at 1 cm/s or more.
     pub fn counts(&self) -> bool {
         self.effective_speed_m_s >= SLOWEST_M_S
-    }
-
-    /// Whether the line was taut, and the snap of another was passed on to it.
-    pub fn is_jolt(&self) -> bool {
-        self.speed_m_s < SLOWEST_M_S
     }
 }

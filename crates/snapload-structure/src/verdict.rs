@@ -38,6 +38,9 @@ pub fn end_words(stop: Stop) -> &'static str {
     }
 }
 
+/// Of fewer neighbours there is no telling what 90 % of them do.
+const FEW: usize = 10;
+
 impl Assessment {
     /// Whether the lines go slack, how hard they snap, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
@@ -72,10 +75,7 @@ impl Assessment {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let unknown = utilisations.iter().any(Option::is_none);
         let (standing, says) = match worst {
-            Some((line, u)) if u >= 1.0 => (
-                Standing::Breaks,
-                format!("Line {} would break: the estimated tension is {u:.2} of its breaking load.", line + 1),
-            ),
+            Some((_, u)) if u >= 1.0 => (Standing::Breaks, self.breaking_words(&utilisations)),
             _ if outcome.stop == Stop::ImpactLimit => (
                 Standing::Unknown,
                 "Whether a line breaks is not known.".to_owned(),
@@ -97,6 +97,23 @@ impl Assessment {
                 self.cut_words()
             ),
         }
+    }
+
+    /// Every line that would break, and how.
+    fn breaking_words(&self, utilisations: &[Option<f64>]) -> String {
+        let lines = self.outcome.lines.iter().zip(utilisations).enumerate();
+        let broken: Vec<String> = lines
+            .filter_map(|(line, (outcome, utilisation))| {
+                let u = utilisation.filter(|u| *u >= 1.0)?;
+                let in_a_snap = outcome.peak_n.is_some_and(|peak| peak >= outcome.held_n);
+                let how = if in_a_snap { "in a snap" } else { "while taut" };
+                Some(format!("line {} ({u:.2}, {how})", line + 1))
+            })
+            .collect();
+        format!(
+            "Would break, by estimated tension over breaking load: {}.",
+            broken.join(", ")
+        )
     }
 
     /// That a run was cut short, where it was.
@@ -172,9 +189,23 @@ impl Assessment {
             "Single peaks mean little here; take the distribution."
         } else if irregular {
             "The peak of this record is not in doubt, but another record of the same sea has another: see snapload seas."
+        } else if self.trust.horizon.is_none() {
+            "The peak is not in doubt."
         } else {
             "The peak is not in doubt, even where the motion in detail is."
         };
+        if self.neighbours.len() < FEW {
+            return format!(
+                "{single} Of {} in waves that differ by at most 1e-6 of their height the largest tension in a snap is {:.0} to {:.0} kN.",
+                if self.neighbours.len() == 1 {
+                    "one neighbour".to_owned()
+                } else {
+                    format!("{} neighbours", self.neighbours.len())
+                },
+                spread[0] / 1e3,
+                spread[2] / 1e3,
+            );
+        }
         format!(
             "{single} Among {} neighbours in waves that differ by at most 1e-6 of their height the largest tension in a snap is {:.0} kN in the median, {:.0} to {:.0} kN in 90 % of them. {advice}",
             self.neighbours.len(),

@@ -11,8 +11,6 @@ pub(crate) type PerCable<T> = [T; MAX_CABLES];
 const DEPENDENT: f64 = 1e-12;
 /// Of a body in the plane: more cables than that depend on each other, whatever rounding says of their pivots.
 const FREEDOMS: usize = 3;
-/// Impulses are shared among so many cables at most, as every set of them is tried.
-const MOST_SHARED: usize = 8;
 /// A normal velocity below this part of the largest is the same.
 pub(crate) const SHARED: f64 = 1e-9;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
@@ -129,7 +127,7 @@ fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<
 }
 
 /// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying which of
-/// them pull (z > 0), fewest first. Returns z and the set of those that pull.
+/// them pull (z > 0). Returns z and the set of those that pull.
 ///
 /// With W positive definite the solution exists and is unique (Cottle, Pang & Stone, The Linear
 /// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic; rounding
@@ -141,7 +139,8 @@ pub(crate) fn complementary<T: Real>(
 ) -> (PerCable<T>, TautSet) {
     let mut best = ([T::ZERO; MAX_CABLES], TautSet::SLACK);
     let mut least = None;
-    for pulling in set.subsets() {
+    // Three that do not depend on each other can pull in every way that more can (Carathéodory).
+    for pulling in set.subsets().filter(|set| set.len() <= FREEDOMS) {
         let z = solve(pulling, &w, q);
         let mut violation = T::ZERO;
         for i in set.iter() {
@@ -173,9 +172,9 @@ pub(crate) fn complementary<T: Real>(
 /// unique, who carries how much of it is not. [`complementary`] finds a solution with as few cables as will do; here
 /// the load is spread over all `held` cables that the solution leaves without a normal velocity of their own. For
 /// each set S of them the least norm is z = W y with W W y = W z over S, since the rows of G that z may use are
-/// those of W's range; of the sets without a negative impulse the one of least norm is the answer.
+/// those of W's range; the set for which no impulse in it is negative, and none outside would be positive, is the answer.
 ///
-/// Sets without dependent cables, and more than [`MOST_SHARED`], are returned as they are.
+/// Sets without dependent cables are returned as they are.
 pub(crate) fn least_norm<T: Real>(
     held: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -195,44 +194,64 @@ pub(crate) fn least_norm<T: Real>(
         .iter()
         .filter(|&i| (product(i, &z) - q[i]).abs() <= close)
         .collect();
-    if tight.len() > MOST_SHARED || independent(tight, &w) {
+    if independent(tight, &w) {
         return z;
     }
-    let norm = |z: &PerCable<T>| tight.iter().fold(T::ZERO, |sum, i| sum + z[i] * z[i]);
-    let mut best = z;
-    for set in tight.subsets().filter(|set| !set.is_empty()) {
-        let shared = spread(set, &w, &z, &product);
-        let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
-        let same = held
+    let does_the_same = |shared: &PerCable<T>| {
+        held.iter()
+            .all(|i| (product(i, shared) - product(i, &z)).abs() <= close)
+    };
+    // The method of active sets: those that would have to push leave, those that would pull come back.
+    let mut set = tight;
+    for _ in 0..4 * tight.len() {
+        let pulls = spread(set, tight, &w, &z, &product);
+        let most_pushed = set
             .iter()
-            .all(|i| (product(i, &shared) - product(i, &z)).abs() <= close);
-        if pulls && same && norm(&shared) < norm(&best) {
-            best = shared;
+            .filter(|&i| pulls[i] < T::ZERO)
+            .reduce(|a, b| if pulls[b] < pulls[a] { b } else { a });
+        let left_out = tight
+            .iter()
+            .filter(|&i| !set.contains(i) && pulls[i] > close)
+            .reduce(|a, b| if pulls[b] > pulls[a] { b } else { a });
+        match (most_pushed, left_out) {
+            (Some(cable), _) => set = set.without(cable),
+            (None, Some(cable)) => set = set.with(cable),
+            (None, None) => {
+                let mut shared = [T::ZERO; MAX_CABLES];
+                for i in set.iter() {
+                    shared[i] = pulls[i];
+                }
+                return if does_the_same(&shared) { shared } else { z };
+            }
         }
     }
-    best
+    z
 }
 
-/// The z = W y over a set that acts on it like `z`, with one step of refinement.
+/// The z = W y, with y over a set, that acts on the set like `z`, with one step of refinement: what each cable of `all` pulls.
 fn spread<T: Real>(
     set: TautSet,
+    all: TautSet,
     w: &impl Fn(usize, usize) -> T,
     z: &PerCable<T>,
     product: &impl Fn(usize, &PerCable<T>) -> T,
 ) -> PerCable<T> {
     let square = |i: usize, j: usize| set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * w(k, j));
-    let mut shared = [T::ZERO; MAX_CABLES];
+    let (mut pulls, mut shared) = ([T::ZERO; MAX_CABLES], [T::ZERO; MAX_CABLES]);
     for _ in 0..2 {
         let mut left = [T::ZERO; MAX_CABLES];
         for i in set.iter() {
             left[i] = product(i, z) - product(i, &shared);
         }
         let y = solve(set, square, &left);
+        for i in all.iter() {
+            pulls[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
+        }
         for i in set.iter() {
-            shared[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
+            shared[i] = pulls[i];
         }
     }
-    shared
+    pulls
 }
 
 /// Whether no cable's constraint depends on those of the others.
@@ -273,17 +292,29 @@ mod tests {
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
+    /// A unit normal and a lever arm.
+    fn row() -> impl Strategy<Value = [f64; 3]> {
+        (0.0..std::f64::consts::TAU, -1.0..1.0)
+            .prop_map(|(angle, arm): (f64, f64)| [angle.cos(), angle.sin(), arm])
+    }
+
     proptest! {
-        /// The defining conditions, for random Gram matrices of rank 1 to 3 and up to 4 cables.
+        #![proptest_config(ProptestConfig {
+            rng_seed: RngSeed::Fixed(1999),
+            ..ProptestConfig::default()
+        })]
+
+        /// The defining conditions, for random Gram matrices of rank 1 to 3, up to 6 cables, and normal velocities that a
+        /// body can have.
         #[test]
-        fn conditions_hold(rows in proptest::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 1..5),
-                           q in proptest::collection::vec(-1.0..1.0f64, 4)) {
+        fn conditions_hold(rows in proptest::collection::vec(row(), 1..7),
+                           v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]) {
             let set: TautSet = (0..rows.len()).collect();
-            let w = |i: usize, j: usize| -> f64 {
-                (0..3).map(|k| rows[i][k] * rows[j][k]).sum::<f64>() + if i == j { 1e-3 } else { 0.0 }
-            };
+            let w = |i: usize, j: usize| -> f64 { (0..3).map(|k| rows[i][k] * rows[j][k]).sum() };
             let mut load = [0.0; MAX_CABLES];
-            load[..4].copy_from_slice(&q);
+            for (load, row) in load.iter_mut().zip(&rows) {
+                *load = (0..3).map(|k| row[k] * v[k]).sum();
+            }
             let (z, pulling) = complementary(set, w, &load);
             for i in set.iter() {
                 let slackness: f64 = set.iter().map(|j| w(i, j) * z[j]).sum::<f64>() - load[i];
@@ -305,7 +336,7 @@ mod tests {
         /// set of impulses that does the same.
         #[test]
         fn dependent_cables_share_with_the_least_norm(
-            rows in prop::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 3..7),
+            rows in prop::collection::vec(row(), 3..7),
             pulls in prop::collection::vec(0.0..1.0f64, 6),
         ) {
             let n = rows.len();
@@ -340,7 +371,7 @@ mod tests {
         /// Cables that do not depend on each other keep every bit.
         #[test]
         fn independent_cables_keep_their_impulses(
-            rows in prop::collection::vec([-1.0..1.0f64, -1.0..1.0, -1.0..1.0], 1..4),
+            rows in prop::collection::vec(row(), 1..4),
             q in prop::collection::vec(-1.0..1.0f64, 3),
         ) {
             let set: TautSet = (0..rows.len()).collect();

@@ -80,7 +80,10 @@ impl<'a> Playback<'a> {
         if system.flies_freely(segment.taut) {
             self.flight.begin(system, t, start, start, &contacts);
         } else {
-            let hold = Hold::of(system, t, start, segment.taut);
+            let hold = Hold {
+                taut: segment.taut,
+                carrying: segment.carrying,
+            };
             self.series.begin(system, t, start, &contacts, hold, None);
         }
         self.segment = Some(index);

@@ -46,6 +46,8 @@ use crate::{State, System};
 /// themselves, only stay below rounding of this \[L\], \[rad\].
 const STILL: f64 = 1e-12;
 
+/// A tension below this along a whole step is none \[F\].
+const NOTHING: f64 = 1e-7;
 /// A taut cable that carries nothing may be off its length by so many times what a resting one may.
 const HELD: f64 = 64.0;
 
@@ -168,19 +170,16 @@ impl<T: Real> Series<T> {
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
-        self.hold.taut = hold
-            .taut
-            .iter()
-            .filter(|&cable| self.holds(cable))
-            .collect();
+        let holds = |&cable: &usize| self.holds(cable, system.cables[cable].gap(start));
+        self.hold.taut = hold.taut.iter().filter(holds).collect();
         self.choose_watched();
     }
 
-    /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
-    fn holds(&self, cable: usize) -> bool {
-        self.hold.carrying.contains(cable)
-            || self.lines[cable].gap.derivative_bound(0, self.step, ORDER)
-                <= self.touch[cable] * HELD
+    /// Whether a taut cable stays so within the step: it carries, or its gap, as it is now, is and stays nothing but
+    /// rounding.
+    fn holds(&self, cable: usize, now: T) -> bool {
+        let most = self.lines[cable].gap.derivative_bound(0, self.step, ORDER) + now.abs();
+        self.hold.carrying.contains(cable) || most <= self.touch[cable] * HELD
     }
 
     /// Leaves out what provably is not reached within the step.
@@ -196,7 +195,11 @@ impl<T: Real> Series<T> {
             } else {
                 (Watch::Gap(cable), line.gap, ORDER)
             };
-            if !function.stays_negative(step, order) {
+            // A cable that carries nothing among others that could is no event.
+            let nothing = taut != carrying
+                && carrying.contains(cable)
+                && function.derivative_bound(0, step, order) <= T::from_decimal(NOTHING);
+            if !nothing && !function.stays_negative(step, order) {
                 self.watched.push((watch, function, order));
             }
         }

@@ -49,8 +49,11 @@ pub struct Simulation<T: Real = f64> {
     impacts: u64,
     /// Steps of no length since time last moved on.
     standstill: u64,
-    /// Slow snaps in a row, slower than `v_stick`.
+    /// Snaps in a row that were slower than `v_stick`, and their cables.
     slow_snaps: u32,
+    slow_cables: TautSet,
+    /// When the latest stretch began.
+    begun: T,
     last: LastImpacts<T>,
     stop: Option<Stop>,
     t_limit: Option<T>,
@@ -90,6 +93,8 @@ pub struct Step<T: Real = f64> {
     pub stop: Option<Stop>,
     /// The state at the end, before the event there.
     pub before: State<T>,
+    /// Of the taut cables those that make up the motion.
+    pub(crate) carrying: TautSet,
     pub(crate) event: Event,
     shock: Option<Shock<T>>,
 }
@@ -157,6 +162,8 @@ impl<T: Real> Simulation<T> {
             impacts: 0,
             standstill: 0,
             slow_snaps: 0,
+            slow_cables: TautSet::SLACK,
+            begun: t,
             last: LastImpacts {
                 cables: TautSet::SLACK,
                 v_n: T::ZERO,
@@ -218,12 +225,12 @@ impl<T: Real> Simulation<T> {
         if self.stop.is_some() {
             return None;
         }
-        let (t_start, start, mut taut) = (self.t, self.state, self.hold.taut);
+        let (t_start, start, mut hold) = (self.t, self.state, self.hold);
         let (event, shock) = match self.next_bounce() {
             Some(bounce) => self.take(&bounce),
             None => {
                 let crossing = self.next_crossing();
-                taut = self.hold.taut;
+                hold = self.hold;
                 self.advance(&crossing);
                 self.before = self.state;
                 let event = self.event(crossing.reached);
@@ -234,7 +241,8 @@ impl<T: Real> Simulation<T> {
         Some(Step {
             t_start,
             start,
-            taut,
+            taut: hold.taut,
+            carrying: hold.carrying,
             t_end: self.t,
             after: self.state,
             taut_after: self.hold.taut,
@@ -255,6 +263,7 @@ impl<T: Real> Simulation<T> {
 
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
     fn next_crossing(&mut self) -> Crossing<T> {
+        self.begun = self.t;
         let mut horizon = self.rules.t_end - self.t;
         let crossing = if self.system.flies_freely(self.hold.taut) {
             self.flight.begin(

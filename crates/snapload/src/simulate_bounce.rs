@@ -74,7 +74,7 @@ impl<T: Real> Simulation<T> {
             theta_max: moment.theta_max,
         };
         if progress.impacts > self.impacts {
-            self.slow_snaps = 0;
+            self.end_slow_row();
         }
         self.impacts = progress.impacts;
         self.last = progress.last;
@@ -113,7 +113,7 @@ impl<T: Real> Simulation<T> {
             return (event, Some(self.snap(&event)));
         }
         self.state = next.state;
-        self.slow_snaps = 0;
+        self.end_slow_row();
         let e = self.system.restitution;
         let shock = Shock::of_one(
             struck,

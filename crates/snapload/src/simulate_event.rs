@@ -5,9 +5,14 @@ use crate::bounce::UNMOVED;
 use crate::contact::Contact;
 use crate::impact::{Shock, impact};
 use crate::real::{Real, length};
-use crate::taut::{Hold, normal_acceleration, project_velocity, taut_next, unloaded};
+use crate::taut::{Hold, normal_acceleration, project_velocity, taut_next};
 use crate::trajectory::Stop;
 use crate::{State, TautSet};
+
+/// A tension below this is one that pushes, far beyond what counts as the same \[F\].
+const PUSHES: f64 = -1e-7;
+/// So many halvings of a step from its middle to the first instant that is looked at after a tension was lost.
+const LATER: i32 = 28;
 
 impl<T: Real> Simulation<T> {
     /// Applies the law of what was reached.
@@ -44,17 +49,24 @@ impl<T: Real> Simulation<T> {
             .iter()
             .filter(|&cable| self.unmoved(&shock, cable, struck))
             .collect();
-        self.slow_snaps = if slow == struck {
-            self.slow_snaps + 1
+        if slow == struck {
+            self.slow_snaps += 1;
+            self.slow_cables = self.slow_cables.union(struck);
         } else {
-            0
-        };
-        let candidates = slow.union(at_rest).union(self.caught(&shock, closed));
+            self.end_slow_row();
+        }
+        let caught = self.caught(&shock, closed);
+        let candidates = slow.union(at_rest).union(caught);
         let mut halted = shock.after;
         project_velocity(&self.system, &mut halted, candidates);
-        let unloaded = TautSet::SLACK;
-        self.hold = taut_next(&self.system, self.t, &halted, candidates, unloaded);
-        project_velocity(&self.system, &mut self.state, self.hold.taut);
+        self.hold = taut_next(&self.system, self.t, &halted, candidates);
+        let at_rest = if caught.is_empty() {
+            project_velocity(&self.system, &mut self.state, self.hold.taut);
+            at_rest
+        } else {
+            self.state = halted;
+            candidates
+        };
 
         for cable in closed.iter() {
             let resting = self.hold.taut.contains(cable) || at_rest.contains(cable);
@@ -69,13 +81,19 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
-    /// ones that leave by less: those snaps accumulate, and all of them may stick.
+    /// ones that leave by less: those snaps accumulate, and all of them come to rest at once.
     fn caught(&self, shock: &Shock<T>, closed: TautSet) -> TautSet {
-        if self.slow_snaps < CONVERGING {
+        if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
             return TautSet::SLACK;
         }
         let slow = |&cable: &usize| shock.v_after[cable].abs() < self.v_stick;
         closed.iter().filter(slow).collect()
+    }
+
+    /// Another event has come between slow snaps.
+    pub(super) fn end_slow_row(&mut self) {
+        self.slow_snaps = 0;
+        self.slow_cables = TautSet::SLACK;
     }
 
     /// Whether a closed cable has no normal velocity after the shock. A struck one was closing; if its
@@ -123,32 +141,30 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero. Where others hold closed as
-    /// well, those that share in nothing leave, and the load goes over to the rest.
+    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
+    ///
+    /// Where others hold closed as well, a carrying cable without tension may hand its load over to one of them. Which,
+    /// the instant itself does not say, so it is decided a little later on the same motion, when the tension would be
+    /// negative: there the problem on accelerations tells who goes on carrying, and who leaves.
     fn release(&mut self, released: TautSet) {
+        self.end_slow_row();
         let Hold { taut, carrying } = self.hold;
-        let without = |gone: TautSet| gone.iter().fold(taut, TautSet::without);
-        let idle = if taut == carrying {
-            released
+        self.hold = if taut == carrying {
+            let kept = released.iter().fold(taut, TautSet::without);
+            taut_next(&self.system, self.t, &self.state, kept)
         } else {
-            unloaded(&self.system, self.t, &self.state, taut)
-        };
-        self.hold = if idle.is_empty() {
-            taut_next(
-                &self.system,
-                self.t,
-                &self.state,
-                without(released),
-                released,
-            )
-        } else {
-            taut_next(
-                &self.system,
-                self.t,
-                &self.state,
-                without(idle),
-                TautSet::SLACK,
-            )
+            let since = self.t - self.begun;
+            let clear = |&later: &T| {
+                let tension = |cable| self.series.tension(cable, since + later);
+                released
+                    .iter()
+                    .any(|cable| tension(cable) < T::from_decimal(PUSHES))
+            };
+            let steps = (0..LATER).map(|k| self.series.step() * 0.5_f64.powi(LATER - k));
+            let last = self.series.step() * 0.5;
+            let later = steps.into_iter().find(clear).unwrap_or(last);
+            let state = self.series.state(since + later);
+            taut_next(&self.system, self.t + later, &state, taut)
         };
         self.check_rules(TautSet::SLACK);
     }

@@ -136,18 +136,33 @@ impl<T: Real> Simulation<T> {
     pub fn largest_tensions(&self, step: &Step<T>) -> [T; MAX_CABLES] {
         let s = step.t_end - step.t_start;
         let mut largest = [T::ZERO; MAX_CABLES];
-        for cable in step.taut.iter() {
-            let tension = |k: usize| {
-                let s = s * (k as f64 / 16.0);
-                if self.series.hold().carrying == step.taut {
-                    return self.series.tension(cable, s);
-                }
-                let t = step.t_start + s;
-                tensions(&self.system, t, &self.series.state(s), step.taut)[cable]
-            };
-            largest[cable] = (0..=16).map(tension).fold(T::ZERO, T::max);
+        if step.taut.is_empty() {
+            return largest;
+        }
+        for k in 0..=16 {
+            let now = self.tensions_within(step, s * (f64::from(k) / 16.0));
+            for cable in step.taut.iter() {
+                largest[cable] = largest[cable].max(now[cable]);
+            }
         }
         largest
+    }
+
+    /// The tension of each cable at the end of the latest step, before the event there \[F\].
+    pub fn tensions_at_end(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+        self.tensions_within(step, step.t_end - step.t_start)
+    }
+
+    fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
+        if step.taut != step.carrying {
+            let t = step.t_start + s;
+            return tensions(&self.system, t, &self.series.state(s), step.taut);
+        }
+        let mut now = [T::ZERO; MAX_CABLES];
+        for cable in step.taut.iter() {
+            now[cable] = self.series.tension(cable, s);
+        }
+        now
     }
 
     /// How far the latest expansion of taut motion may be used.

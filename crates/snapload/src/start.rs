@@ -110,7 +110,7 @@ pub(crate) fn prepare<T: Real>(
             Contact::evaluated(system, cable, &state)
         };
     }
-    let hold = taut_next(system, t, &state, resting, TautSet::SLACK);
+    let hold = taut_next(system, t, &state, resting);
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);

@@ -15,22 +15,6 @@ pub(crate) struct Hold {
     pub(crate) carrying: TautSet,
 }
 
-impl Hold {
-    /// Of cables that are known to be taut.
-    pub(crate) fn of<T: Real>(system: &System<T>, t: T, state: &State<T>, taut: TautSet) -> Self {
-        let normals = system.normals(state, taut);
-        let inverse_inertia = system.body.inverse_inertia();
-        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-        if independent(taut, w) {
-            let carrying = taut;
-            return Self { taut, carrying };
-        }
-        let (load, _) = load(system, t, state, taut);
-        let (_, carrying) = complementary(taut, w, &load);
-        Self { taut, carrying }
-    }
-}
-
 /// The cables that are taut from now on, among closed ones without normal velocity, by the complementarity problem on
 /// accelerations (docs/model.md section 6):
 ///
@@ -38,38 +22,45 @@ impl Hold {
 /// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T
 /// ```
 ///
-/// The problem is solved with as few of `candidates` as will do. Others of them that these hold closed as well are
-/// taut, too; so are those of `unloaded`, which carry nothing.
+/// The problem is solved with as few cables as will do. Where others stay closed as well, g̈ = 0, and all of them depend on
+/// each other, all are taut, and as many carry as there are directions to hold.
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
     candidates: TautSet,
-    unloaded: TautSet,
 ) -> Hold {
     if candidates.is_empty() {
         return Hold::default();
     }
-    let all = candidates.union(unloaded);
-    let (load, normals) = load(system, t, state, all);
+    let (load, normals) = load(system, t, state, candidates);
     let inverse_inertia = system.body.inverse_inertia();
     let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-    let (tension, carrying) = complementary(candidates, w, &load);
-    let held_as_well = |&cable: &usize| {
+    let (tension, pulling) = complementary(candidates, w, &load);
+    let stays_closed = |&cable: &usize| {
         let pulls = |j: usize| w(cable, j) * tension[j];
-        let left = carrying.iter().fold(load[cable], |sum, j| sum - pulls(j));
-        let size = carrying
+        let left = pulling.iter().fold(load[cable], |sum, j| sum - pulls(j));
+        let size = pulling
             .iter()
             .fold(load[cable].abs(), |sum, j| sum + pulls(j).abs());
-        left.abs() <= size * T::from_decimal(SHARED) && !independent(carrying.with(cable), w)
+        left.abs() <= size * T::from_decimal(SHARED)
     };
-    let others = all.iter().filter(|&cable| !carrying.contains(cable));
-    let as_well: TautSet = if carrying.is_empty() {
-        TautSet::SLACK
-    } else {
-        others.filter(held_as_well).collect()
-    };
-    let taut = carrying.union(as_well);
+    let others: TautSet = candidates
+        .iter()
+        .filter(|&cable| !pulling.contains(cable))
+        .filter(stays_closed)
+        .collect();
+    let taut = pulling.union(others);
+    if pulling.is_empty() || others.is_empty() || independent(taut, w) {
+        return Hold {
+            taut: pulling,
+            carrying: pulling,
+        };
+    }
+    let carrying = others.iter().fold(pulling, |carrying, cable| {
+        let more = carrying.with(cable);
+        if independent(more, w) { more } else { carrying }
+    });
     Hold { taut, carrying }
 }
 
@@ -93,19 +84,17 @@ pub(crate) fn tensions<T: Real>(
     least_norm(taut, w, &load, tension)
 }
 
-/// The taut cables that carry nothing, to rounding of forces of size 1.
-pub(crate) fn unloaded<T: Real>(
+/// Tensions that move the body as it moves: where taut cables depend on each other, one solution of many.
+fn some_tensions<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
     taut: TautSet,
-) -> TautSet {
-    let tension = tensions(system, t, state, taut);
-    let largest = taut
-        .iter()
-        .fold(T::ONE, |most, cable| most.max(tension[cable]));
-    let none = |&cable: &usize| tension[cable] <= largest * T::from_decimal(SHARED);
-    taut.iter().filter(none).collect()
+) -> PerCable<T> {
+    let (load, normals) = load(system, t, state, taut);
+    let inverse_inertia = system.body.inverse_inertia();
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    solve(taut, w, &load)
 }
 
 /// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).
@@ -119,7 +108,7 @@ pub(crate) fn acceleration<T: Real>(
     if taut.is_empty() {
         return free;
     }
-    let tension = tensions(system, t, state, taut);
+    let tension = some_tensions(system, t, state, taut);
     let inverse_inertia = system.body.inverse_inertia();
     taut.iter().fold(free, |[x, y, theta], cable| {
         let (normal, pull) = (system.cables[cable].normal(state), tension[cable]);
@@ -139,7 +128,7 @@ pub(crate) fn normal_acceleration<T: Real>(
     cable: usize,
     taut: TautSet,
 ) -> T {
-    let tension = tensions(system, t, state, taut);
+    let tension = some_tensions(system, t, state, taut);
     let (load, normals) = load(system, t, state, taut.with(cable));
     let inverse_inertia = system.body.inverse_inertia();
     taut.iter().fold(load[cable], |sum, j| {

@@ -104,6 +104,8 @@ pub(crate) struct Segment {
     pub(crate) t: f64,
     pub(crate) start: State,
     pub(crate) taut: TautSet,
+    /// Of the taut cables those that make up the motion.
+    pub(crate) carrying: TautSet,
 }
 
 /// A finished run.
@@ -172,6 +174,7 @@ impl Trajectory {
             t: run.end.t,
             start: run.end.state,
             taut: simulation.taut(),
+            carrying: simulation.taut(),
         });
         run.norms.y_max = simulation.y_max();
         run.norms.theta_max = simulation.theta_max();
@@ -184,6 +187,7 @@ impl Trajectory {
                 t: step.t_start,
                 start: step.start,
                 taut: step.taut,
+                carrying: step.carrying,
             });
             match self.modes.last_mut() {
                 Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,

@@ -120,7 +120,7 @@ fn lines(assessment: &Assessment) -> Markup {
                         td { (kilo(assessment.prepared.rest.tension_n[index])) } td { (kilo(outcome.held_n)) }
                         td { (format!("{:.1}", 100.0 * outcome.slack_fraction)) } td { (outcome.snaps) }
                         td { (format!("{:.2}", outcome.speed_m_s)) }
-                        td { @if outcome.snaps == 0 { "none" } @else { (maybe_kilo(outcome.peak_n)) } }
+                        td { @if outcome.snaps + outcome.jolts == 0 { "none" } @else { (maybe_kilo(outcome.peak_n)) } }
                         td { (maybe_kilo(line.breaking_load_n)) }
                         td { (utilisations[index].map_or("not known".to_owned(), |u| format!("{u:.2}"))) }
                     }
@@ -184,7 +184,7 @@ fn snaps(assessment: &Assessment) -> Markup {
                     td { (maybe_kilo(snap.front_n)) } td { (maybe_kilo(snap.peak_n)) }
                     td { (snap.utilisation.map_or("not known".to_owned(), |u| format!("{u:.2}"))) }
                     td {
-                        @if snap.is_jolt() { "passed on to a taut line " }
+                        @if snap.is_jolt { "passed on to a taut line " }
                         @if horizon.is_some_and(|horizon| snap.t_s > horizon) { "past the horizon" }
                     }
                 } } }

@@ -4,6 +4,7 @@ use super::Scan;
 use crate::assess::Assessment;
 use crate::gumbel::reduced;
 use crate::seas::Seas;
+use crate::snap::Snap;
 use crate::structure::{Structure, Water};
 use snapload::Playback;
 use snapload_figures::{
@@ -38,7 +39,7 @@ pub(super) fn all(assessment: &Assessment) -> Result<Vec<(Picture, String)>, Fig
     let window = window(assessment);
     let named = [
         ("path", path(assessment, window), format!("Path of the body's centre from t = {:.0} to {:.0} s, about the hardest snap.", window[0], window[1])),
-        ("snaps", peaks(assessment), "Estimated tension of every snap of 1 cm/s or more; dashed, the lowest breaking load. Grey: not judged.".to_owned()),
+        ("snaps", peaks(assessment), "Estimated peak of every snap of 1 cm/s or more; where lines break at different loads, over the line's own. Dashed: there it breaks. Grey: not judged.".to_owned()),
         ("tension", tension(assessment, window), "Tension of the lines while they are taut, in the same time. Snaps are not in it: they last no time here, and have an impulse, not a tension.".to_owned()),
         ("rotation", rotation(assessment, window), "Rotation of the body in the same time.".to_owned()),
     ];
@@ -130,9 +131,63 @@ fn over_time(description: &str, label: &str, range: Range, layers: Vec<Layer>) -
     }
 }
 
+/// How hard a snap is, as it is drawn.
+enum PeakScale {
+    /// Tension, all lines breaking at this load, if that is known \[N\].
+    Tension(Option<f64>),
+    /// Tension over the line's own breaking load.
+    Utilisation,
+    /// Of lines without a stiffness only the speed is known.
+    Speed,
+}
+
+impl PeakScale {
+    fn of(assessment: &Assessment) -> Self {
+        let lines = &assessment.prepared.structure.lines;
+        let loads: Vec<f64> = lines
+            .iter()
+            .filter_map(|line| line.breaking_load_n)
+            .collect();
+        if assessment.snaps.iter().any(|snap| snap.peak_n.is_none()) {
+            Self::Speed
+        } else if loads.len() < lines.len() {
+            Self::Tension(None)
+        } else if loads.iter().all(|load| *load == loads[0]) {
+            Self::Tension(loads.first().copied())
+        } else {
+            Self::Utilisation
+        }
+    }
+
+    fn value(&self, snap: &Snap) -> f64 {
+        let peak_kn = snap.peak_n.map_or(0.0, |peak| peak / 1e3);
+        match self {
+            Self::Tension(_) => peak_kn,
+            Self::Utilisation => snap.utilisation.unwrap_or(0.0),
+            Self::Speed => snap.speed_m_s,
+        }
+    }
+
+    fn limit(&self) -> Option<f64> {
+        match self {
+            Self::Tension(load) => load.map(|load| load / 1e3),
+            Self::Utilisation => Some(1.0),
+            Self::Speed => None,
+        }
+    }
+
+    fn label(&self) -> &'static str {
+        match self {
+            Self::Tension(_) => "tension (kN)",
+            Self::Utilisation => "tension over breaking load",
+            Self::Speed => "speed of the snap (m/s)",
+        }
+    }
+}
+
 fn peaks(assessment: &Assessment) -> Plot {
     let structure = &assessment.prepared.structure;
-    let known = assessment.snaps.iter().all(|snap| snap.peak_n.is_some());
+    let scale = PeakScale::of(assessment);
     let shade = Layer::Shade {
         from: f64::NEG_INFINITY,
         to: structure.transient_s,
@@ -144,12 +199,7 @@ fn peaks(assessment: &Assessment) -> Plot {
             .snaps
             .iter()
             .filter(|snap| snap.counts() && snap.line == line);
-        let points = of_line.map(|snap| {
-            [
-                snap.t_s,
-                snap.peak_n.map_or(snap.speed_m_s, |peak| peak / 1e3),
-            ]
-        });
+        let points = of_line.map(|snap| [snap.t_s, scale.value(snap)]);
         layers.push(Layer::Markers {
             points: points.collect(),
             shape: if line.is_multiple_of(2) {
@@ -161,22 +211,13 @@ fn peaks(assessment: &Assessment) -> Plot {
             legend: format!("line {}", line + 1),
         });
     }
-    let weakest = structure
-        .lines
-        .iter()
-        .filter_map(|line| line.breaking_load_n)
-        .reduce(f64::min);
-    if let (true, Some(load)) = (known, weakest) {
+    if let Some(load) = scale.limit() {
         layers.push(Layer::Horizontal {
-            y: load / 1e3,
+            y: load,
             label: "breaks".to_owned(),
         });
     }
-    let label = if known {
-        "tension (kN)"
-    } else {
-        "speed of the snap (m/s)"
-    };
+    let label = scale.label();
     let mut plot = over_time(
         "Estimated tension of each snap against time",
         label,
@@ -184,7 +225,7 @@ fn peaks(assessment: &Assessment) -> Plot {
         layers,
     );
     plot.x.range = Range::AtLeast(0.0, assessment.outcome.end_s);
-    if !assessment.snaps.iter().any(crate::Snap::counts) {
+    if !assessment.snaps.iter().any(Snap::counts) {
         plot.note = "no line snapped".to_owned();
     }
     plot
