@@ -538,6 +538,27 @@ def test_those_who_want_no_motion_get_none(open_page):
     assert exact_time(still) == 0.4721795499019612
 
 
+SNAP_RED = "rgb(161, 18, 31)"
+
+
+def test_a_picture_that_stands_shows_a_snap_at_its_instant_alone(open_page, command_json, tmp_path: Path):
+    first = command_json("run", "--ensemble", "0")["impacts"][0]
+    page = open_page(f"t={first['t']}")
+    expect(page.locator("#caption")).to_have_text(f"snap of cable {first['cable']}; slack")
+    assert SNAP_RED in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # So soon after it that the flash would not have faded if it were played.
+    after = open_page(f"t={first['t'] + 0.001}")
+    expect(after.locator("#caption")).to_have_text("slack")
+    assert SNAP_RED not in download(after, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # Nor does a picture that is paused keep what was fading while it played.
+    page.locator("#speed").select_option("0.01")
+    page.locator("#play").click()
+    comes_true(page, lambda: exact_time(page) > first["t"])
+    page.locator("#play").click()
+    assert SNAP_RED not in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    assert drawn(page)[0] == drawn(open_page(f"t={exact_time(page)}&speed=0.01"))[0]
+
+
 def test_a_screen_reader_is_told(open_page):
     page = open_page("f_o=0.27&stop_when_settled=false&t=30")
     words = page.locator("#scene").get_attribute("aria-label")

@@ -36,6 +36,11 @@ class Page {
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new Stage(this.state, this.playback);
     this.transport = new Transport(this.state, this.playback);
+    this.playback.onPlaying = (playing) => {
+      this.transport.showPlaying(playing);
+      // What fades while it plays is no part of a picture that stands.
+      this.drawMoment();
+    };
     this.controls = new Controls($("controls"), this.state, {
       onChange: (since, settled) => {
         this.ask(since);

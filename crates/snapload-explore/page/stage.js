@@ -1,5 +1,6 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
+import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
@@ -83,7 +84,8 @@ export class Stage {
 
   options(width, height, scheme) {
     const { picture, view, speed } = this.state;
-    return { width, height, picture, view, speed, colours: colours(scheme), still: stillness.matches };
+    const { playing } = this.playback;
+    return { width, height, picture, view, speed, playing, colours: colours(scheme), still: stillness.matches };
   }
 
   #caption() {
@@ -93,7 +95,8 @@ export class Stage {
     const taut = moment.taut.length
       ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
-    $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
+    const happens = this.playback.playing ? "" : eventWords(this.run, t);
+    $("caption").textContent = `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}`;
     if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
   }
 

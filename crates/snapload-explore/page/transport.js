@@ -25,10 +25,6 @@ export class Transport {
       playback.pause();
       playback.seek(Number($("scrub").value));
     });
-    playback.onPlaying = (playing) => {
-      $("play").textContent = playing ? "Pause" : "Play";
-      this.show();
-    };
   }
 
   #jump(t) {
@@ -49,6 +45,11 @@ export class Transport {
 
   take(run) {
     this.run = run;
+  }
+
+  showPlaying(playing) {
+    $("play").textContent = playing ? "Pause" : "Play";
+    this.show();
   }
 
   show() {
