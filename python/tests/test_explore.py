@@ -299,6 +299,8 @@ def test_the_map_fills_and_a_cell_is_its_run(open_page, command_json):
     # The cell of f_o = 0.5 in the middle of 51 from 0 to 1, and the uppermost but one of e.
     place = {"x": 56 + 0.5 * (area["width"] - 68), "y": 10 + 1.5 / 41 * (area["height"] - 50)}
     page.locator("#map").click(position=place)
+    # What is said is of the cell that was clicked, not of that of the run before.
+    expect(page.locator("#map-said")).to_contain_text("f_o = 0.5, ")
     settled(page, before)
     assert page.locator("#field-f_o").input_value() == "0.5"
     e = page.locator("#field-e").input_value()

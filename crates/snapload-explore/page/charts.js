@@ -279,11 +279,11 @@ function put(mark, there, x, y, width, height) {
   if (height) mark.style.height = `${height}px`;
 }
 
-export function label(context, colours, text, x, y, angle = 0) {
+export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.save();
   context.translate(x, y);
   context.rotate(angle);
-  context.font = FONT;
+  context.font = font;
   context.fillStyle = colours.muted;
   context.textAlign = "center";
   context.fillText(text, 0, 0);
