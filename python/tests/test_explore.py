@@ -540,6 +540,25 @@ def test_those_who_want_no_motion_get_none(open_page):
     assert exact_time(still) == 0.4721795499019612
 
 
+def test_the_legend_tells_of_what_there_is(open_page):
+    standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
+    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "at θ = 0"}
+    assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
+    assert legend(sliding) == cables | {"slack", "sliding", "rocking", "past the horizon"}
+    expect(standard.locator("#ramp-key")).to_be_hidden()
+    expect(sliding.locator("#ramp-words")).to_have_text(re.compile(r"^tension, up to [\d.]+ F$"))
+    colour = "of => getComputedStyle(document.querySelector(`.legend [data-of=${of}]`), '::before').borderTopColor"
+    lines = {of: sliding.evaluate(colour, of) for of in ["taut-1", "taut-2", "slack", "sliding", "rocking"]}
+    assert lines["sliding"] == lines["rocking"] and len(set(lines.values())) == 4, "a colour means one thing"
+    for cable in [1, 2]:
+        stroke = f"() => getComputedStyle(document.querySelector('.boundary.b{cable}')).stroke"
+        assert sliding.evaluate(stroke) == lines[f"taut-{cable}"]
+
+
+def legend(page: Page) -> set[str]:
+    return set(page.locator(".legend [data-of]:visible").all_inner_texts())
+
+
 SNAP_RED = "rgb(161, 18, 31)"
 
 

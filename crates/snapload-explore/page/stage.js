@@ -39,8 +39,8 @@ export class Stage {
       () => words !== $("said").textContent && ($("said").textContent = words),
       $("said").textContent ? REST_MS : 0,
     );
-    $("ramp-words").textContent =
-      run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
+    $("ramp-key").hidden = !(run.timeTaut > 0);
+    $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
   }
 
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
@@ -58,8 +58,7 @@ export class Stage {
   }
 
   #summarise() {
-    const { norms, impacts, modes } = this.run;
-    const taut = modes.taut.reduce((sum, set, i) => sum + (set.length ? modes.t_end[i] - modes.t_start[i] : 0), 0);
+    const { norms, impacts, timeTaut } = this.run;
     const rows = [
       ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length), "impacts"],
       ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
@@ -68,7 +67,7 @@ export class Stage {
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
       ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
       ["Hardest impulse", number(this.run.hardest, 5)],
-      ["Time taut", `${number(taut, 4)} T`],
+      ["Time taut", `${number(timeTaut, 4)} T`],
     ];
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`)

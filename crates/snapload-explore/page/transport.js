@@ -68,7 +68,7 @@ export class Transport {
     $("zoom-all").disabled = window === null;
   }
 
-  /** The strip behind the slider: modes as bands, impacts as ticks, what is past the horizon grey. */
+  /** The strip behind the slider: taut cables as bands, two higher than one, impacts as ticks, what is past the horizon grey. */
   draw() {
     const { context, width, height } = prepare($("strip"));
     const paints = colours();
@@ -84,8 +84,8 @@ export class Transport {
     const { modes, horizon, impacts } = this.run;
     if (horizon.t !== null) band(horizon.t, this.run.tEnd, paints.shade, 0, height);
     modes.taut.forEach((taut, i) => {
-      if (taut.length)
-        band(modes.t_start[i], modes.t_end[i], paints[taut.length === 1 ? "cable-1" : "cable-2"], height - 4, 4);
+      const high = 2.5 * Math.min(taut.length, 2);
+      if (high) band(modes.t_start[i], modes.t_end[i], paints.strained, height - high, high);
     });
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;
