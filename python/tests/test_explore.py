@@ -335,6 +335,42 @@ def test_the_ghost_is_a_neighbour_that_parts(open_page):
     assert later > parts_at
 
 
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("5", "ghost = 5 is not allowed; allowed: a number, 0 < ghost <= 0.1"),
+        ("-1", "ghost = -1 is not allowed; allowed: a number, 0 < ghost <= 0.1"),
+        ("abc", 'ghost = "abc" is not allowed; allowed: a number'),
+    ],
+)
+def test_a_wrong_ghost_is_refused_in_words(open_page, text, words):
+    page = open_page(refused=1)
+    page.locator("#ghost").check()
+    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−6 away")
+    page.locator("#ghost-size").fill(text)
+    page.locator("#ghost-size").press("Enter")
+    expect(page.locator("#error-ghost")).to_contain_text(words)
+    assert page.locator("#ghost-size").get_attribute("aria-invalid") == "true"
+    page.locator("#ghost-size").fill("1e-5")
+    page.locator("#ghost-size").press("Enter")
+    expect(page.locator("#error-ghost")).to_be_hidden()
+    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−5 away")
+    assert page.locator("#ghost-size").get_attribute("aria-invalid") is None
+
+
+def test_a_wrong_ghost_in_a_link_is_told_and_the_run_is_shown(open_page, command_json):
+    page = open_page("f_o=0.31&t=0&ghost=5", refused=1)
+    expect(page.locator("#error-ghost")).to_contain_text("ghost = 5 is not allowed")
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", "f_o=0.31"))
+    before = count(page)
+    page.locator("#field-f_o").fill("0.29")
+    settled(page, before)
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", "f_o=0.29"))
+    expect(page.locator("#error-ghost")).to_contain_text("ghost = 5 is not allowed")
+    unread = open_page("f_o=0.31&t=0&ghost=abc")
+    expect(unread.locator("#note")).to_contain_text("ghost=abc")
+
+
 def test_files_are_those_of_the_command(open_page, command, tmp_path: Path):
     page = open_page("f_o=0.27&stop_when_settled=false&t_end=9")
     case = tmp_path / "case.toml"

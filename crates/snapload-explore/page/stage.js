@@ -2,6 +2,7 @@
 
 import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
+import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
@@ -21,13 +22,23 @@ export class Stage {
       }
     }
     const ghost = () => {
-      const size = Number($("ghost-size").value);
-      const legal = size > 0 && Number.isFinite(size);
-      $("ghost-size").setAttribute("aria-invalid", String(!legal));
-      if (legal || !$("ghost").checked) state.set({ ghost: $("ghost").checked ? size : null });
+      this.refuseGhost("");
+      if (!$("ghost").checked) return state.set({ ghost: null });
+      const text = $("ghost-size").value.trim();
+      const size = readValue({ kind: { type: "number" } }, text);
+      if (size === undefined) this.refuseGhost(`ghost = "${text}" is not allowed; allowed: a number, such as 1e-6`);
+      else state.set({ ghost: size });
     };
     $("ghost").addEventListener("change", ghost);
     $("ghost-size").addEventListener("change", ghost);
+  }
+
+  /** Shows at its field why the ghost can not be run; with no text, that nothing is wrong with it. */
+  refuseGhost(text) {
+    $("error-ghost").textContent = text;
+    $("error-ghost").hidden = !text;
+    if (text) $("ghost-size").setAttribute("aria-invalid", "true");
+    else $("ghost-size").removeAttribute("aria-invalid");
   }
 
   take(run) {
