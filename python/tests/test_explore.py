@@ -23,6 +23,8 @@ ROOT = Path(__file__).resolve().parents[2]
 DESKTOP = {"width": 1440, "height": 900}
 SMALLER = {"width": 1024, "height": 768}
 PHONE = {"width": 390, "height": 844}
+SMALLEST = {"width": 320, "height": 568}
+SIDEWAYS = {"width": 740, "height": 360}
 PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
 
 
@@ -499,6 +501,36 @@ def test_it_is_for_everyone(open_page, viewport, scheme):
     page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
     blameless(page)
+
+
+@pytest.mark.parametrize("viewport", [SMALLEST, SIDEWAYS], ids=["smallest", "sideways"])
+def test_it_fits_in_a_small_window(open_page, viewport):
+    page = open_page("t=0", viewport=viewport)
+    before = count(page)
+    page.locator("#case").select_option("1920001000-359")
+    settled(page, before)
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    assert page.locator("#case").bounding_box()["width"] > 200, "the case can not be read"
+
+
+@pytest.mark.parametrize("height", [150, 40])
+def test_a_low_window_breaks_nothing(open_page, height):
+    open_page("t=0", viewport={"width": 900, "height": height}).screenshot(full_page=True)
+    lines = open_page().evaluate(
+        """async height => {
+            const { Run } = await import('./run.js');
+            const { sceneShapes } = await import('./scene.js');
+            const body = JSON.stringify({ values: {}, ghost: null, samples: 100 });
+            const headers = { 'Content-Type': 'application/json' };
+            const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
+            const colours = new Proxy({}, { get: () => 'rgb(0 0 0)' });
+            const options = { width: 900, height, picture: 'real', view: 'whole', colours, speed: 1 };
+            return sceneShapes(run, 1, options).filter(shape => shape.circle).map(shape => shape.circle[2]);
+        }""",
+        height,
+    )
+    assert len(lines) > 3 and min(lines) > 0
 
 
 def blameless(page: Page) -> None:

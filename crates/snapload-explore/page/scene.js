@@ -9,6 +9,7 @@ import { fixed, modeName, number } from "./words.js";
 /** How long a snap stays to be seen while the picture plays, in seconds of watching. */
 const AFTERGLOW_S = 0.45;
 const PATH_BEHIND = 4;
+const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
 
 /**
  * What the picture shows of the plane, and how: `real` has the anchors on the sea floor below, `thesis` is turned
@@ -32,7 +33,9 @@ function camera(run, { width, height, picture, view }) {
   } else {
     [left, right] = [Math.min(left - size, -1) - 0.1, Math.max(right + size, 1) + 0.1];
     [low, high] = [surface, anchorLevel];
-    [beyondFloor, beyondSurface] = [34, 30];
+    // In a picture too low for the words the scene keeps most of the height.
+    const room = Math.min(1, (MOST_BEYOND * height) / (BEYOND_FLOOR_PX + BEYOND_SURFACE_PX));
+    [beyondFloor, beyondSurface] = [room * BEYOND_FLOOR_PX, room * BEYOND_SURFACE_PX];
   }
   const usable = height - beyondFloor - beyondSurface;
   const scale = Math.min(width / (right - left), usable / (high - low));
