@@ -193,6 +193,31 @@ def test_a_bad_value_is_refused_in_the_words_of_the_command(open_page, field, te
     expect(page.locator(f"#error-{named}")).to_be_hidden()
 
 
+def test_a_point_mass_has_neither_size_nor_rotation(open_page):
+    page = open_page("t=0")
+    assert page.locator("#slider-inertia").get_attribute("aria-valuetext") == "0.01 m\u2009L²"
+    before = count(page)
+    page.locator("#field-body").select_option("point")
+    settled(page, before)
+    for key in ["a", "b", "inertia", "theta", "vtheta"]:
+        expect(page.locator(f"#field-{key}")).to_be_disabled()
+        expect(page.locator(f"#slider-{key}")).to_be_disabled()
+        assert "a point mass has no" in page.locator(f"#why-{key}").inner_text()
+    expect(page.locator("#field-x")).to_be_enabled()
+    expect(page.locator("#failed")).to_be_hidden()
+    before = count(page)
+    page.locator("#field-body").select_option("rigid")
+    settled(page, before)
+    expect(page.locator("#field-a")).to_be_enabled()
+    # A rotation that was given before is refused, and can be mended where it stands.
+    given = open_page("t=0&theta=0.2&body=point", refused=1)
+    expect(given.locator("#error-theta")).to_contain_text("theta = 0.2 is not allowed")
+    given.locator("#field-theta").fill("0")
+    given.locator("#field-theta").press("Enter")
+    expect(given.locator("#error-theta")).to_be_hidden()
+    expect(given.locator("#field-theta")).to_be_disabled()
+
+
 def test_built_in_cases_are_there(open_page, command_json):
     page = open_page()
     before = count(page)
