@@ -52,7 +52,8 @@ function turned([x, y], moment) {
 }
 
 /**
- * All shapes at time t. Of `options`: width, height [px], picture, view, colours, playing, speed [T/s], still (no flash).
+ * All shapes at time t. Of `options`: width, height [px], picture, view, colours, playing, speed [T/s], and still (no
+ * flash).
  */
 export function sceneShapes(run, t, options) {
   const { width, height, colours } = options;

@@ -172,7 +172,8 @@ export class Trajectory {
           run.modes.t_start[i] < last &&
           run.modes.t_end[i] > first,
       );
-    const struck = (cable) => run.impacts.t.some((time, i) => run.impacts.cable[i] === cable && time >= first && time <= last);
+    const { cable: cables } = run.impacts;
+    const struck = (cable) => run.impacts.t.some((time, i) => cables[i] === cable && time >= first && time <= last);
     const there = {
       "snap-1": struck(1),
       "snap-2": struck(2),

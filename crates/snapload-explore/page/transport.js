@@ -68,7 +68,10 @@ export class Transport {
     $("zoom-all").disabled = window === null;
   }
 
-  /** The strip behind the slider: taut cables as bands, two higher than one, impacts as ticks, what is past the horizon grey. */
+  /**
+   * The strip behind the slider: taut cables as bands, two higher than one, impacts as ticks, and grey what is past the
+   * horizon.
+   */
   draw() {
     const { context, width, height } = prepare($("strip"));
     const paints = colours();
