@@ -23,6 +23,8 @@ ROOT = Path(__file__).resolve().parents[2]
 DESKTOP = {"width": 1440, "height": 900}
 SMALLER = {"width": 1024, "height": 768}
 PHONE = {"width": 390, "height": 844}
+SMALLEST = {"width": 320, "height": 568}
+SIDEWAYS = {"width": 740, "height": 360}
 PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
 
 
@@ -191,6 +193,31 @@ def test_a_bad_value_is_refused_in_the_words_of_the_command(open_page, field, te
     expect(page.locator(f"#error-{named}")).to_be_hidden()
 
 
+def test_a_point_mass_has_neither_size_nor_rotation(open_page):
+    page = open_page("t=0")
+    assert page.locator("#slider-inertia").get_attribute("aria-valuetext") == "0.01 m\u2009L²"
+    before = count(page)
+    page.locator("#field-body").select_option("point")
+    settled(page, before)
+    for key in ["a", "b", "inertia", "theta", "vtheta"]:
+        expect(page.locator(f"#field-{key}")).to_be_disabled()
+        expect(page.locator(f"#slider-{key}")).to_be_disabled()
+        assert "a point mass has no" in page.locator(f"#why-{key}").inner_text()
+    expect(page.locator("#field-x")).to_be_enabled()
+    expect(page.locator("#failed")).to_be_hidden()
+    before = count(page)
+    page.locator("#field-body").select_option("rigid")
+    settled(page, before)
+    expect(page.locator("#field-a")).to_be_enabled()
+    # A rotation that was given before is refused, and can be mended where it stands.
+    given = open_page("t=0&theta=0.2&body=point", refused=1)
+    expect(given.locator("#error-theta")).to_contain_text("theta = 0.2 is not allowed")
+    given.locator("#field-theta").fill("0")
+    given.locator("#field-theta").press("Enter")
+    expect(given.locator("#error-theta")).to_be_hidden()
+    expect(given.locator("#field-theta")).to_be_disabled()
+
+
 def test_built_in_cases_are_there(open_page, command_json):
     page = open_page()
     before = count(page)
@@ -299,6 +326,8 @@ def test_the_map_fills_and_a_cell_is_its_run(open_page, command_json):
     # The cell of f_o = 0.5 in the middle of 51 from 0 to 1, and the uppermost but one of e.
     place = {"x": 56 + 0.5 * (area["width"] - 68), "y": 10 + 1.5 / 41 * (area["height"] - 50)}
     page.locator("#map").click(position=place)
+    # What is said is of the cell that was clicked, not of that of the run before.
+    expect(page.locator("#map-said")).to_contain_text("f_o = 0.5, ")
     settled(page, before)
     assert page.locator("#field-f_o").input_value() == "0.5"
     e = page.locator("#field-e").input_value()
@@ -331,6 +360,42 @@ def test_the_ghost_is_a_neighbour_that_parts(open_page):
     expect(page.locator("#said")).to_contain_text("1e−12")
     later = read((page.locator("#said").inner_text() + " parts from it at t = 99").split("parts from it at t = ")[1])
     assert later > parts_at
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("5", "ghost = 5 is not allowed; allowed: a number, 0 < ghost <= 0.1"),
+        ("-1", "ghost = -1 is not allowed; allowed: a number, 0 < ghost <= 0.1"),
+        ("abc", 'ghost = "abc" is not allowed; allowed: a number'),
+    ],
+)
+def test_a_wrong_ghost_is_refused_in_words(open_page, text, words):
+    page = open_page(refused=1)
+    page.locator("#ghost").check()
+    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−6 away")
+    page.locator("#ghost-size").fill(text)
+    page.locator("#ghost-size").press("Enter")
+    expect(page.locator("#error-ghost")).to_contain_text(words)
+    assert page.locator("#ghost-size").get_attribute("aria-invalid") == "true"
+    page.locator("#ghost-size").fill("1e-5")
+    page.locator("#ghost-size").press("Enter")
+    expect(page.locator("#error-ghost")).to_be_hidden()
+    expect(page.locator("#said")).to_contain_text("The neighbour, started 1e−5 away")
+    assert page.locator("#ghost-size").get_attribute("aria-invalid") is None
+
+
+def test_a_wrong_ghost_in_a_link_is_told_and_the_run_is_shown(open_page, command_json):
+    page = open_page("f_o=0.31&t=0&ghost=5", refused=1)
+    expect(page.locator("#error-ghost")).to_contain_text("ghost = 5 is not allowed")
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", "f_o=0.31"))
+    before = count(page)
+    page.locator("#field-f_o").fill("0.29")
+    settled(page, before)
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", "f_o=0.29"))
+    expect(page.locator("#error-ghost")).to_contain_text("ghost = 5 is not allowed")
+    unread = open_page("f_o=0.31&t=0&ghost=abc")
+    expect(unread.locator("#note")).to_contain_text("ghost=abc")
 
 
 def test_files_are_those_of_the_command(open_page, command, tmp_path: Path):
@@ -463,6 +528,36 @@ def test_it_is_for_everyone(open_page, viewport, scheme):
     blameless(page)
 
 
+@pytest.mark.parametrize("viewport", [SMALLEST, SIDEWAYS], ids=["smallest", "sideways"])
+def test_it_fits_in_a_small_window(open_page, viewport):
+    page = open_page("t=0", viewport=viewport)
+    before = count(page)
+    page.locator("#case").select_option("1920001000-359")
+    settled(page, before)
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    assert page.locator("#case").bounding_box()["width"] > 200, "the case can not be read"
+
+
+@pytest.mark.parametrize("height", [150, 40])
+def test_a_low_window_breaks_nothing(open_page, height):
+    open_page("t=0", viewport={"width": 900, "height": height}).screenshot(full_page=True)
+    lines = open_page().evaluate(
+        """async height => {
+            const { Run } = await import('./run.js');
+            const { sceneShapes } = await import('./scene.js');
+            const body = JSON.stringify({ values: {}, ghost: null, samples: 100 });
+            const headers = { 'Content-Type': 'application/json' };
+            const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
+            const colours = new Proxy({}, { get: () => 'rgb(0 0 0)' });
+            const options = { width: 900, height, picture: 'real', view: 'whole', colours, speed: 1 };
+            return sceneShapes(run, 1, options).filter(shape => shape.circle).map(shape => shape.circle[2]);
+        }""",
+        height,
+    )
+    assert len(lines) > 3 and min(lines) > 0
+
+
 def blameless(page: Page) -> None:
     """axe-core finds nothing that would keep anybody out."""
     result = Axe().run(page)
@@ -536,6 +631,46 @@ def test_those_who_want_no_motion_get_none(open_page):
     assert drawn(moving)[0] != drawn(still)[0], "the flash is left out"
     assert drawn(moving)[2:] == drawn(still)[2:]
     assert exact_time(still) == 0.4721795499019612
+
+
+def test_the_legend_tells_of_what_there_is(open_page):
+    standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
+    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "at θ = 0"}
+    assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
+    assert legend(sliding) == cables | {"slack", "sliding", "rocking", "past the horizon"}
+    expect(standard.locator("#ramp-key")).to_be_hidden()
+    expect(sliding.locator("#ramp-words")).to_have_text(re.compile(r"^tension, up to [\d.]+ F$"))
+    colour = "of => getComputedStyle(document.querySelector(`.legend [data-of=${of}]`), '::before').borderTopColor"
+    lines = {of: sliding.evaluate(colour, of) for of in ["taut-1", "taut-2", "slack", "sliding", "rocking"]}
+    assert lines["sliding"] == lines["rocking"] and len(set(lines.values())) == 4, "a colour means one thing"
+    for cable in [1, 2]:
+        stroke = f"() => getComputedStyle(document.querySelector('.boundary.b{cable}')).stroke"
+        assert sliding.evaluate(stroke) == lines[f"taut-{cable}"]
+
+
+def legend(page: Page) -> set[str]:
+    return set(page.locator(".legend [data-of]:visible").all_inner_texts())
+
+
+SNAP_RED = "rgb(161, 18, 31)"
+
+
+def test_a_picture_that_stands_shows_a_snap_at_its_instant_alone(open_page, command_json, tmp_path: Path):
+    first = command_json("run", "--ensemble", "0")["impacts"][0]
+    page = open_page(f"t={first['t']}")
+    expect(page.locator("#caption")).to_have_text(f"snap of cable {first['cable']}; slack")
+    assert SNAP_RED in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # So soon after it that the flash would not have faded if it were played.
+    after = open_page(f"t={first['t'] + 0.001}")
+    expect(after.locator("#caption")).to_have_text("slack")
+    assert SNAP_RED not in download(after, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # Nor does a picture that is paused keep what was fading while it played.
+    page.locator("#speed").select_option("0.01")
+    page.locator("#play").click()
+    comes_true(page, lambda: exact_time(page) > first["t"])
+    page.locator("#play").click()
+    assert SNAP_RED not in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    assert drawn(page)[0] == drawn(open_page(f"t={exact_time(page)}&speed=0.01"))[0]
 
 
 def test_a_screen_reader_is_told(open_page):

@@ -176,7 +176,7 @@ export class Charts {
         drawMark(context, impacts.cable[i], frame.x(t), frame.y(impacts.v_n[i]), 2.8);
       });
     } else if (chart.id === "tensions") {
-      if (!(this.run.mostTension > 0)) {
+      if (!(this.run.timeTaut > 0)) {
         label(
           context,
           colours,
@@ -253,7 +253,7 @@ export class Charts {
     const tell = {
       theta: () => `from ${reach([run.motion.theta])} rad`,
       snaps: () => `${run.impacts.t.length} snaps, the hardest ${number(run.norms.rho1)} L/T`,
-      tensions: () => `at most ${number(run.mostTension, 3)} F`,
+      tensions: () => (run.timeTaut > 0 ? `at most ${number(run.mostTension, 3)} F` : "no cable stays taut"),
       energy: () => `from ${reach([run.motion.energy])} F L`,
     }[chart.id]();
     return `${chart.name} ${when}: ${tell}. The events are in the table below.`;
@@ -279,11 +279,11 @@ function put(mark, there, x, y, width, height) {
   if (height) mark.style.height = `${height}px`;
 }
 
-export function label(context, colours, text, x, y, angle = 0) {
+export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.save();
   context.translate(x, y);
   context.rotate(angle);
-  context.font = FONT;
+  context.font = font;
   context.fillStyle = colours.muted;
   context.textAlign = "center";
   context.fillText(text, 0, 0);

@@ -11,6 +11,15 @@ const GROUPS = [
   ["stops", "Stops"],
 ];
 
+/** What a point mass can not have, and why. */
+const NOT_OF_A_POINT = {
+  a: "a point mass has no size",
+  b: "a point mass has no size",
+  inertia: "a point mass has no inertia",
+  theta: "a point mass has no rotation",
+  vtheta: "a point mass has no rotation",
+};
+
 export class Controls {
   /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: not being dragged. */
   constructor(root, state, { onChange }) {
@@ -37,8 +46,9 @@ export class Controls {
     else if (key.kind.type === "choice") this.#choice(parts);
     else this.#numeric(parts);
     parts.error = element("p", { className: "key-error", id: `error-${key.name}`, hidden: true });
-    parts.field.setAttribute("aria-describedby", `meaning-${key.name} error-${key.name}`);
-    row.append(parts.error);
+    parts.why = element("p", { className: "key-why", id: `why-${key.name}`, hidden: true });
+    parts.field.setAttribute("aria-describedby", `meaning-${key.name} why-${key.name} error-${key.name}`);
+    row.append(parts.why, parts.error);
     this.rows.set(key.name, parts);
     return row;
   }
@@ -147,20 +157,26 @@ export class Controls {
 
   /** Shows the values of the state; what is being typed stays. `effective` has those that follow from others. */
   show(effective = {}) {
-    for (const [name, { key, field, slider, reset }] of this.rows) {
+    for (const [name, { key, field, slider, reset, why }] of this.rows) {
       // Where the default depends on other keys, what it comes to is known from the run.
       const given = this.state.values[name];
       const value =
         given === undefined && key.default_in_words
           ? (effective[name] ?? this.state.value(name))
           : this.state.value(name);
+      const text = plain(given ?? (key.default_in_words ? rounded(value) : value));
       if (key.kind.type === "flag") field.checked = value;
-      else if (this.typing !== name) field.value = plain(given ?? (key.default_in_words ? rounded(value) : value));
+      else if (this.typing !== name) field.value = text;
       if (reset) {
         reset.hidden = !(name in this.state.values);
       }
       if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
-      if (slider) slider.setAttribute("aria-valuetext", `${plain(value)} ${unitText(key.unit)}`.trim());
+      if (slider) slider.setAttribute("aria-valuetext", `${text} ${unitText(key.unit)}`.trim());
+      // What is given all the same is refused by the server, and has to be open to be mended.
+      const reason = given === undefined && this.state.value("body") === "point" ? NOT_OF_A_POINT[name] : undefined;
+      field.disabled = reason !== undefined;
+      if (slider) slider.disabled = field.disabled;
+      Object.assign(why, { textContent: reason ?? "", hidden: !reason });
     }
   }
 

@@ -96,6 +96,18 @@ export class EventTable {
   }
 }
 
+/** What happens at exactly t, in words; nothing at any other time, nor at the start. */
+export function eventWords(run, t) {
+  const words = ({ kind, impact: i, taut }) => {
+    if (kind === "mode") return taut.length ? `${modeName(taut)} begins` : "slack again";
+    if (kind !== "impact") return WORDS[kind];
+    const { cable, v_n } = run.impacts;
+    return `${v_n[i] > 0 ? "snap of" : "impulse passed on by"} cable ${cable[i]}`;
+  };
+  const now = run.events.slice(run.eventAt(t)).filter((event) => event.t === t && event.kind !== "start");
+  return [...new Set(now.map(words))].join(", ");
+}
+
 /** An impulse that passes into a taut cable has no velocity of its own. */
 const impactWords = (v_n, i) => `${v_n > 0 ? "snap" : "impulse passed on"} ${i + 1}`;
 const modeWords = (taut) => (taut.length ? `${modeName(taut)}, cable ${taut.join(" and ")} taut` : "slack");

@@ -36,6 +36,11 @@ class Page {
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new Stage(this.state, this.playback);
     this.transport = new Transport(this.state, this.playback);
+    this.playback.onPlaying = (playing) => {
+      this.transport.showPlaying(playing);
+      // What fades while it plays is no part of a picture that stands.
+      this.drawMoment();
+    };
     this.controls = new Controls($("controls"), this.state, {
       onChange: (since, settled) => {
         this.ask(since);
@@ -72,7 +77,7 @@ class Page {
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
       onAnswer: (answer, since, question) => this.take(answer, since, question),
-      onError: (error) => this.fail(error),
+      onError: (error, question) => this.fail(error, question),
       onBusy: (busy) => document.body.classList.toggle("busy", busy),
     });
     this.state.listen((changed) => this.follow(changed));
@@ -92,7 +97,7 @@ class Page {
   /** Asks for the run of the values as they are, which changed at a time; once, however often one asks. */
   ask(since = performance.now()) {
     const { values, ghost } = this.state;
-    const asked = JSON.stringify([values, ghost]);
+    const asked = keyOf({ values, ghost });
     if (asked === this.asked) return;
     this.asked = asked;
     clearTimeout(this.refining);
@@ -101,10 +106,11 @@ class Page {
 
   take(answer, since, question) {
     this.run = new Run(answer);
-    const latest = this.asked === JSON.stringify([question.values, question.ghost]);
+    const latest = this.asked === keyOf(question);
     if (latest) {
       $("failed").hidden = true;
       this.controls.clearError();
+      if (question.ghost === this.state.ghost) this.stage.refuseGhost("");
       this.controls.show(answer.values);
     }
     this.stage.take(this.run);
@@ -129,7 +135,8 @@ class Page {
     this.refining = setTimeout(() => this.runner.ask({ ...question, samples: SAMPLES.finer }), REST_MS);
   }
 
-  fail(error) {
+  fail(error, question) {
+    if (error.message.startsWith("ghost = ")) return this.failGhost(error, question);
     this.controls.showError(error.message);
     $("failed").textContent = `Not run: ${error.message}\nThe picture is that of the last values that could be run.`;
     $("failed").hidden = false;
@@ -140,6 +147,18 @@ class Page {
         performance.now(),
       );
     }
+  }
+
+  /** A ghost that can not be run is no reason not to show the run. */
+  failGhost(error, question) {
+    this.stage.refuseGhost(error.message);
+    this.controls.clearError();
+    $("failed").hidden = true;
+    // A newer question waits already, and must not be put aside for this one.
+    if (this.asked !== keyOf(question)) return;
+    const alone = { ...question, ghost: null };
+    this.asked = keyOf(alone);
+    this.runner.ask(alone, performance.now());
   }
 
   /** Redraws what a change of the state concerns. */
@@ -224,6 +243,8 @@ class Page {
     });
   }
 }
+
+const keyOf = ({ values, ghost }) => JSON.stringify([values, ghost]);
 
 function note(text) {
   $("note").textContent = text;

@@ -2,13 +2,15 @@
 
 import { Refused, fetchMap } from "./api.js";
 import { label } from "./charts.js";
-import { Frame, drawAxes, prepare, ticks } from "./plot.js";
+import { Frame, drawAxes, fontOf, prepare, ticks } from "./plot.js";
 import { MAP_COLOURS, MOST_CELLS, readValue } from "./state.js";
 import { mix } from "./theme.js";
 import { number, plain, prose, reasonText, unitText } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
+/** Larger than beside the small charts. */
+const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
 const COLUMNS = ["reason", "t", "rho3", "y_max", "theta_max", "impacts", "error"];
@@ -154,6 +156,7 @@ export class SweepMap {
     this.cells = Object.fromEntries(COLUMNS.map((name) => [name, new Array(count).fill(null)]));
     Object.assign(this.cells, { x, y, xs: spaced(x), ys: spaced(y), done: 0, count });
     this.cursor = [nearest(this.cells.xs, this.#own(x.key)), nearest(this.cells.ys, this.#own(y.key))];
+    if (this.pointed) this.#point(this.cursor);
     const controller = (this.controller = new AbortController());
     $("map-stop").hidden = false;
     try {
@@ -214,7 +217,10 @@ export class SweepMap {
       return i >= 0 && i < x.count && j >= 0 && j < y.count ? [i, j] : null;
     };
     this.canvas.addEventListener("pointermove", (event) => this.#point(cellAt(event)));
-    this.canvas.addEventListener("pointerleave", () => this.#point(null));
+    const focused = () => document.activeElement === this.canvas;
+    this.canvas.addEventListener("pointerleave", () => this.#point(focused() ? this.cursor : null));
+    // A press focuses the map, which shows the cursor: it is where the press was before that.
+    this.canvas.addEventListener("pointerdown", (event) => (this.cursor = cellAt(event) ?? this.cursor));
     this.canvas.addEventListener("click", (event) => this.#pick(cellAt(event)));
     this.canvas.addEventListener("keydown", (event) => this.#key(event));
     this.canvas.addEventListener("focus", () => this.#point(this.cursor));
@@ -254,6 +260,7 @@ export class SweepMap {
   #pick(cell) {
     if (!cell) return;
     this.cursor = cell;
+    this.#point(cell);
     const { x, y, xs, ys } = this.cells;
     this.onPick({ [x.key]: xs[cell[0]], [y.key]: ys[cell[1]] });
   }
@@ -305,11 +312,12 @@ export class SweepMap {
     }
     const bare = { ...colours, rule: "transparent" };
     drawAxes(context, frame, bare, {
+      font: NUMBERS,
       xTicks: ticks(x.low, x.high, frame.width / 70),
       yTicks: ticks(y.low, y.high, frame.height / 40),
     });
-    label(context, colours, this.#axisWords(x), frame.left + frame.width / 2, height - 8);
-    label(context, colours, this.#axisWords(y), 12, frame.top + frame.height / 2, -Math.PI / 2);
+    label(context, colours, this.#axisWords(x), frame.left + frame.width / 2, height - 8, 0, LETTERS);
+    label(context, colours, this.#axisWords(y), 14, frame.top + frame.height / 2, -Math.PI / 2, LETTERS);
     this.#crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);

@@ -48,12 +48,13 @@ export class Frame {
   }
 }
 
-export const FONT = '11px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif';
+export const fontOf = (px) => `${px}px system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif`;
+export const FONT = fontOf(11);
 
 /** Grid lines and the numbers at them; those of x only where asked. */
-export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTicks }) {
+export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTicks, font = FONT }) {
   context.save();
-  context.font = FONT;
+  context.font = font;
   context.lineWidth = 1;
   context.fillStyle = colours.muted;
   context.strokeStyle = colours.rule;

@@ -62,6 +62,8 @@ export class Run {
     this.events = listEvents(answer);
     this.stops = [...new Set(this.events.map((event) => event.t))];
     this.hardest = answer.impacts.impulse.reduce((most, p) => Math.max(most, p), 0);
+    const { taut, t_start, t_end } = answer.modes;
+    this.timeTaut = taut.reduce((sum, set, i) => sum + (set.length ? t_end[i] - t_start[i] : 0), 0);
     this.mostTension = Math.max(largest(answer.motion.T1), largest(answer.motion.T2));
   }
 

@@ -1,13 +1,15 @@
 // The scene as an engineer would sketch it: a list of shapes for a run at a time.
 
+import { eventWords } from "./events.js";
 import { hang } from "./hang.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
 
-/** How long a snap stays to be seen, in seconds of watching. */
+/** How long a snap stays to be seen while the picture plays, in seconds of watching. */
 const AFTERGLOW_S = 0.45;
 const PATH_BEHIND = 4;
+const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
 
 /**
  * What the picture shows of the plane, and how: `real` has the anchors on the sea floor below, `thesis` is turned
@@ -31,7 +33,9 @@ function camera(run, { width, height, picture, view }) {
   } else {
     [left, right] = [Math.min(left - size, -1) - 0.1, Math.max(right + size, 1) + 0.1];
     [low, high] = [surface, anchorLevel];
-    [beyondFloor, beyondSurface] = [34, 30];
+    // In a picture too low for the words the scene keeps most of the height.
+    const room = Math.min(1, (MOST_BEYOND * height) / (BEYOND_FLOOR_PX + BEYOND_SURFACE_PX));
+    [beyondFloor, beyondSurface] = [room * BEYOND_FLOOR_PX, room * BEYOND_SURFACE_PX];
   }
   const usable = height - beyondFloor - beyondSurface;
   const scale = Math.min(width / (right - left), usable / (high - low));
@@ -48,13 +52,14 @@ function turned([x, y], moment) {
 }
 
 /**
- * All shapes at time t. Of `options`: width, height [px], picture, view, colours, speed [T/s], still (no flash).
+ * All shapes at time t. Of `options`: width, height [px], picture, view, colours, playing, speed [T/s], and still (no
+ * flash).
  */
 export function sceneShapes(run, t, options) {
   const { width, height, colours } = options;
   const cam = camera(run, options);
   const moment = run.at(t);
-  const snaps = fresh(run, t, options.speed);
+  const snaps = fresh(run, t, options);
   const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
   const close = options.view === "close";
   const paths = [
@@ -86,10 +91,14 @@ export function sceneShapes(run, t, options) {
   ];
 }
 
-/** Impacts that are still to be seen at t, with how much of them is left (1 at the instant itself). */
-function fresh(run, t, speed) {
-  const span = AFTERGLOW_S * speed;
-  const all = run.impactsWithin(t - span, t).map((i) => ({ i, left: 1 - (t - run.impacts.t[i]) / span }));
+/**
+ * Impacts that are still to be seen at t, with how much of them is left (1 at the instant itself). A picture that
+ * stands shows what is so at its instant, and no afterglow of what was before.
+ */
+function fresh(run, t, { playing, speed }) {
+  const span = playing ? AFTERGLOW_S * speed : 0;
+  const left = (i) => (span > 0 ? 1 - (t - run.impacts.t[i]) / span : 1);
+  const all = run.impactsWithin(t - span, t).map((i) => ({ i, left: left(i) }));
   // Of a swarm of snaps the latest of each cable is enough.
   return [1, 2].flatMap((cable) => all.filter(({ i }) => run.impacts.cable[i] === cable).slice(0, 1));
 }
@@ -248,7 +257,9 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
     const to = cam.place(turned(cable.arm, moment));
     return [{ points: [from, to], stroke: mix(colours.taut, colours.strained, part), width: 2.2 + 5 * part }, anchor];
   }
-  const shapes = [{ points: hanging(cable, moment, cam, picture), stroke: colour, width: 1.5 }, anchor];
+  const hung = { points: hanging(cable, moment, cam, picture), stroke: colour, width: 1.5 };
+  // At the instant itself the line is straight, and nothing hangs.
+  const shapes = snap?.left === 1 ? [anchor] : [hung, anchor];
   if (snap) {
     const strength = impulsePart(run, snap.i) * snap.left;
     const to = cam.place(turned(cable.arm, moment));
@@ -386,5 +397,9 @@ export function sceneWords(run, t) {
   const [x, y, theta] = [moment.x, moment.y, moment.theta].map((value) => fixed(value, 3));
   const taut = moment.taut.map((cable) => `cable ${cable} taut, tension ${number(moment.tensions[cable - 1], 3)} F`);
   const lines = taut.length ? taut.join("; ") : "both cables slack";
-  return `At t = ${fixed(t, 3)} T the body is at x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}: ${lines}.`;
+  const happens = eventWords(run, t);
+  return (
+    `At t = ${fixed(t, 3)} T the body is at x = ${x}, y = ${y}, θ = ${theta}; ${modeName(moment.taut)}: ${lines}` +
+    `${happens ? `; here: ${happens}` : ""}.`
+  );
 }

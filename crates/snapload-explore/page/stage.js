@@ -1,6 +1,8 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
+import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
+import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
@@ -20,13 +22,23 @@ export class Stage {
       }
     }
     const ghost = () => {
-      const size = Number($("ghost-size").value);
-      const legal = size > 0 && Number.isFinite(size);
-      $("ghost-size").setAttribute("aria-invalid", String(!legal));
-      if (legal || !$("ghost").checked) state.set({ ghost: $("ghost").checked ? size : null });
+      this.refuseGhost("");
+      if (!$("ghost").checked) return state.set({ ghost: null });
+      const text = $("ghost-size").value.trim();
+      const size = readValue({ kind: { type: "number" } }, text);
+      if (size === undefined) this.refuseGhost(`ghost = "${text}" is not allowed; allowed: a number, such as 1e-6`);
+      else state.set({ ghost: size });
     };
     $("ghost").addEventListener("change", ghost);
     $("ghost-size").addEventListener("change", ghost);
+  }
+
+  /** Shows at its field why the ghost can not be run; with no text, that nothing is wrong with it. */
+  refuseGhost(text) {
+    $("error-ghost").textContent = text;
+    $("error-ghost").hidden = !text;
+    if (text) $("ghost-size").setAttribute("aria-invalid", "true");
+    else $("ghost-size").removeAttribute("aria-invalid");
   }
 
   take(run) {
@@ -38,8 +50,8 @@ export class Stage {
       () => words !== $("said").textContent && ($("said").textContent = words),
       $("said").textContent ? REST_MS : 0,
     );
-    $("ramp-words").textContent =
-      run.mostTension > 0 ? `tension, up to ${number(run.mostTension, 3)} F` : "tension (no cable stays taut)";
+    $("ramp-key").hidden = !(run.timeTaut > 0);
+    $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
   }
 
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
@@ -57,8 +69,7 @@ export class Stage {
   }
 
   #summarise() {
-    const { norms, impacts, modes } = this.run;
-    const taut = modes.taut.reduce((sum, set, i) => sum + (set.length ? modes.t_end[i] - modes.t_start[i] : 0), 0);
+    const { norms, impacts, timeTaut } = this.run;
     const rows = [
       ["Impacts", String(this.run.cut?.impacts ?? impacts.t.length), "impacts"],
       ["ρ<sub>1</sub> = max <i>v</i><sub>n</sub>", number(norms.rho1, 5), "rho1"],
@@ -67,7 +78,7 @@ export class Stage {
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
       ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
       ["Hardest impulse", number(this.run.hardest, 5)],
-      ["Time taut", `${number(taut, 4)} T`],
+      ["Time taut", `${number(timeTaut, 4)} T`],
     ];
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`)
@@ -83,7 +94,8 @@ export class Stage {
 
   options(width, height, scheme) {
     const { picture, view, speed } = this.state;
-    return { width, height, picture, view, speed, colours: colours(scheme), still: stillness.matches };
+    const { playing } = this.playback;
+    return { width, height, picture, view, speed, playing, colours: colours(scheme), still: stillness.matches };
   }
 
   #caption() {
@@ -93,7 +105,8 @@ export class Stage {
     const taut = moment.taut.length
       ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
-    $("caption").textContent = `${modeName(moment.taut)}${taut}${past}`;
+    const happens = this.playback.playing ? "" : eventWords(this.run, t);
+    $("caption").textContent = `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}`;
     if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
   }
 

@@ -143,7 +143,8 @@ function readView(name, text, schema) {
     case "view":
       return oneOf(VIEWS, text);
     case "ghost":
-      return number > 0 ? number : undefined;
+      // How far away it may start is for the server to say.
+      return number;
     case "window": {
       const [from, to] = text.split(",").map(finite);
       return from >= 0 && to > from ? [from, to] : undefined;

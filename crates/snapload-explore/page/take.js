@@ -87,7 +87,7 @@ export class Take {
       run,
       from,
       to: Math.min(to, run.tEnd),
-      options: this.stage.options(SIZE.width, SIZE.height),
+      options: { ...this.stage.options(SIZE.width, SIZE.height), playing: true },
       size: SIZE,
     }));
     $("film").disabled = true;

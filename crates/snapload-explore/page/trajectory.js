@@ -8,6 +8,8 @@ const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
 const REACH_PX = 40;
 const MOST_MARKS = 2500;
 const PIECES = 64;
+/** Rotations at which is looked whether a boundary comes into the frame. */
+const LOOKS = 60;
 
 export class Trajectory {
   constructor(figure, { colours, onJump, onHover }) {
@@ -16,6 +18,7 @@ export class Trajectory {
     [this.boundaries, this.now, this.hovered] = [over.querySelectorAll(".boundary"), ...over.querySelectorAll(".at")];
     this.window = over.querySelector("svg");
     this.reading = figure.querySelector("output");
+    this.legend = figure.parentElement.querySelectorAll(".legend [data-of]");
     over.addEventListener("pointermove", (event) => {
       if (event.buttons === 0 || event.pointerType === "mouse") onHover(this.#timeNear(event));
     });
@@ -61,6 +64,7 @@ export class Trajectory {
     this.#ghost(context, colours);
     context.restore();
     this.#letters(context, colours);
+    this.#legend();
     const reach = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L`;
     const words = `${reach}; y at most ${number(run.norms.y_max, 3)} L`;
     this.base.setAttribute("aria-label", `Path of the body's centre, y against x, ${words}.`);
@@ -107,10 +111,11 @@ export class Trajectory {
 
   #legs(context, colours) {
     const { motion, modes, horizon } = this.run;
+    // Blue and orange are the cables; how many of them carry is told by the red of tension, and by width.
     const styles = [
       [colours.ink, 1.1],
-      [colours["cable-1"], 2.4],
-      [colours["cable-2"], 2],
+      [colours.strained, 2.2],
+      [colours.strained, 4.6],
     ];
     const [from, to] = this.rows;
     context.lineJoin = "round";
@@ -152,6 +157,52 @@ export class Trajectory {
     context.setLineDash([5, 3]);
     drawColumn(context, this.frame, x, y, from, to);
     context.setLineDash([]);
+  }
+
+  /** Only what there is in the time shown has an entry. */
+  #legend() {
+    const { run } = this;
+    const { t } = run.motion;
+    const [first, last] = [t[this.rows[0]], t[this.rows[1] - 1]];
+    const moded = (n) =>
+      run.modes.taut.some(
+        (taut, i) =>
+          Math.min(taut.length, 2) === n &&
+          run.modes.t_end[i] > run.modes.t_start[i] &&
+          run.modes.t_start[i] < last &&
+          run.modes.t_end[i] > first,
+      );
+    const { cable: cables } = run.impacts;
+    const struck = (cable) => run.impacts.t.some((time, i) => cables[i] === cable && time >= first && time <= last);
+    const there = {
+      "snap-1": struck(1),
+      "snap-2": struck(2),
+      "taut-1": this.#passes(0),
+      "taut-2": this.#passes(1),
+      upright: run.geometry.cables.some((cable) => this.#boundary(cable, 0).some(this.#within)),
+      slack: moded(0) && (moded(1) || moded(2)),
+      sliding: moded(1),
+      rocking: moded(2),
+      lost: run.horizon.t !== null && run.horizon.t < last,
+      ghost: Boolean(run.ghost),
+    };
+    for (const entry of this.legend) entry.hidden = !there[entry.dataset.of];
+  }
+
+  #within = ([x, y]) => {
+    const { left, top, width, height } = this.frame;
+    return x >= left && x <= left + width && y >= top && y <= top + height;
+  };
+
+  /** Whether the boundary of a cable comes into the frame at any time shown. */
+  #passes(cable) {
+    const { theta } = this.run.motion;
+    const [from, to] = this.rows;
+    const step = Math.max(1, Math.floor((to - from) / LOOKS));
+    for (let i = from; i < to; i += step) {
+      if (this.#boundary(this.run.geometry.cables[cable], theta[i]).some(this.#within)) return true;
+    }
+    return false;
   }
 
   /** I where the motion starts, E where it ends: the letters of the thesis's figures. */

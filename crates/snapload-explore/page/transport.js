@@ -25,10 +25,6 @@ export class Transport {
       playback.pause();
       playback.seek(Number($("scrub").value));
     });
-    playback.onPlaying = (playing) => {
-      $("play").textContent = playing ? "Pause" : "Play";
-      this.show();
-    };
   }
 
   #jump(t) {
@@ -51,6 +47,11 @@ export class Transport {
     this.run = run;
   }
 
+  showPlaying(playing) {
+    $("play").textContent = playing ? "Pause" : "Play";
+    this.show();
+  }
+
   show() {
     if (!this.run) return;
     const { t, speed, window } = this.state;
@@ -67,7 +68,10 @@ export class Transport {
     $("zoom-all").disabled = window === null;
   }
 
-  /** The strip behind the slider: modes as bands, impacts as ticks, what is past the horizon grey. */
+  /**
+   * The strip behind the slider: taut cables as bands, two higher than one, impacts as ticks, and grey what is past the
+   * horizon.
+   */
   draw() {
     const { context, width, height } = prepare($("strip"));
     const paints = colours();
@@ -83,8 +87,8 @@ export class Transport {
     const { modes, horizon, impacts } = this.run;
     if (horizon.t !== null) band(horizon.t, this.run.tEnd, paints.shade, 0, height);
     modes.taut.forEach((taut, i) => {
-      if (taut.length)
-        band(modes.t_start[i], modes.t_end[i], paints[taut.length === 1 ? "cable-1" : "cable-2"], height - 4, 4);
+      const high = 2.5 * Math.min(taut.length, 2);
+      if (high) band(modes.t_start[i], modes.t_end[i], paints.strained, height - high, high);
     });
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;
