@@ -308,7 +308,8 @@ fn double_lines_run_to_the_end_and_share_evenly() {
         for pair in outcome.lines.chunks(2) {
             assert_eq!(pair[0].snaps, pair[1].snaps);
             assert!(pair[0].snaps > 10);
-            assert!((pair[0].held_n / pair[1].held_n - 1.0).abs() < 1e-6);
+            let [a, b] = [pair[0].held_n, pair[1].held_n];
+            assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
             assert!((pair[0].peak_n.unwrap() / pair[1].peak_n.unwrap() - 1.0).abs() < 1e-6);
         }
     }

@@ -11,6 +11,8 @@ pub(crate) type PerCable<T> = [T; MAX_CABLES];
 const DEPENDENT: f64 = 1e-12;
 /// Of a body in the plane: more cables than that depend on each other, whatever rounding says of their pivots.
 const FREEDOMS: usize = 3;
+/// Of so many cables at most every set is tried.
+const MOST_TRIED: usize = 6;
 /// A normal velocity below this part of the largest is the same.
 pub(crate) const SHARED: f64 = 1e-9;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
@@ -172,9 +174,10 @@ pub(crate) fn complementary<T: Real>(
 /// unique, who carries how much of it is not. [`complementary`] finds a solution with as few cables as will do; here
 /// the load is spread over all `held` cables that the solution leaves without a normal velocity of their own. For
 /// each set S of them the least norm is z = W y with W W y = W z over S, since the rows of G that z may use are
-/// those of W's range; the set for which no impulse in it is negative, and none outside would be positive, is the answer.
+/// those of W's range; of the sets without a negative impulse the one of least norm is the answer.
 ///
-/// Sets without dependent cables are returned as they are.
+/// Sets without dependent cables are returned as they are. Where one of more than [`MOST_TRIED`] would have to push, not
+/// every set is tried, and the norm may be more than the least.
 pub(crate) fn least_norm<T: Real>(
     held: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -201,57 +204,68 @@ pub(crate) fn least_norm<T: Real>(
         held.iter()
             .all(|i| (product(i, shared) - product(i, &z)).abs() <= close)
     };
-    // The method of active sets: those that would have to push leave, those that would pull come back.
+    let share = |set: TautSet| {
+        let shared = spread(set, &w, &z, &product);
+        let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
+        (pulls && does_the_same(&shared)).then_some(shared)
+    };
+    // No set can do better than all of them, where none of all has to push.
+    if let Some(shared) = share(tight) {
+        return shared;
+    }
+    let norm = |z: &PerCable<T>| tight.iter().fold(T::ZERO, |sum, i| sum + z[i] * z[i]);
+    let shorter = |best: PerCable<T>, shared: PerCable<T>| {
+        if norm(&shared) < norm(&best) {
+            shared
+        } else {
+            best
+        }
+    };
+    if tight.len() <= MOST_TRIED {
+        let sets = tight.subsets().filter(|set| !set.is_empty());
+        return sets.filter_map(share).fold(z, shorter);
+    }
+    // Of more cables the one that would have to push hardest leaves, one after the other.
     let mut set = tight;
-    for _ in 0..4 * tight.len() {
-        let pulls = spread(set, tight, &w, &z, &product);
-        let most_pushed = set
+    while set.len() > 1 {
+        let shared = spread(set, &w, &z, &product);
+        let pushes_hardest = set
             .iter()
-            .filter(|&i| pulls[i] < T::ZERO)
-            .reduce(|a, b| if pulls[b] < pulls[a] { b } else { a });
-        let left_out = tight
-            .iter()
-            .filter(|&i| !set.contains(i) && pulls[i] > close)
-            .reduce(|a, b| if pulls[b] > pulls[a] { b } else { a });
-        match (most_pushed, left_out) {
-            (Some(cable), _) => set = set.without(cable),
-            (None, Some(cable)) => set = set.with(cable),
-            (None, None) => {
-                let mut shared = [T::ZERO; MAX_CABLES];
-                for i in set.iter() {
-                    shared[i] = pulls[i];
-                }
-                return if does_the_same(&shared) { shared } else { z };
+            .reduce(|a, b| if shared[b] < shared[a] { b } else { a });
+        match pushes_hardest {
+            Some(cable) if shared[cable] < T::ZERO => set = set.without(cable),
+            _ => {
+                return if does_the_same(&shared) {
+                    shorter(z, shared)
+                } else {
+                    z
+                };
             }
         }
     }
     z
 }
 
-/// The z = W y, with y over a set, that acts on the set like `z`, with one step of refinement: what each cable of `all` pulls.
+/// The z = W y over a set that acts on it like `z`, with one step of refinement.
 fn spread<T: Real>(
     set: TautSet,
-    all: TautSet,
     w: &impl Fn(usize, usize) -> T,
     z: &PerCable<T>,
     product: &impl Fn(usize, &PerCable<T>) -> T,
 ) -> PerCable<T> {
     let square = |i: usize, j: usize| set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * w(k, j));
-    let (mut pulls, mut shared) = ([T::ZERO; MAX_CABLES], [T::ZERO; MAX_CABLES]);
+    let mut shared = [T::ZERO; MAX_CABLES];
     for _ in 0..2 {
         let mut left = [T::ZERO; MAX_CABLES];
         for i in set.iter() {
             left[i] = product(i, z) - product(i, &shared);
         }
         let y = solve(set, square, &left);
-        for i in all.iter() {
-            pulls[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
-        }
         for i in set.iter() {
-            shared[i] = pulls[i];
+            shared[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
         }
     }
-    pulls
+    shared
 }
 
 /// Whether no cable's constraint depends on those of the others.

@@ -170,16 +170,19 @@ impl<T: Real> Series<T> {
         self.expand_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
-        let holds = |&cable: &usize| self.holds(cable, system.cables[cable].gap(start));
-        self.hold.taut = hold.taut.iter().filter(holds).collect();
+        self.hold.taut = hold
+            .taut
+            .iter()
+            .filter(|&cable| self.holds(cable))
+            .collect();
         self.choose_watched();
     }
 
-    /// Whether a taut cable stays so within the step: it carries, or its gap, as it is now, is and stays nothing but
-    /// rounding.
-    fn holds(&self, cable: usize, now: T) -> bool {
-        let most = self.lines[cable].gap.derivative_bound(0, self.step, ORDER) + now.abs();
-        self.hold.carrying.contains(cable) || most <= self.touch[cable] * HELD
+    /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
+    fn holds(&self, cable: usize) -> bool {
+        let gap = &self.lines[cable].gap;
+        self.hold.carrying.contains(cable)
+            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * HELD
     }
 
     /// Leaves out what provably is not reached within the step.

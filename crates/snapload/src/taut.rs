@@ -80,7 +80,9 @@ pub(crate) fn tensions<T: Real>(
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
-    let (tension, _) = complementary(taut, w, &load);
+    // At the instant at which a tension is lost rounding may have made it negative; it is none then.
+    let (_, pulling) = complementary(taut, w, &load);
+    let tension = solve(pulling, w, &load);
     least_norm(taut, w, &load, tension)
 }
 
