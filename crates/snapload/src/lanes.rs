@@ -8,7 +8,6 @@
 use crate::bounce::bounce;
 use crate::lane::Lane;
 use crate::mooring::{MOMENT, MOORING, Moment, Mooring};
-use crate::pair::Pair;
 use crate::simulate::{LastImpacts, Progress};
 use crate::trajectory::RHO2_UNTIL;
 use crate::vector::{Bits, Portable, Vector};
@@ -28,8 +27,6 @@ pub enum Lanes {
     Eight,
     /// Four, in the registers of a processor with AVX2.
     Avx2,
-    /// Eight, in pairs of such registers.
-    Avx2Pair,
     /// Eight, in the registers of a processor with AVX-512.
     Avx512,
 }
@@ -41,7 +38,7 @@ impl Lanes {
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx2") {
-                all.extend([Self::Avx2, Self::Avx2Pair]);
+                all.push(Self::Avx2);
             }
             if is_x86_feature_detected!("avx512f") {
                 all.push(Self::Avx512);
@@ -58,7 +55,7 @@ impl Lanes {
                 return Self::Avx512;
             }
             if is_x86_feature_detected!("avx2") {
-                return Self::Avx2Pair;
+                return Self::Avx2;
             }
         }
         Self::One
@@ -84,13 +81,9 @@ impl Lanes {
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 if is_x86_feature_detected!("avx2") => x86::four(runs, tell),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2Pair if is_x86_feature_detected!("avx2") => x86::four_and_four(runs, tell),
-            #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::eight(runs, tell),
             Self::Four | Self::Avx2 => Fleet::<Portable<4>>::board(runs, tell).sail(),
-            Self::Eight | Self::Avx2Pair | Self::Avx512 => {
-                Fleet::<Portable<8>>::board(runs, tell).sail()
-            }
+            Self::Eight | Self::Avx512 => Fleet::<Portable<8>>::board(runs, tell).sail(),
         }
     }
 }
@@ -99,23 +92,12 @@ impl Lanes {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
-    use super::{Fleet, Pair, Simulation, Tell, Usage};
+    use super::{Fleet, Simulation, Tell, Usage};
     use crate::vector::x86::{Avx2, Avx512};
 
     pub(super) fn four(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         #[target_feature(enable = "avx2")]
         fn sail(fleet: Fleet<'_, Avx2>) -> Usage {
-            fleet.sail()
-        }
-        assert!(is_x86_feature_detected!("avx2"));
-        let fleet = Fleet::board(runs, tell);
-        // SAFETY: the processor has AVX2, as was just asked.
-        unsafe { sail(fleet) }
-    }
-
-    pub(super) fn four_and_four(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
-        #[target_feature(enable = "avx2")]
-        fn sail(fleet: Fleet<'_, Pair<Avx2>>) -> Usage {
             fleet.sail()
         }
         assert!(is_x86_feature_detected!("avx2"));

@@ -43,7 +43,6 @@ mod lanes;
 mod mooring;
 mod named;
 mod outcome;
-mod pair;
 mod parameters;
 mod playback;
 mod polynomial;
