@@ -70,9 +70,10 @@ def sweep(
     Raises
     ------
     ValueError
-        If a key is unknown or can not take a value, or if something else stands where `out` is to be.
+        If a key is unknown or can not take a value, if something else stands where `out` is to be, or if nothing
+        can be made there.
     OSError
-        If `out` can not be written.
+        If rows can not be written once the study runs, as on a full disk.
 
     Notes
     -----
