@@ -25,7 +25,9 @@ mod study_picture;
 mod sweep;
 mod verify;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
+use snapload::nearest_key;
 use std::process::ExitCode;
 
 /// Bodies on cables that go slack and snap taut: motion, impacts, tensions.
@@ -86,7 +88,8 @@ enum Verb {
 
 fn main() -> ExitCode {
     interrupt::install();
-    let result = match Cli::parse().verb {
+    let cli = Cli::try_parse().unwrap_or_else(|error| refuse(error));
+    let result = match cli.verb {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
         Verb::Verify(args) => verify::run(&args),
@@ -103,4 +106,18 @@ fn main() -> ExitCode {
         Verb::Completions(args) => completions::run(&args),
     };
     failure::exit_code(result)
+}
+
+/// Ends with what is wrong with the command line. Who writes a key as an option is told how keys are set.
+fn refuse(mut error: clap::Error) -> ! {
+    if error.kind() == ErrorKind::UnknownArgument
+        && error.get(ContextKind::SuggestedArg).is_none()
+        && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)
+        && let Some(key) = nearest_key(option.trim_start_matches('-'))
+    {
+        let tip = format!("keys of a case are set so: --set {key}=VALUE");
+        let tips = ContextValue::StyledStrs(vec![tip.into()]);
+        error.insert(ContextKind::Suggested, tips);
+    }
+    error.exit()
 }

@@ -256,8 +256,18 @@ fn all_outcomes(
     done.into_iter()
 }
 
+/// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many more steps
+/// (docs/limits.md).
 fn is_short(case: &Case) -> bool {
-    case.parameters().t_end <= LONG
+    let Parameters {
+        t_end,
+        a,
+        b,
+        inertia,
+        ..
+    } = *case.parameters();
+    let quickness = inertia.map_or(1.0, |inertia| ((a * a + b * b) / inertia).sqrt().max(1.0));
+    t_end * quickness <= LONG
 }
 
 /// The case with so few impacts that it can not take long.

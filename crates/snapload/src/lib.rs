@@ -78,7 +78,9 @@ pub use playback::{Motion, Playback};
 pub use precise::Precise;
 pub use real::Real;
 pub use rules::StopRules;
-pub use schema::{Group, KEYS, Key, Kind, ROTATION_LIMIT, SETTLING_HEIGHT, check_entry, key_named};
+pub use schema::{
+    Group, KEYS, Key, Kind, ROTATION_LIMIT, SETTLING_HEIGHT, check_entry, key_named, nearest_key,
+};
 pub use simulate::{Simulation, Step};
 pub use start::{START_TOLERANCE, StartError};
 pub use state::State;

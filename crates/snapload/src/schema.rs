@@ -262,7 +262,7 @@ pub fn check_entry(name: &str, value: &Value) -> Result<&'static Key, CaseError>
 }
 
 /// The key that was probably meant by a name.
-fn nearest_key(name: &str) -> Option<&'static str> {
+pub fn nearest_key(name: &str) -> Option<&'static str> {
     // Case and underscores are where most slips are; length is bounded, as the distance is quadratic.
     let plain = |text: &str| -> String {
         text.chars()

@@ -33,9 +33,7 @@ pub(crate) fn taut_next<T: Real>(
     if candidates.is_empty() {
         return Hold::default();
     }
-    let (load, normals) = load(system, t, state, candidates);
-    let inverse_inertia = system.body.inverse_inertia();
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let (w, load) = problem(system, t, state, candidates);
     let (tension, pulling) = complementary(candidates, w, &load);
     let stays_closed = |&cable: &usize| {
         let pulls = |j: usize| w(cable, j) * tension[j];
@@ -74,9 +72,7 @@ pub(crate) fn tensions<T: Real>(
     state: &State<T>,
     taut: TautSet,
 ) -> PerCable<T> {
-    let (load, normals) = load(system, t, state, taut);
-    let inverse_inertia = system.body.inverse_inertia();
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let (w, load) = problem(system, t, state, taut);
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
@@ -93,9 +89,7 @@ fn some_tensions<T: Real>(
     state: &State<T>,
     taut: TautSet,
 ) -> PerCable<T> {
-    let (load, normals) = load(system, t, state, taut);
-    let inverse_inertia = system.body.inverse_inertia();
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let (w, load) = problem(system, t, state, taut);
     solve(taut, w, &load)
 }
 
@@ -131,25 +125,26 @@ pub(crate) fn normal_acceleration<T: Real>(
     taut: TautSet,
 ) -> T {
     let tension = some_tensions(system, t, state, taut);
-    let (load, normals) = load(system, t, state, taut.with(cable));
-    let inverse_inertia = system.body.inverse_inertia();
-    taut.iter().fold(load[cable], |sum, j| {
-        sum - normals[cable].coupling(&normals[j], inverse_inertia) * tension[j]
-    })
+    let (w, load) = problem(system, t, state, taut.with(cable));
+    taut.iter()
+        .fold(load[cable], |sum, j| sum - w(cable, j) * tension[j])
 }
 
-fn load<T: Real>(
+/// W and b of g̈/(2r) = b − W T.
+fn problem<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
     set: TautSet,
-) -> (PerCable<T>, [crate::Normal<T>; MAX_CABLES]) {
+) -> (impl Fn(usize, usize) -> T + Copy, PerCable<T>) {
     let free = system.free_acceleration(t, state);
     let mut load = [T::ZERO; MAX_CABLES];
     for cable in set.iter() {
         load[cable] = system.free_normal_acceleration(cable, state, free);
     }
-    (load, system.normals(state, set))
+    let (normals, inverse_inertia) = (system.normals(state, set), system.body.inverse_inertia());
+    let w = move |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    (w, load)
 }
 
 /// Moves the body by the least distance in the mass metric so that the gaps of a set close.

@@ -250,7 +250,7 @@ fn inputs_of(structure: &Structure) -> Markup {
     if let Some(start) = structure.start_m {
         rows.push(("Begins at rest at", format!("{} m", place(start))));
     }
-    for line in &structure.lines {
+    for (number, line) in (1..).zip(&structure.lines) {
         let own = |label: &str, value: Option<f64>, unit: &str, scale: f64| {
             value.map_or(format!("{label} not known"), |value| {
                 format!("{label} {:.1} {unit}", value / scale)
@@ -259,7 +259,7 @@ fn inputs_of(structure: &Structure) -> Markup {
         rows.push((
             "Line",
             format!(
-                "{}anchor {} m, fairlead {} m, length {} m; {}, {}, {}",
+                "{number}: {}anchor {} m, fairlead {} m, length {} m; {}, {}, {}",
                 if line.name.is_empty() {
                     String::new()
                 } else {
