@@ -1,7 +1,9 @@
 //! A cable: its gap, its normal and its lever arm.
 
 use crate::State;
-use crate::lane::{Lane, Turn, combined, cross, dot, length, quarter_turn, select2, sum};
+use crate::lane::{
+    Lane, Turn, combined, cross, dot, length, length_bound, quarter_turn, scaled, select2, sum,
+};
 use crate::real::Real;
 
 /// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
@@ -13,6 +15,8 @@ use crate::real::Real;
 pub struct Cable<T = f64> {
     fairlead: [T; 2],
     length: T,
+    /// 1/r.
+    per_length: T,
     rest_span: [T; 2],
     rest_gap: T,
     rest_gap_error: T,
@@ -32,18 +36,20 @@ impl<L: Lane> Normal<L> {
     /// Normal velocity v_n, positive while the gap closes.
     #[inline(always)]
     pub fn velocity(&self, state: &State<L>) -> L {
-        dot(self.n, [state.vx, state.vy]) + self.arm * state.vtheta
+        self.arm
+            .mul_add(state.vtheta, dot(self.n, [state.vx, state.vy]))
     }
 
     /// W_ij = G_i M⁻¹ G_jᵀ; with itself the inverse effective mass w = 1 + s²/I.
     #[inline(always)]
     pub fn coupling(&self, other: &Self, inverse_inertia: L) -> L {
-        dot(self.n, other.n) + self.arm * other.arm * inverse_inertia
+        (self.arm * other.arm).mul_add(inverse_inertia, dot(self.n, other.n))
     }
 
     /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section 5).
     #[inline(always)]
     pub fn kick(&self, state: &mut State<L>, impulse: L, inverse_inertia: L) {
+        // Not fused, so that the impulses of two cables that mirror each other cancel to the last bit.
         state.vx = state.vx - impulse * self.n[0];
         state.vy = state.vy - impulse * self.n[1];
         state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
@@ -65,6 +71,7 @@ impl<T: Real> Cable<T> {
         Self {
             fairlead,
             length,
+            per_length: T::ONE / length,
             rest_span,
             rest_gap: dot(rest_span, rest_span) - length.squared(),
             rest_gap_error: length.squared() * T::EPSILON * 4.0,
@@ -77,6 +84,7 @@ impl<T: Real> Cable<T> {
         Self {
             fairlead,
             length,
+            per_length: T::ONE / length,
             rest_span,
             rest_gap: T::ZERO,
             rest_gap_error: T::ZERO,
@@ -88,6 +96,7 @@ impl<T: Real> Cable<T> {
         Cable {
             fairlead: self.fairlead.map(number),
             length: number(self.length),
+            per_length: U::ONE / number(self.length),
             rest_span: self.rest_span.map(number),
             rest_gap: number(self.rest_gap),
             rest_gap_error: number(self.rest_gap_error),
@@ -100,16 +109,19 @@ impl<T: Real> Cable<T> {
     }
 
     /// Span d = P − A from the anchor to the attachment.
+    #[inline(always)]
     pub fn span(&self, state: &State<T>) -> [T; 2] {
         self.span_moved(self.moved(state, &Turn::by(state.theta)))
     }
 
     /// Gap g = |P − A|² − r²: negative while slack, zero while taut.
+    #[inline(always)]
     pub fn gap(&self, state: &State<T>) -> T {
         self.gap_and_error(state).0
     }
 
     /// The gap and a bound on its rounding error.
+    #[inline(always)]
     pub(crate) fn gap_and_error(&self, state: &State<T>) -> (T, T) {
         let moved = self.moved(state, &Turn::by(state.theta));
         let error = self.gap_error(moved, state.theta, length(self.fairlead));
@@ -139,6 +151,7 @@ impl<T: Real> Cable<T> {
     }
 
     /// The constraint's direction; meant where the gap is closed, so that n has unit length.
+    #[inline(always)]
     pub fn normal(&self, state: &State<T>) -> Normal<T> {
         let turn = Turn::by(state.theta);
         let span = self.span_moved(self.moved(state, &turn));
@@ -148,16 +161,20 @@ impl<T: Real> Cable<T> {
 
 impl<L: Copy> Cable<L> {
     /// All its numbers.
-    pub(crate) fn numbers(&self) -> [L; 7] {
+    pub(crate) fn numbers(&self) -> [L; 8] {
         let ([a, b], [u, v]) = (self.fairlead, self.rest_span);
-        [a, b, self.length, u, v, self.rest_gap, self.rest_gap_error]
+        let (gap, error) = (self.rest_gap, self.rest_gap_error);
+        [a, b, self.length, self.per_length, u, v, gap, error]
     }
 
     /// From its numbers, in the same order.
-    pub(crate) fn from_numbers([a, b, length, u, v, rest_gap, rest_gap_error]: [L; 7]) -> Self {
+    pub(crate) fn from_numbers(
+        [a, b, length, per_length, u, v, rest_gap, rest_gap_error]: [L; 8],
+    ) -> Self {
         Self {
             fairlead: [a, b],
             length,
+            per_length,
             rest_span: [u, v],
             rest_gap,
             rest_gap_error,
@@ -170,6 +187,12 @@ impl<L: Lane> Cable<L> {
     #[inline(always)]
     pub fn length(&self) -> L {
         self.length
+    }
+
+    /// 1/r \[1/L\].
+    #[inline(always)]
+    pub(crate) fn per_length(&self) -> L {
+        self.per_length
     }
 
     /// Attachment to the body, in the body's frame \[L\].
@@ -201,22 +224,23 @@ impl<L: Lane> Cable<L> {
     /// The gap of an attachment that has moved so far.
     #[inline(always)]
     pub(crate) fn gap_moved(&self, moved: [L; 2]) -> L {
-        let linear = dot(self.rest_span, moved) * 2.0;
-        self.rest_gap + (linear + dot(moved, moved))
+        let linear = dot(self.rest_span, moved);
+        self.rest_gap + linear.mul_add(L::from_f64(2.0), dot(moved, moved))
     }
 
     /// Bound on the rounding error of [`Cable::gap_moved`]; `reach` is the length of the fairlead.
     #[inline(always)]
     pub(crate) fn gap_error(&self, moved: [L; 2], theta: L, reach: L) -> L {
         let square = dot(moved, moved);
-        let size = (square.sqrt() + theta.abs() * reach) * self.length;
-        self.rest_gap_error + (self.rest_gap.abs() + size * 2.0 + square) * L::EPSILON * 4.0
+        let size = theta.abs().mul_add(reach, length_bound(moved)) * self.length;
+        let size = size.mul_add(L::from_f64(2.0), self.rest_gap.abs() + square);
+        size.mul_add(L::EPSILON * 4.0, self.rest_gap_error)
     }
 
     /// n = d/r and s = ρ_x n_y − ρ_y n_x.
     #[inline(always)]
     pub(crate) fn normal_along(&self, span: [L; 2], lever: [L; 2]) -> Normal<L> {
-        let n = [span[0] / self.length, span[1] / self.length];
+        let n = scaled(span, self.per_length);
         Normal {
             n,
             arm: cross(lever, n),
@@ -229,6 +253,7 @@ impl<L: Lane> Cable<L> {
         Self {
             fairlead: select2(mask, yes.fairlead, no.fairlead),
             length: L::select(mask, yes.length, no.length),
+            per_length: L::select(mask, yes.per_length, no.per_length),
             rest_span: select2(mask, yes.rest_span, no.rest_span),
             rest_gap: L::select(mask, yes.rest_gap, no.rest_gap),
             rest_gap_error: L::select(mask, yes.rest_gap_error, no.rest_gap_error),

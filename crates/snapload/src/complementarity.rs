@@ -15,55 +15,108 @@ const FREEDOMS: usize = 3;
 const MOST_TRIED: usize = 6;
 /// A normal velocity below this part of the largest is the same.
 pub(crate) const SHARED: f64 = 1e-9;
+/// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
+const SLANTED: f64 = 0.1;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
 const NEARLY_ONE_LINE: f64 = 4.5;
 
-/// Solves W z = q over the cables of a set, W symmetric and positive semidefinite. A cable whose
+/// W z = q over the cables of a set, W symmetric and positive semidefinite, made ready for several q. A cable whose
 /// constraint depends on those before it gets z = 0.
 ///
 /// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
 /// mirror image moves as such to the last bit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Ready<T> {
+    None,
+    /// A cable and 1/W.
+    One(usize, T),
+    /// Two cables and what their matrix comes to.
+    Two([usize; 2], Two<T>),
+    /// More are eliminated anew each time.
+    Many(TautSet),
+}
+
+impl<T: Real> Ready<T> {
+    #[inline]
+    pub(crate) fn new(set: TautSet, w: impl Fn(usize, usize) -> T) -> Self {
+        let mut cables = set.iter();
+        match (cables.next(), cables.next(), cables.next()) {
+            (None, ..) => Self::None,
+            (Some(i), None, _) => Self::One(i, T::ONE / w(i, i)),
+            (Some(i), Some(j), None) => Self::Two([i, j], Two::new([w(i, i), w(i, j), w(j, j)])),
+            _ => Self::Many(set),
+        }
+    }
+
+    /// z, with the W that it was made of.
+    #[inline]
+    pub(crate) fn solve(&self, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
+        let mut z = [T::ZERO; MAX_CABLES];
+        match *self {
+            Self::None => {}
+            Self::One(i, inverse) => z[i] = q[i] * inverse,
+            Self::Two([i, j], ref matrix) => [z[i], z[j]] = matrix.solve([q[i], q[j]]),
+            Self::Many(set) => z = eliminate_and_refine(set, w, q),
+        }
+        z
+    }
+}
+
+/// Solves W z = q over the cables of a set ([`Ready`]).
 pub(crate) fn solve<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> PerCable<T> {
-    let mut z = [T::ZERO; MAX_CABLES];
-    let mut cables = set.iter();
-    match (cables.next(), cables.next(), cables.next()) {
-        (None, ..) => {}
-        (Some(i), None, _) => z[i] = q[i] / w(i, i),
-        (Some(i), Some(j), None) => {
-            let pair = [w(i, i), w(i, j), w(j, j)];
-            let [x, y] = solve_pair(pair, [q[i], q[j]]);
-            (z[i], z[j]) = (x, y);
-        }
-        _ => z = eliminate_and_refine(set, w, q),
-    }
-    z
+    Ready::new(set, &w).solve(&w, q)
 }
 
-/// Two equations with the matrix \[\[a, b\], \[b, c\]\]. Cramer's rule errs by a rounding over the
-/// determinant, which is small where the cables are almost in line, so its answer is put in twice for
-/// what is left over.
-fn solve_pair<T: Real>([a, b, c]: [T; 3], q: [T; 2]) -> [T; 2] {
-    let determinant = a * c - b * b;
-    if in_line([a, b, c]) {
-        return [q[0] / a, T::ZERO];
+/// Two equations with the matrix \[\[a, b\], \[b, c\]\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Two<T> {
+    matrix: [T; 3],
+    /// 1/(ac − b²); none where the two constraints are one and the same.
+    inverse: Option<T>,
+    /// Whether ac − b² is much smaller than ac.
+    slanted: bool,
+}
+
+impl<T: Real> Two<T> {
+    #[inline]
+    fn new(matrix: [T; 3]) -> Self {
+        let [a, b, c] = matrix;
+        let determinant = a * c - b * b;
+        Self {
+            matrix,
+            inverse: (!in_line(matrix)).then(|| T::ONE / determinant),
+            slanted: determinant < a * c * SLANTED,
+        }
     }
-    let cramer = |q: [T; 2]| {
-        [
-            (c * q[0] - b * q[1]) / determinant,
-            (a * q[1] - b * q[0]) / determinant,
-        ]
-    };
-    let mut z = cramer(q);
-    for _ in 0..2 {
-        let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
-        let more = cramer(left);
-        z = [z[0] + more[0], z[1] + more[1]];
+
+    /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the cables are almost in
+    /// line; there its answer is put in twice for what is left over.
+    #[inline]
+    fn solve(&self, q: [T; 2]) -> [T; 2] {
+        let [a, b, c] = self.matrix;
+        let Some(inverse) = self.inverse else {
+            return [q[0] / a, T::ZERO];
+        };
+        let cramer = |q: [T; 2]| {
+            [
+                (c * q[0] - b * q[1]) * inverse,
+                (a * q[1] - b * q[0]) * inverse,
+            ]
+        };
+        let mut z = cramer(q);
+        if self.slanted {
+            for _ in 0..2 {
+                let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
+                let more = cramer(left);
+                z = [z[0] + more[0], z[1] + more[1]];
+            }
+        }
+        z
     }
-    z
 }
 
 /// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to rounding.

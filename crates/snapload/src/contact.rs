@@ -32,6 +32,7 @@ impl<T: Real> Contact<T> {
     };
 
     /// Evaluated from the state.
+    #[inline(always)]
     pub(crate) fn evaluated(system: &System<T>, cable: usize, state: &State<T>) -> Self {
         let (gap, error) = system.cables[cable].gap_and_error(state);
         Self {
@@ -42,6 +43,7 @@ impl<T: Real> Contact<T> {
     }
 
     /// The more precise of a gap carried forward and the one evaluated.
+    #[inline(always)]
     pub(crate) fn carried(self, system: &System<T>, cable: usize, state: &State<T>) -> Self {
         let evaluated = Self::evaluated(system, cable, state);
         if self.error < evaluated.error {

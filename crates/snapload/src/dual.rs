@@ -187,6 +187,13 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn to_f64(self) -> f64 {
         self.value.to_f64()
     }
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        let mut all = Self::constant(self.value.mul_add(by.value, plus.value));
+        for (i, slope) in all.slope.iter_mut().enumerate() {
+            *slope = self.slope[i] * by.value + self.value * by.slope[i] + plus.slope[i];
+        }
+        all
+    }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         self.chain(root, T::ONE / (root * 2.0))

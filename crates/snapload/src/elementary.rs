@@ -47,9 +47,15 @@ impl Doubles for f64 {
 /// c_0 + c_1 u + … + c_7 u⁷.
 #[inline(always)]
 fn estrin<L: Lane>(c: &[f64; 8], u: L, u2: L, u4: L) -> L {
-    let low = (u * c[1] + c[0]) + (u * c[3] + c[2]) * u2;
-    let high = (u * c[5] + c[4]) + (u * c[7] + c[6]) * u2;
-    low + high * u4
+    let low = line(c[2], c[3], u).mul_add(u2, line(c[0], c[1], u));
+    let high = line(c[6], c[7], u).mul_add(u2, line(c[4], c[5], u));
+    high.mul_add(u4, low)
+}
+
+/// a + b u.
+#[inline(always)]
+fn line<L: Lane>(a: f64, b: f64, u: L) -> L {
+    u.mul_add(L::from_f64(b), L::from_f64(a))
 }
 
 /// E(z²) and z O(z²).
@@ -98,10 +104,13 @@ fn rounded<L: Lane>(x: L) -> L {
 pub(crate) fn sin_cos<L: Doubles>(z: L) -> (L, L) {
     let far = L::from_f64(MOST_QUARTERS).below(z.abs());
     let n = rounded(z * std::f64::consts::FRAC_2_PI);
-    let r = ((z - n * QUARTER[0]) - n * QUARTER[1]) - n * QUARTER[2];
+    let [first, second, third] = QUARTER;
+    let r = n.mul_add(L::from_f64(-first), z);
+    let r = n.mul_add(L::from_f64(-second), r);
+    let r = n.mul_add(L::from_f64(-third), r);
     let (even, odd) = polynomials(r);
     let square = r * r;
-    let (sine, cosine) = (r - square * odd, L::ONE - square * even);
+    let (sine, cosine) = ((-square).mul_add(odd, r), (-square).mul_add(even, L::ONE));
     // n mod 4 as one of −2, −1, 0, 1, 2.
     let quadrant = n - rounded(n * 0.25) * 4.0;
     let odd_turn = quadrant.abs().below(L::from_f64(1.5)) & L::from_f64(0.5).below(quadrant.abs());

@@ -23,6 +23,7 @@ impl<T: Real> Extremes<T> {
 
     /// Takes in a stretch of motion of duration `s`, on which ÿ ≤ `up`, |ÿ| ≤ `y_bend` and
     /// |θ̈| ≤ `theta_bend`.
+    #[inline(always)]
     pub(crate) fn cover(
         &mut self,
         state: impl Fn(T) -> State<T>,

@@ -54,6 +54,7 @@ impl<T: Real> Flight<T> {
     }
 
     /// Begins the flight at time `t` from `start`, which an event has made of the state `before`.
+    #[inline(always)]
     pub(crate) fn begin(
         &mut self,
         system: &System<T>,
@@ -90,6 +91,7 @@ impl<T: Real> Flight<T> {
         self.outline_third = (force[1] + spin * spin * spin * reach) * INFLATION;
     }
 
+    #[inline(always)]
     fn instant(&self, s: T) -> Instant<T> {
         let flight = Instant::at(s, self.constant, self.start.vtheta);
         self.harmonics
@@ -98,11 +100,13 @@ impl<T: Real> Flight<T> {
     }
 
     /// The state a time `s` into the flight.
+    #[inline(always)]
     pub(crate) fn state(&self, s: T) -> State<T> {
         self.instant(s).state(&self.start, s)
     }
 
     /// The gap of a cable a time `s` into the flight.
+    #[inline(always)]
     pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
         let jet = self.tethers[cable].jet(s, &self.instant(s));
         Contact {
@@ -127,6 +131,7 @@ impl<T: Real> Flight<T> {
     ///
     /// |P − A| ≤ r holds up to the first crossing, which is all that the bound is used for. |Ṗ| grows
     /// by at most |P̈| σ.
+    #[inline(always)]
     fn gap_jet(&self, cable: usize, s: T, now: &Instant<T>) -> Jet<T> {
         let tether = &self.tethers[cable];
         let jet = tether.jet(s, now);
@@ -166,6 +171,7 @@ impl<T: Real> Flight<T> {
         }
     }
 
+    #[inline(always)]
     fn watch_stops(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
         let state = now.state(&self.start, s);
         if let Some(limit) = self.rotation_limit {
@@ -207,6 +213,7 @@ impl<T: Real> Flight<T> {
 }
 
 impl<T: Real> Watched<T> for Flight<T> {
+    #[inline(always)]
     fn watch(&self, s: T, jets: &mut Jets<T>) {
         let now = self.instant(s);
         for cable in 0..self.tethers.len() {

@@ -1,6 +1,6 @@
 //! Forces that depend on time alone: a constant one and a sum of sinusoids.
 
-use crate::lane::{Lane, combined, length, scaled, sum};
+use crate::lane::{Lane, added, combined, length, scaled, sum};
 use crate::polynomial::{ORDER, Polynomial};
 use crate::real::Real;
 
@@ -49,6 +49,7 @@ impl<T: Real> Harmonic<T> {
     }
 
     /// Adds its Taylor series about time `t`: the k-th derivative turns (c, d) into Ω (d, −c).
+    #[inline(always)]
     pub(crate) fn expand(&self, t: T, into: &mut [Polynomial<T>; 2]) {
         let local = self.shifted(t);
         let (mut c, mut d) = (local.cosine, local.sine);
@@ -98,12 +99,14 @@ impl<T: Real> Harmonic<T> {
 }
 
 /// What a force gives a free unit mass over a time s: the drift of position ∫₀ˢ (s − σ) f dσ, the
-/// gain of velocity ∫₀ˢ f dσ, and the force at s.
+/// gain of velocity ∫₀ˢ f dσ, and the force and its rate at s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Push<T> {
     pub(crate) drift: [T; 2],
     pub(crate) gain: [T; 2],
     pub(crate) force: [T; 2],
+    /// ḟ.
+    pub(crate) rate: [T; 2],
 }
 
 impl<L: Lane> Push<L> {
@@ -114,6 +117,26 @@ impl<L: Lane> Push<L> {
             drift: scaled(force, s * s * 0.5),
             gain: scaled(force, s),
             force,
+            rate: [L::ZERO; 2],
+        }
+    }
+
+    /// A little later, up to where the third derivative of the force would tell; `bend` is the second.
+    #[inline(always)]
+    pub(crate) fn later(&self, s: L, bend: [L; 2]) -> Self {
+        let (force, rate) = (self.force, scaled(self.rate, s));
+        let drift = added(
+            scaled(force, L::from_f64(0.5)),
+            rate,
+            L::from_f64(1.0 / 6.0),
+        );
+        let gain = added(force, rate, L::from_f64(0.5));
+        let gain = added(gain, bend, s * s * (1.0 / 6.0));
+        Self {
+            drift: added(self.drift, added(self.gain, drift, s), s),
+            gain: added(self.gain, gain, s),
+            force: sum(force, rate),
+            rate: self.rate,
         }
     }
 
@@ -121,19 +144,24 @@ impl<L: Lane> Push<L> {
     ///
     /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
     /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
-    /// s (c (1 − z S) + d z C) and the force c (1 − z² C) + d (z − z² S).
+    /// s (c (1 − z S) + d z C), the force c cos z + d sin z with cos z = 1 − z² C, sin z = z − z² S, and its rate
+    /// Ω (d cos z − c sin z).
     #[inline(always)]
     pub(crate) fn with_harmonic(self, harmonic: &Harmonic<L>, s: L) -> Self {
         let z = harmonic.omega * s;
         let (even, odd) = z.versines();
         let (c, d) = (harmonic.cosine, harmonic.sine);
         let drift = combined(even, c, odd, d);
-        let gain = combined(L::ONE - z * odd, c, z * even, d);
-        let force = combined(L::ONE - z * z * even, c, z - z * z * odd, d);
+        let gain = combined((-z).mul_add(odd, L::ONE), c, z * even, d);
+        let square = -(z * z);
+        let (sine, cosine) = (square.mul_add(odd, z), square.mul_add(even, L::ONE));
+        let force = combined(cosine, c, sine, d);
+        let rate = combined(cosine, d, -sine, c);
         Self {
-            drift: sum(self.drift, scaled(drift, s * s)),
-            gain: sum(self.gain, scaled(gain, s)),
+            drift: added(self.drift, drift, s * s),
+            gain: added(self.gain, gain, s),
             force: sum(self.force, force),
+            rate: added(self.rate, rate, harmonic.omega),
         }
     }
 }
@@ -148,6 +176,7 @@ impl<T: Real> Forcing<T> {
     }
 
     /// The force at time t.
+    #[inline(always)]
     pub fn at(&self, t: T) -> [T; 2] {
         self.harmonics.iter().fold(self.constant, |sum, harmonic| {
             let now = harmonic.shifted(t).cosine;

@@ -52,6 +52,7 @@ impl<T: Real> Shock<T> {
 /// it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is, it then
 /// snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
 /// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
+#[inline(always)]
 pub(crate) fn impact<T: Real>(
     system: &System<T>,
     before: &State<T>,

@@ -50,6 +50,8 @@ pub trait Lane:
 
     /// The same number in every lane.
     fn from_f64(value: f64) -> Self;
+    /// self · by + plus, rounded once.
+    fn mul_add(self, by: Self, plus: Self) -> Self;
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// Absolute value.
@@ -103,6 +105,10 @@ impl<T: Real> Lane for T {
         Real::from_f64(value)
     }
     #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        Real::mul_add(self, by, plus)
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Real::sqrt(self)
     }
@@ -139,19 +145,26 @@ impl<T: Real> Lane for T {
 /// x u + y v of two plane vectors.
 #[inline(always)]
 pub(crate) fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[0] + a[1] * b[1]
+    a[0].mul_add(b[0], a[1] * b[1])
 }
 
 /// x v − y u of two plane vectors.
 #[inline(always)]
 pub(crate) fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0] * b[1] - a[1] * b[0]
+    a[0].mul_add(b[1], -(a[1] * b[0]))
 }
 
 /// Length of a plane vector.
 #[inline(always)]
 pub(crate) fn length<L: Lane>(a: [L; 2]) -> L {
     dot(a, a).sqrt()
+}
+
+/// A bound on the length of a plane vector, at most an eighth above it: the larger component and half of the smaller.
+#[inline(always)]
+pub(crate) fn length_bound<L: Lane>(a: [L; 2]) -> L {
+    let (x, y) = (a[0].abs(), a[1].abs());
+    x.smaller(y).mul_add(L::from_f64(0.5), x.larger(y))
 }
 
 /// A plane vector turned by a quarter, counter-clockwise: the velocity of a point at `a` on a body
@@ -173,6 +186,12 @@ pub(crate) fn difference<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
+/// a + k b.
+#[inline(always)]
+pub(crate) fn added<L: Lane>(a: [L; 2], b: [L; 2], k: L) -> [L; 2] {
+    [b[0].mul_add(k, a[0]), b[1].mul_add(k, a[1])]
+}
+
 /// k a.
 #[inline(always)]
 pub(crate) fn scaled<L: Lane>(a: [L; 2], k: L) -> [L; 2] {
@@ -182,7 +201,7 @@ pub(crate) fn scaled<L: Lane>(a: [L; 2], k: L) -> [L; 2] {
 /// p u + q v.
 #[inline(always)]
 pub(crate) fn combined<L: Lane>(p: L, u: [L; 2], q: L, v: [L; 2]) -> [L; 2] {
-    sum(scaled(u, p), scaled(v, q))
+    added(scaled(v, q), u, p)
 }
 
 /// One of two plane vectors, lane by lane.

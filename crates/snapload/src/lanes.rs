@@ -25,7 +25,7 @@ pub enum Lanes {
     Four,
     /// Eight, in plain Rust.
     Eight,
-    /// Four, in the registers of a processor with AVX2.
+    /// Eight, in pairs of the registers of a processor with AVX2 and FMA.
     Avx2,
     /// Eight, in the registers of a processor with AVX-512.
     Avx512,
@@ -37,7 +37,7 @@ impl Lanes {
         let mut all = vec![Self::One, Self::Four, Self::Eight];
         #[cfg(target_arch = "x86_64")]
         {
-            if is_x86_feature_detected!("avx2") {
+            if crate::fused::is_here() {
                 all.push(Self::Avx2);
             }
             if is_x86_feature_detected!("avx512f") {
@@ -54,7 +54,7 @@ impl Lanes {
             if is_x86_feature_detected!("avx512f") {
                 return Self::Avx512;
             }
-            if is_x86_feature_detected!("avx2") {
+            if crate::fused::is_here() {
                 return Self::Avx2;
             }
         }
@@ -77,36 +77,41 @@ impl Lanes {
     /// done in plain Rust.
     fn run(self, runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         match self {
-            Self::One => Fleet::<f64>::board(runs, tell).sail(),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2 if is_x86_feature_detected!("avx2") => x86::four(runs, tell),
+            Self::Avx2 if crate::fused::is_here() => x86::avx2(runs, tell),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::eight(runs, tell),
-            Self::Four | Self::Avx2 => Fleet::<Portable<4>>::board(runs, tell).sail(),
-            Self::Eight | Self::Avx512 => Fleet::<Portable<8>>::board(runs, tell).sail(),
+            Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
+            Self::One => Fleet::<f64>::board(runs, tell).sail_fused(),
+            Self::Four => Fleet::<Portable<4>>::board(runs, tell).sail_fused(),
+            Self::Eight | Self::Avx2 | Self::Avx512 => {
+                Fleet::<Portable<8>>::board(runs, tell).sail_fused()
+            }
         }
     }
 }
 
-/// The functions that are compiled for a processor's vectors, and called where it has them.
+/// The functions that are compiled for a processor's instructions, and called where it has them.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
     use super::{Fleet, Simulation, Tell, Usage};
+    use crate::fused;
+    use crate::vector::Vector;
+    use crate::vector::twice::Twice;
     use crate::vector::x86::{Avx2, Avx512};
 
-    pub(super) fn four(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
-        #[target_feature(enable = "avx2")]
-        fn sail(fleet: Fleet<'_, Avx2>) -> Usage {
+    pub(super) fn avx2(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
+        #[target_feature(enable = "avx2,fma")]
+        fn sail(fleet: Fleet<'_, Twice<Avx2>>) -> Usage {
             fleet.sail()
         }
-        assert!(is_x86_feature_detected!("avx2"));
+        assert!(fused::is_here());
         let fleet = Fleet::board(runs, tell);
-        // SAFETY: the processor has AVX2, as was just asked.
+        // SAFETY: the processor has AVX2 and FMA, as was just asked.
         unsafe { sail(fleet) }
     }
 
-    pub(super) fn eight(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
+    pub(super) fn avx512(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         #[target_feature(enable = "avx512f")]
         fn sail(fleet: Fleet<'_, Avx512>) -> Usage {
             fleet.sail()
@@ -115,6 +120,20 @@ mod x86 {
         let fleet = Fleet::board(runs, tell);
         // SAFETY: the processor has AVX-512, as was just asked.
         unsafe { sail(fleet) }
+    }
+
+    /// With AVX2 and FMA, if they are here.
+    pub(super) fn sail<L: Vector>(fleet: Fleet<'_, L>) -> Usage {
+        #[target_feature(enable = "avx2,fma")]
+        fn fused<L: Vector>(fleet: Fleet<'_, L>) -> Usage {
+            fleet.sail()
+        }
+        if fused::is_here() {
+            // SAFETY: the processor has AVX2 and FMA, as was just asked.
+            unsafe { fused(fleet) }
+        } else {
+            fleet.sail()
+        }
     }
 }
 
@@ -187,6 +206,14 @@ impl<'a, L: Vector> Fleet<'a, L> {
             fleet.refill(lane);
         }
         fleet
+    }
+
+    /// [`Fleet::sail`], by the best instructions for it.
+    fn sail_fused(self) -> Usage {
+        #[cfg(target_arch = "x86_64")]
+        return x86::sail(self);
+        #[cfg(not(target_arch = "x86_64"))]
+        return self.sail();
     }
 
     /// Bounces until all runs have stopped.

@@ -139,13 +139,13 @@ impl<L: Lane> Moment<L> {
 }
 
 /// How many numbers a [`Mooring`] is.
-pub(crate) const MOORING: usize = 34;
+pub(crate) const MOORING: usize = 36;
 
 impl<L: Copy> Mooring<L> {
     /// All its numbers, to put one lane in.
     pub(crate) fn numbers(&self) -> [L; MOORING] {
-        let [a, b, c, d, e, f, g] = self.cables[0].numbers();
-        let [h, i, j, k, l, m, n] = self.cables[1].numbers();
+        let [a, b, c, d, e, f, g, h] = self.cables[0].numbers();
+        let [i, j, k, l, m, n, o, p] = self.cables[1].numbers();
         let Harmonic {
             omega,
             cosine: [cx, cy],
@@ -167,6 +167,8 @@ impl<L: Copy> Mooring<L> {
             l,
             m,
             n,
+            o,
+            p,
             self.reach[0],
             self.reach[1],
             self.inverse_inertia,
@@ -194,25 +196,25 @@ impl<L: Copy> Mooring<L> {
     pub(crate) fn from_numbers(n: [L; MOORING]) -> Self {
         Self {
             cables: [
-                Cable::from_numbers([n[0], n[1], n[2], n[3], n[4], n[5], n[6]]),
-                Cable::from_numbers([n[7], n[8], n[9], n[10], n[11], n[12], n[13]]),
+                Cable::from_numbers([n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]]),
+                Cable::from_numbers([n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15]]),
             ],
-            reach: [n[14], n[15]],
-            inverse_inertia: n[16],
-            restitution: n[17],
-            constant: [n[18], n[19]],
+            reach: [n[16], n[17]],
+            inverse_inertia: n[18],
+            restitution: n[19],
+            constant: [n[20], n[21]],
             wave: Harmonic {
-                omega: n[20],
-                cosine: [n[21], n[22]],
-                sine: [n[23], n[24]],
+                omega: n[22],
+                cosine: [n[23], n[24]],
+                sine: [n[25], n[26]],
             },
-            force: [n[25], n[26], n[27]],
-            upward: n[28],
-            steepest: n[29],
-            rotation_limit: n[30],
-            level: n[31],
-            t_end: n[32],
-            v_stick: n[33],
+            force: [n[27], n[28], n[29]],
+            upward: n[30],
+            steepest: n[31],
+            rotation_limit: n[32],
+            level: n[33],
+            t_end: n[34],
+            v_stick: n[35],
         }
     }
 }

@@ -8,6 +8,24 @@ use std::ops::{Index, IndexMut};
 /// towards larger p, where the tail is the safer bound.
 pub(crate) const ORDER: usize = 24;
 
+/// Derivatives up to this are bounded.
+const MOST_DERIVED: usize = 4;
+
+/// k (k − 1) … (k − n + 1), what the n-th derivative makes of the k-th power.
+const FALLING: [[f64; ORDER + 1]; MOST_DERIVED + 1] = {
+    let mut all = [[1.0; ORDER + 1]; MOST_DERIVED + 1];
+    let mut n = 1;
+    while n <= MOST_DERIVED {
+        let mut k = 0;
+        while k <= ORDER {
+            all[n][k] = all[n - 1][k] * (k as f64 - (n as f64 - 1.0));
+            k += 1;
+        }
+        n += 1;
+    }
+    all
+};
+
 /// So many roundings of Σ |c_k| s^k the value at s may be off.
 const ROUNDINGS: f64 = 8.0;
 
@@ -36,11 +54,13 @@ impl<T> IndexMut<usize> for Polynomial<T> {
 
 impl<T: Real> Polynomial<T> {
     /// Value and first two derivatives at s, of the powers up to `order`.
+    #[inline(always)]
     pub(crate) fn jet(&self, s: T, order: usize) -> [T; 3] {
         self.jet_and_size(s, order).0
     }
 
     /// The same, and Σ |c_k| s^k, to which the rounding of the value is in proportion.
+    #[inline(always)]
     fn jet_and_size(&self, s: T, order: usize) -> ([T; 3], T) {
         let (mut value, mut rate, mut half_accel) = (T::ZERO, T::ZERO, T::ZERO);
         let mut size = T::ZERO;
@@ -54,12 +74,14 @@ impl<T: Real> Polynomial<T> {
     }
 
     /// Value and first two derivatives at s, and the rounding error of the value.
+    #[inline(always)]
     pub(crate) fn jet_and_noise(&self, s: T, order: usize) -> ([T; 3], T) {
         let (jet, size) = self.jet_and_size(s, order);
         (jet, size * T::EPSILON * ROUNDINGS)
     }
 
     /// Whether it is provably below zero on all of \[0, s\], by more than its rounding.
+    #[inline(always)]
     pub(crate) fn stays_negative(&self, s: T, order: usize) -> bool {
         let size = self.derivative_bound(0, s, order);
         let constant = self.0[0];
@@ -68,11 +90,11 @@ impl<T: Real> Polynomial<T> {
     }
 
     /// Bound on the n-th derivative over \[0, s\].
+    #[inline(always)]
     pub(crate) fn derivative_bound(&self, n: usize, s: T, order: usize) -> T {
         let mut bound = T::ZERO;
-        for k in (n..=order).rev() {
-            let falling: usize = (k - n + 1..=k).product();
-            bound = bound * s + self.0[k].abs() * falling as f64;
+        for (c, falling) in self.0[..=order].iter().zip(&FALLING[n]).skip(n).rev() {
+            bound = bound * s + c.abs() * *falling;
         }
         bound
     }
@@ -82,6 +104,7 @@ impl<T: Real> Polynomial<T> {
     ///
     /// The constant does not count: where a motion has just begun to leave a place at which it
     /// could stay, its last terms are small against the place and yet not converged.
+    #[inline(always)]
     pub(crate) fn converged_within(&self, mut step: T, order: usize, scale: T) -> T {
         let tolerance = T::EPSILON * 0.05;
         let tail = [self.0[order - 1].abs(), self.0[order].abs()];
@@ -102,6 +125,7 @@ impl<T: Real> Polynomial<T> {
     }
 
     /// With all signs changed.
+    #[inline(always)]
     pub(crate) fn negated(&self) -> Self {
         Self(self.0.map(|c| -c))
     }
@@ -132,22 +156,6 @@ fn largest<T: Real>(coefficients: &[T], x: T, least: T) -> T {
 /// Σ a_j b_{k−j}, the k-th coefficient of a product.
 pub(crate) fn convolve<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
     sum_of_products(&a.0[..=k], &b.0[..=k])
-}
-
-/// The same without a_0 b_k: what is known of it while b_k is sought.
-pub(crate) fn convolve_tail<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
-    sum_of_products(&a.0[1..=k], &b.0[..k])
-}
-
-/// Σ a_j a_{k−j}, 0 < j < k: the k-th coefficient of a square without 2 a_0 a_k. Each product comes twice.
-pub(crate) fn square_tail<T: Real>(a: &Polynomial<T>, k: usize) -> T {
-    let pairs = (k - 1) / 2;
-    let twice = sum_of_products(&a.0[1..=pairs], &a.0[k - pairs..k]) * 2.0;
-    if k.is_multiple_of(2) {
-        twice + a.0[k / 2].squared()
-    } else {
-        twice
-    }
 }
 
 /// The first list's entries times the second's in reverse: four sums that take turns and are added at the

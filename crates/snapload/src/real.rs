@@ -7,7 +7,9 @@
 //! an add.
 
 use crate::elementary;
+use crate::fused;
 pub(crate) use crate::lane::{cross, dot, length, quarter_turn};
+use crate::{Simulation, Step};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -49,6 +51,10 @@ pub trait Real:
     fn half_pi() -> Self;
     /// The nearest double.
     fn to_f64(self) -> f64;
+    /// self · by + plus; where the arithmetic has it, rounded once.
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        self * by + plus
+    }
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
     /// Sine and cosine.
@@ -59,6 +65,11 @@ pub trait Real:
     /// under a sinusoidal force and the chord of a rotation are made of them.
     fn versines(self) -> (Self, Self);
 
+    /// [`Simulation::step`] over this arithmetic.
+    #[doc(hidden)]
+    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
+        simulation.step_here()
+    }
     /// Absolute value.
     fn abs(self) -> Self {
         if self < Self::ZERO { -self } else { self }
@@ -91,28 +102,43 @@ impl Real for f64 {
     const ONE: Self = 1.0;
     const NEWTON_STEPS: usize = 2;
 
+    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value
     }
+    #[inline(always)]
     fn from_decimal(value: f64) -> Self {
         value
     }
+    #[inline(always)]
     fn half_pi() -> Self {
         std::f64::consts::FRAC_PI_2
     }
+    #[inline(always)]
     fn to_f64(self) -> f64 {
         self
     }
+    #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        f64::mul_add(self, by, plus)
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         // IEEE 754 asks for correct rounding: the same bits on every platform.
         f64::sqrt(self)
     }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         elementary::sin_cos(self)
     }
+    #[inline(always)]
     fn versines(self) -> (Self, Self) {
         elementary::versines(self)
     }
+    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
+        fused::step(simulation)
+    }
+    #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
     }

@@ -32,12 +32,14 @@
 //! some hundred lines of plain arithmetic, gives the same bits everywhere, and does not allocate.
 //! Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
 
-use crate::complementarity::{PerCable, solve};
+use crate::bundle::Bundle;
+use crate::complementarity::{PerCable, Ready};
 use crate::contact::{Contact, Contacts};
 use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
-use crate::polynomial::{ORDER, Polynomial, convolve, convolve_tail, square_tail};
-use crate::real::{Real, cross, dot};
+use crate::lines::Lines;
+use crate::polynomial::{ORDER, Polynomial};
+use crate::real::{Real, dot};
 use crate::taut::Hold;
 use crate::taut_set::MAX_CABLES;
 use crate::{State, System};
@@ -51,33 +53,11 @@ const NOTHING: f64 = 1e-7;
 /// A taut cable that carries nothing may be off its length by so many times what a resting one may.
 const HELD: f64 = 64.0;
 
-/// Series of one cable's geometry: pairs of polynomials for ρ, for d = P − A, and where taut for n = d/r and
-/// T n; the gap where slack, the tension where taut.
+/// The gap of a cable, and its tension where it carries.
 #[derive(Clone, Copy, Debug, Default)]
 struct Line<T: Real> {
-    lever: [Polynomial<T>; 2],
-    span: [Polynomial<T>; 2],
-    normal: [Polynomial<T>; 2],
-    pull: [Polynomial<T>; 2],
     gap: Polynomial<T>,
     tension: Polynomial<T>,
-}
-
-impl<T: Real> Line<T> {
-    /// n at the start.
-    fn normal(&self) -> [T; 2] {
-        [self.normal[0][0], self.normal[1][0]]
-    }
-
-    /// s = ρ × n at the start.
-    fn arm(&self) -> T {
-        cross([self.lever[0][0], self.lever[1][0]], self.normal())
-    }
-
-    /// (ρ × T n)_k.
-    fn moment(&self, k: usize) -> T {
-        convolve(&self.lever[0], &self.pull[1], k) - convolve(&self.lever[1], &self.pull[0], k)
-    }
 }
 
 /// The Taylor expansion of a motion with a fixed set of taut cables.
@@ -87,13 +67,16 @@ pub(crate) struct Series<T: Real> {
     x: Polynomial<T>,
     y: Polynomial<T>,
     theta: Polynomial<T>,
-    sine: Polynomial<T>,
-    cosine: Polynomial<T>,
+    /// cos θ and sin θ.
+    circle: Bundle<T, 2>,
+    /// k θ_k, twice.
+    spin: Bundle<T, 2>,
     /// The forces, drag included.
     force: [Polynomial<T>; 2],
     /// θ̈ by drag.
     turning: Polynomial<T>,
     drag: DragSeries<T>,
+    geometry: Lines<T>,
     lines: Vec<Line<T>>,
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
@@ -114,11 +97,12 @@ impl<T: Real> Series<T> {
             x: Polynomial::default(),
             y: Polynomial::default(),
             theta: Polynomial::default(),
-            sine: Polynomial::default(),
-            cosine: Polynomial::default(),
+            circle: Bundle::default(),
+            spin: Bundle::default(),
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
+            geometry: Lines::default(),
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
@@ -131,6 +115,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Expands the motion about time `t`, and chooses how far the expansion is used.
+    #[inline(always)]
     pub(crate) fn begin(
         &mut self,
         system: &System<T>,
@@ -149,25 +134,24 @@ impl<T: Real> Series<T> {
         self.expand_force(system, t);
         (self.x[0], self.x[1]) = (start.x, start.vx);
         (self.y[0], self.y[1]) = (start.y, start.vy);
-        (self.theta[0], self.theta[1]) = (start.theta, start.vtheta);
-        (self.sine[0], self.cosine[0]) = start.theta.sin_cos();
-        self.extend_geometry(system, 0);
-        for (line, cable) in self.lines.iter_mut().zip(&system.cables) {
-            for (series, value) in line.span.iter_mut().zip(cable.span(start)) {
-                series[0] = value;
-            }
+        self.circle = Bundle::default();
+        self.spin = Bundle::default();
+        self.turn(0, start.theta);
+        self.turn(1, start.vtheta);
+        let (sine, cosine) = start.theta.sin_cos();
+        self.circle[0] = [cosine, sine];
+        let (sine, cosine) = self.rotation(1);
+        self.circle[1] = [cosine, sine];
+        self.geometry.begin(system);
+        for k in 0..2 {
+            self.extend_geometry(k);
         }
-        self.extend_normals(system, 0);
-        (self.sine[1], self.cosine[1]) = self.rotation(1);
-        self.extend_geometry(system, 1);
-        self.extend_normals(system, 1);
-        for k in 0..ORDER - 1 {
-            self.extend_drag(system, k);
-            self.extend_motion(system, k);
-            self.extend_geometry(system, k + 2);
-            self.extend_normals(system, k + 2);
+        for (cable, tether) in system.cables.iter().enumerate() {
+            self.geometry.set_span(cable, tether.span(start));
+            self.lines[cable].gap[1] = self.geometry.ends(cable, 1);
         }
-        self.expand_gaps();
+        self.extend_motions(system);
+        self.know_gaps();
         self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
         self.hold.taut = hold
@@ -179,6 +163,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
+    #[inline(always)]
     fn holds(&self, cable: usize) -> bool {
         let gap = &self.lines[cable].gap;
         self.hold.carrying.contains(cable)
@@ -186,6 +171,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Leaves out what provably is not reached within the step.
+    #[inline(always)]
     fn choose_watched(&mut self) {
         let step = self.step;
         self.watched.clear();
@@ -223,6 +209,7 @@ impl<T: Real> Series<T> {
     }
 
     /// f(t0 + s) as a power series.
+    #[inline(always)]
     fn expand_force(&mut self, system: &System<T>, t: T) {
         self.force = [Polynomial::default(); 2];
         for i in 0..2 {
@@ -237,6 +224,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Adds the k-th coefficients of the drag, which those of the velocities give.
+    #[inline(always)]
     fn extend_drag(&mut self, system: &System<T>, k: usize) {
         let Some(drag) = &system.drag else { return };
         let velocity = [&self.x, &self.y].map(|p| p[k + 1] * (k + 1) as f64);
@@ -247,99 +235,113 @@ impl<T: Real> Series<T> {
         self.turning[k] = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
     }
 
+    /// Gives the k-th coefficient of θ.
+    #[inline(always)]
+    fn turn(&mut self, k: usize, theta: T) {
+        self.theta[k] = theta;
+        self.spin[k] = [theta * k as f64; 2];
+    }
+
     /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
+    #[inline(always)]
     fn rotation(&self, k: usize) -> (T, T) {
-        let (mut sine, mut cosine) = (T::ZERO, T::ZERO);
-        for j in 1..=k {
-            let weight = self.theta[j] * j as f64;
-            sine += weight * self.cosine[k - j];
-            cosine -= weight * self.sine[k - j];
-        }
-        (sine / k as f64, cosine / k as f64)
+        let [sine, cosine] = self.spin.convolve(&self.circle, k);
+        let share = T::ONE / k as f64;
+        (sine * share, -(cosine * share))
     }
 
     /// ρ and d of every cable to order k; d but for its constant.
-    fn extend_geometry(&mut self, system: &System<T>, k: usize) {
-        let centre = [self.x[k], self.y[k]];
-        for (line, cable) in self.lines.iter_mut().zip(&system.cables) {
-            let lever = cable.lever(self.sine[k], self.cosine[k]);
-            for i in 0..2 {
-                line.lever[i][k] = lever[i];
-                line.span[i][k] = centre[i] + lever[i];
+    #[inline(always)]
+    fn extend_geometry(&mut self, k: usize) {
+        let [cosine, sine] = self.circle[k];
+        self.geometry
+            .extend(k, [self.x[k], self.y[k]], sine, cosine);
+    }
+
+    /// All coefficients, order by order.
+    #[inline(always)]
+    fn extend_motions(&mut self, system: &System<T>) {
+        let inverse_inertia = system.body.inverse_inertia();
+        let carrying = self.hold.carrying;
+        let mut normals = [([T::ZERO; 2], T::ZERO); MAX_CABLES];
+        for cable in carrying.iter() {
+            normals[cable] = self.geometry.normal_and_arm(cable);
+        }
+        let coupling = |i: usize, j: usize| {
+            let (([a, b], s), ([c, d], t)) = (normals[i], normals[j]);
+            a * c + b * d + s * t * inverse_inertia
+        };
+        let ready = Ready::new(carrying, coupling);
+        for k in 0..ORDER - 1 {
+            self.extend_drag(system, k);
+            self.extend_motion(system, k, &normals, |load| ready.solve(coupling, load));
+            self.extend_geometry(k + 2);
+            for cable in 0..self.lines.len() {
+                self.lines[cable].gap[k + 2] += self.geometry.ends(cable, k + 2);
             }
         }
     }
 
-    /// n of the carrying cables to order k.
-    fn extend_normals(&mut self, system: &System<T>, k: usize) {
-        for cable in self.hold.carrying.iter() {
-            let line = &mut self.lines[cable];
-            for i in 0..2 {
-                line.normal[i][k] = line.span[i][k] / system.cables[cable].length();
-            }
-        }
-    }
-
-    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
-    fn extend_motion(&mut self, system: &System<T>, k: usize) {
+    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion; of the gaps what does not
+    /// depend on that.
+    #[inline(always)]
+    fn extend_motion(
+        &mut self,
+        system: &System<T>,
+        k: usize,
+        normals: &PerCable<([T; 2], T)>,
+        solve: impl Fn(&PerCable<T>) -> PerCable<T>,
+    ) {
         let inverse_inertia = system.body.inverse_inertia();
         let carrying = self.hold.carrying;
         // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
-        self.theta[k + 2] = T::ZERO;
+        self.turn(k + 2, T::ZERO);
         let (sine, cosine) = self.rotation(k + 2);
         let orders = ((k + 1) * (k + 2)) as f64;
+        let share = T::ONE / orders;
 
-        let mut accel = [self.force[0][k], self.force[1][k], self.turning[k]];
-        for cable in carrying.iter() {
-            let line = &mut self.lines[cable];
-            for (i, accel) in accel[..2].iter_mut().enumerate() {
-                line.pull[i][k] = convolve_tail(&line.normal[i], &line.tension, k);
-                *accel -= line.pull[i][k];
+        let [x, y, moment] = self.geometry.pulls(k);
+        let mut accel = [
+            self.force[0][k] - x,
+            self.force[1][k] - y,
+            self.turning[k] - moment * inverse_inertia,
+        ];
+        for (pair, lines) in self.lines.chunks_mut(2).enumerate() {
+            let bends = self.geometry.bends(pair, k + 2);
+            for (line, bend) in lines.iter_mut().zip(bends) {
+                line.gap[k + 2] = bend;
             }
-            accel[2] -= line.moment(k) * inverse_inertia;
         }
-        let mut right = [T::ZERO; MAX_CABLES];
+        let mut load = [T::ZERO; MAX_CABLES];
         for cable in carrying.iter() {
-            let line = &self.lines[cable];
-            let lever = system.cables[cable].lever(sine, cosine);
-            let [u, v] = &line.span;
-            let bend = (square_tail(u, k + 2) + square_tail(v, k + 2))
-                / (system.cables[cable].length() * 2.0)
-                + dot(line.normal(), lever);
-            right[cable] =
-                dot(line.normal(), [accel[0], accel[1]]) + line.arm() * accel[2] + bend * orders;
+            let tether = &system.cables[cable];
+            let (normal, arm) = normals[cable];
+            let bend = self.lines[cable].gap[k + 2] * tether.per_length() * 0.5
+                + dot(normal, tether.lever(sine, cosine));
+            load[cable] = dot(normal, [accel[0], accel[1]]) + arm * accel[2] + bend * orders;
         }
-        let coupling = |i: usize, j: usize| {
-            let (a, b) = (&self.lines[i], &self.lines[j]);
-            dot(a.normal(), b.normal()) + a.arm() * b.arm() * inverse_inertia
-        };
-        let tension = solve(carrying, coupling, &right);
+        let tension = solve(&load);
         for cable in carrying.iter() {
-            let line = &mut self.lines[cable];
-            line.tension[k] = tension[cable];
-            for (i, normal) in line.normal().into_iter().enumerate() {
-                line.pull[i][k] += normal * tension[cable];
-                accel[i] -= normal * tension[cable];
-            }
-            accel[2] -= line.arm() * tension[cable] * inverse_inertia;
+            let (normal, arm) = normals[cable];
+            let tension = tension[cable];
+            self.lines[cable].tension[k] = tension;
+            self.geometry.pull(cable, k, tension, normal);
+            accel[0] -= normal[0] * tension;
+            accel[1] -= normal[1] * tension;
+            accel[2] -= arm * tension * inverse_inertia;
         }
-        self.x[k + 2] = accel[0] / orders;
-        self.y[k + 2] = accel[1] / orders;
-        self.theta[k + 2] = accel[2] / orders;
-        self.sine[k + 2] = sine + self.theta[k + 2] * self.cosine[0];
-        self.cosine[k + 2] = cosine - self.theta[k + 2] * self.sine[0];
+        self.x[k + 2] = accel[0] * share;
+        self.y[k + 2] = accel[1] * share;
+        self.turn(k + 2, accel[2] * share);
+        let [cosine_0, sine_0] = self.circle[0];
+        let theta = self.theta[k + 2];
+        self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
     }
 
-    /// g = d·d − r² of the other cables, with the first coefficients as they are known.
-    fn expand_gaps(&mut self) {
-        for cable in (0..self.lines.len()).filter(|&cable| !self.hold.carrying.contains(cable)) {
-            let contact = self.contacts[cable];
-            let line = &mut self.lines[cable];
-            let [u, v] = &line.span;
-            for k in 1..=ORDER {
-                let ends = (u[0] * u[k] + v[0] * v[k]) * 2.0;
-                line.gap[k] = square_tail(u, k) + square_tail(v, k) + ends;
-            }
+    /// The first coefficients of the gaps, as they are known.
+    #[inline(always)]
+    fn know_gaps(&mut self) {
+        for (line, contact) in self.lines.iter_mut().zip(&self.contacts) {
             line.gap[0] = contact.gap;
             if contact.resting {
                 line.gap[1] = T::ZERO;
@@ -348,6 +350,7 @@ impl<T: Real> Series<T> {
     }
 
     /// Height over the upper bound of each point of the outline.
+    #[inline(always)]
     fn expand_tops(&mut self, system: &System<T>, upper_bound: Option<T>) {
         self.tops_count = 0;
         let Some(level) = upper_bound else { return };
@@ -355,7 +358,8 @@ impl<T: Real> Series<T> {
         for [px, py] in outline.points() {
             let top = &mut self.tops[self.tops_count];
             for k in 0..=ORDER {
-                top[k] = self.y[k] + *px * self.sine[k] + *py * self.cosine[k];
+                let [cosine, sine] = self.circle[k];
+                top[k] = self.y[k] + *px * sine + *py * cosine;
             }
             top[0] = top[0] + radius - level;
             self.tops_count += 1;
@@ -367,6 +371,7 @@ impl<T: Real> Series<T> {
     ///
     /// A rounding of the tension turns a body of small inertia by ε T (ρ/I) h²/2, which moves the
     /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
+    #[inline(always)]
     fn choose_step(&self, system: &System<T>) -> T {
         let light = self.hold.carrying.iter().fold(T::ONE, |w, cable| {
             let fairlead = system.cables[cable].fairlead();
@@ -396,6 +401,7 @@ impl<T: Real> Series<T> {
     }
 
     /// The state a time `s` after the start.
+    #[inline(always)]
     pub(crate) fn state(&self, s: T) -> State<T> {
         let (x, y, theta) = (
             self.x.jet(s, ORDER),
@@ -413,6 +419,7 @@ impl<T: Real> Series<T> {
     }
 
     /// The gap of a slack cable a time `s` after the start.
+    #[inline(always)]
     pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
         let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER);
         Contact {
@@ -440,10 +447,12 @@ impl<T: Real> Series<T> {
     }
 
     /// Bounds on |ÿ| and |θ̈| over the step.
+    #[inline(always)]
     pub(crate) fn steepest(&self) -> [T; 2] {
         [&self.y, &self.theta].map(|p| p.derivative_bound(2, self.step, ORDER))
     }
 
+    #[inline(always)]
     fn jet(&self, watch: Watch, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
         let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
         Jet {
@@ -453,6 +462,7 @@ impl<T: Real> Series<T> {
         }
     }
 
+    #[inline(always)]
     fn gap_jet(&self, cable: usize, s: T) -> Jet<T> {
         let gap = &self.lines[cable].gap;
         let contact = &self.contacts[cable];
@@ -479,6 +489,7 @@ impl<T: Real> Series<T> {
 }
 
 impl<T: Real> Watched<T> for Series<T> {
+    #[inline(always)]
     fn watch(&self, s: T, jets: &mut Jets<T>) {
         for (watch, polynomial, order) in &self.watched {
             jets.push(match *watch {

@@ -43,8 +43,8 @@ pub struct Simulation<T: Real = f64> {
     /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
     departure: Option<Moment<T>>,
     flight: Flight<T>,
-    /// In a place of its own: it is large, and a simulation that is handed on moves.
-    series: Box<Series<T>>,
+    /// Made when a cable is first taut along a stretch: it is large, and in most runs none ever is.
+    series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
     /// Steps of no length since time last moved on.
@@ -147,7 +147,7 @@ impl<T: Real> Simulation<T> {
         let start = start::prepare(&system, &rules, t, &state)?;
         Ok(Self {
             flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
-            series: Box::new(Series::new(rules.rotation_limit)),
+            series: None,
             extremes: Extremes::at(&start.state),
             mooring: Mooring::of(&system, &rules, v_stick),
             departure: None,
@@ -222,6 +222,11 @@ impl<T: Real> Simulation<T> {
     /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
     /// the motion has stopped.
     pub fn step(&mut self) -> Option<Step<T>> {
+        T::step(self)
+    }
+
+    #[inline(always)]
+    pub(crate) fn step_here(&mut self) -> Option<Step<T>> {
         if self.stop.is_some() {
             return None;
         }
@@ -262,6 +267,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
+    #[inline(always)]
     fn next_crossing(&mut self) -> Crossing<T> {
         self.begun = self.t;
         let mut horizon = self.rules.t_end - self.t;
@@ -275,7 +281,10 @@ impl<T: Real> Simulation<T> {
             );
             first_crossing(&self.flight, self.t, horizon)
         } else {
-            self.series.begin(
+            let series = self
+                .series
+                .get_or_insert_with(|| Box::new(Series::new(self.rules.rotation_limit)));
+            series.begin(
                 &self.system,
                 self.t,
                 &self.state,
@@ -283,9 +292,9 @@ impl<T: Real> Simulation<T> {
                 self.hold,
                 self.rules.upper_bound,
             );
-            self.hold = self.series.hold();
-            horizon = horizon.min(self.series.step());
-            first_crossing(&*self.series, self.t, horizon)
+            self.hold = series.hold();
+            horizon = horizon.min(series.step());
+            first_crossing(&**series, self.t, horizon)
         };
         crossing.unwrap_or(Crossing {
             s: horizon,
@@ -295,45 +304,31 @@ impl<T: Real> Simulation<T> {
 
     /// Moves state, time and contacts to the crossing. Positions there lie on the closed cables and
     /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
+    #[inline(always)]
     fn advance(&mut self, crossing: &Crossing<T>) {
         let s = crossing.s;
-        let free = self.system.flies_freely(self.hold.taut);
+        let motion = self.motion(self.hold.taut);
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
-        if free {
-            let forcing = &self.system.forcing;
-            let bends = [forcing.most_upward(), forcing.steepest(), T::ZERO];
-            self.extremes.cover(|s| self.flight.state(s), s, bends);
-        } else {
-            let [y, theta] = self.series.steepest();
-            self.extremes
-                .cover(|s| self.series.state(s), s, [y, y, theta]);
+        let mut extremes = self.extremes;
+        extremes.cover(|s| motion.state(s), s, motion.bends(&self.system));
+        let state = motion.state(s);
+        let mut contacts = self.contacts;
+        for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
+            if self.hold.taut.contains(cable) {
+                *contact = Contact::RESTING;
+            } else if crossing.reached.gaps.contains(cable) {
+                *contact = Contact::CLOSED;
+            } else if s > T::ZERO {
+                let carried = motion.contact(cable, s);
+                *contact = carried.carried(&self.system, cable, &state);
+            }
         }
         self.t = if reached_end {
             self.rules.t_end
         } else {
             self.t + s
         };
-        self.state = if free {
-            self.flight.state(s)
-        } else {
-            self.series.state(s)
-        };
-        for cable in 0..self.system.cables.len() {
-            self.contacts[cable] = if self.hold.taut.contains(cable) {
-                Contact::RESTING
-            } else if crossing.reached.gaps.contains(cable) {
-                Contact::CLOSED
-            } else if s > T::ZERO {
-                let contact = if free {
-                    self.flight.contact(cable, s)
-                } else {
-                    self.series.contact(cable, s)
-                };
-                contact.carried(&self.system, cable, &self.state)
-            } else {
-                self.contacts[cable]
-            };
-        }
+        (self.state, self.extremes, self.contacts) = (state, extremes, contacts);
         let closed = self.closed();
         project_position(&self.system, &mut self.state, closed);
         project_velocity(&self.system, &mut self.state, self.hold.taut);

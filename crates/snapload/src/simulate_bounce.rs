@@ -14,6 +14,7 @@ use crate::{State, TautSet};
 impl<T: Real> Simulation<T> {
     /// The bounce that the motion makes next, if it is one. The same number that comes here by itself comes to
     /// [`bounce`] in a lane, so it is one in both or in neither.
+    #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
         self.departure = None;
         let from = self.moment()?;
@@ -25,6 +26,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// The motion as [`bounce`] takes it; none if a cable is taut or at rest.
+    #[inline(always)]
     pub(crate) fn moment(&self) -> Option<Moment<T>> {
         let [first, second, ..] = &self.contacts;
         if !self.hold.taut.is_empty() || first.resting || second.resting {
@@ -91,6 +93,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Makes a bounce: moves to its end, and applies the law there if that is not done yet.
+    #[inline(always)]
     pub(super) fn take(&mut self, bounce: &Bounce<T>) -> (Event, Option<Shock<T>>) {
         let next = &bounce.next;
         self.cover(bounce);

@@ -16,6 +16,7 @@ const LATER: i32 = 28;
 
 impl<T: Real> Simulation<T> {
     /// Applies the law of what was reached.
+    #[inline(always)]
     pub(super) fn apply_law(&mut self, event: &Event) -> Option<Shock<T>> {
         let reached = event.reached;
         if reached.rotation {
@@ -33,6 +34,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Cables snap taut: impact, then sticking, then the choice of the taut set.
+    #[inline(always)]
     pub(super) fn snap(&mut self, event: &Event) -> Shock<T> {
         let Event { closed, still, .. } = *event;
         let struck = event.reached.gaps;
@@ -82,6 +84,7 @@ impl<T: Real> Simulation<T> {
 
     /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
     /// ones that leave by less: those snaps accumulate, and all of them come to rest at once.
+    #[inline(always)]
     fn caught(&self, shock: &Shock<T>, closed: TautSet) -> TautSet {
         if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
             return TautSet::SLACK;
@@ -98,6 +101,7 @@ impl<T: Real> Simulation<T> {
 
     /// Whether a closed cable has no normal velocity after the shock. A struck one was closing; if its
     /// normal velocity is not positive all the same, it is zero but for rounding.
+    #[inline(always)]
     fn unmoved(&self, shock: &Shock<T>, cable: usize, struck: TautSet) -> bool {
         if struck.contains(cable) && shock.v_before[cable] <= T::ZERO {
             return true;
@@ -149,27 +153,29 @@ impl<T: Real> Simulation<T> {
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
         let Hold { taut, carrying } = self.hold;
-        self.hold = if taut == carrying {
-            let kept = released.iter().fold(taut, TautSet::without);
-            taut_next(&self.system, self.t, &self.state, kept)
-        } else {
+        let series = self.series.as_ref().filter(|_| taut != carrying);
+        self.hold = if let Some(series) = series {
             let since = self.t - self.begun;
             let clear = |&later: &T| {
-                let tension = |cable| self.series.tension(cable, since + later);
+                let tension = |cable| series.tension(cable, since + later);
                 released
                     .iter()
                     .any(|cable| tension(cable) < T::from_decimal(PUSHES))
             };
-            let steps = (0..LATER).map(|k| self.series.step() * 0.5_f64.powi(LATER - k));
-            let last = self.series.step() * 0.5;
+            let steps = (0..LATER).map(|k| series.step() * 0.5_f64.powi(LATER - k));
+            let last = series.step() * 0.5;
             let later = steps.into_iter().find(clear).unwrap_or(last);
-            let state = self.series.state(since + later);
+            let state = series.state(since + later);
             taut_next(&self.system, self.t + later, &state, taut)
+        } else {
+            let kept = released.iter().fold(taut, TautSet::without);
+            taut_next(&self.system, self.t, &self.state, kept)
         };
         self.check_rules(TautSet::SLACK);
     }
 
     /// The rules that are looked at at events; `stuck` are the cables that just stuck.
+    #[inline(always)]
     pub(super) fn check_rules(&mut self, stuck: TautSet) {
         let y = self.state.y;
         let low = self.rules.settled_below.is_some_and(|height| y < height);
@@ -188,6 +194,7 @@ impl<T: Real> Simulation<T> {
 
     /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began with
     /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
+    #[inline(always)]
     fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
         let e = self.system.restitution;
         let LastImpacts {

@@ -1,25 +1,72 @@
 //! What the latest step of a motion was like within.
 
 use super::{Simulation, Step};
-use crate::State;
 use crate::contact::Contact;
 use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
 use crate::real::{Real, length};
+use crate::series::Series;
 use crate::taut::tensions;
 use crate::taut_set::MAX_CABLES;
+use crate::{State, System, TautSet};
 use std::borrow::Cow;
 
 /// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
 const LOOKS: usize = 64;
 
+/// The motion along a stretch.
+pub(super) enum Stretch<'a, T: Real> {
+    /// In closed form.
+    Free(Cow<'a, Flight<T>>),
+    /// By a series, as cables are taut or the water resists.
+    Driven(&'a Series<T>),
+}
+
+impl<T: Real> Stretch<'_, T> {
+    /// The state a time `s` into it.
+    #[inline(always)]
+    pub(super) fn state(&self, s: T) -> State<T> {
+        match self {
+            Self::Free(flight) => flight.state(s),
+            Self::Driven(series) => series.state(s),
+        }
+    }
+
+    /// What is known of the gap of a slack cable then.
+    #[inline(always)]
+    pub(super) fn contact(&self, cable: usize, s: T) -> Contact<T> {
+        match self {
+            Self::Free(flight) => flight.contact(cable, s),
+            Self::Driven(series) => series.contact(cable, s),
+        }
+    }
+
+    /// Bounds on ÿ, |ÿ| and |θ̈| along it.
+    #[inline(always)]
+    pub(super) fn bends(&self, system: &System<T>) -> [T; 3] {
+        let forcing = &system.forcing;
+        match self {
+            Self::Free(_) => [forcing.most_upward(), forcing.steepest(), T::ZERO],
+            Self::Driven(series) => {
+                let [y, theta] = series.steepest();
+                [y, y, theta]
+            }
+        }
+    }
+}
+
 impl<T: Real> Simulation<T> {
     /// The state a time `s` into the stretch that the latest step made.
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
-        if self.system.flies_freely(step.taut) {
-            self.flown().state(s)
-        } else {
-            self.series.state(s)
+        self.motion(step.taut).state(s)
+    }
+
+    /// The motion of the latest stretch.
+    #[inline(always)]
+    pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
+        match &self.series {
+            Some(series) if !self.system.flies_freely(taut) => Stretch::Driven(series),
+            _ => Stretch::Free(self.flown()),
         }
     }
 
@@ -61,14 +108,14 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return false;
         }
-        let free = self.system.flies_freely(step.taut);
-        let (bend, first) = match &self.departure {
-            _ if !free => (
-                self.series.gap_bend(cable),
-                self.series.gap_and_rate(cable, T::ZERO).0,
+        let motion = self.motion(step.taut);
+        let (bend, first) = match (&motion, &self.departure) {
+            (Stretch::Driven(series), _) => (
+                series.gap_bend(cable),
+                series.gap_and_rate(cable, T::ZERO).0,
             ),
-            Some(from) => (self.gap_bend(step, cable), from.gaps[cable][0]),
-            None => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+            (_, Some(from)) => (self.gap_bend(step, cable), from.gaps[cable][0]),
+            (_, None) => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
         };
         if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
             return false;
@@ -78,12 +125,10 @@ impl<T: Real> Simulation<T> {
         } else {
             (T::ZERO, margin / s)
         };
-        let flight = self.flown();
         let nearness = |s: T| {
-            let (gap, rate) = if free {
-                flight.gap_and_rate(cable, s)
-            } else {
-                self.series.gap_and_rate(cable, s)
+            let (gap, rate) = match &motion {
+                Stretch::Free(flight) => flight.gap_and_rate(cable, s),
+                Stretch::Driven(series) => series.gap_and_rate(cable, s),
             };
             (gap + offset + slope * s, rate + slope)
         };
@@ -104,12 +149,8 @@ impl<T: Real> Simulation<T> {
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
     pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
         let s = step.t_end - step.t_start;
-        let free = self.system.flies_freely(step.taut);
-        let [y_bend, theta_bend] = if free {
-            [self.system.forcing.steepest(), T::ZERO]
-        } else {
-            self.series.steepest()
-        };
+        let motion = self.motion(step.taut);
+        let [_, y_bend, theta_bend] = motion.bends(&self.system);
         let reach = self.system.body.reach();
         let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
         if rough < floor {
@@ -118,16 +159,8 @@ impl<T: Real> Simulation<T> {
         let width = s / LOOKS as f64;
         let spin = step.start.vtheta.abs() + theta_bend * s;
         let bend = y_bend + (spin * spin + theta_bend) * reach;
-        let flight = self.flown();
-        let state = |s: T| {
-            if free {
-                flight.state(s)
-            } else {
-                self.series.state(s)
-            }
-        };
         (0..=LOOKS)
-            .map(|k| self.system.top(&state(width * k as f64)))
+            .map(|k| self.system.top(&motion.state(width * k as f64)))
             .fold(step.start.y, T::max)
             + bend * width * width * 0.125
     }
@@ -154,19 +187,22 @@ impl<T: Real> Simulation<T> {
     }
 
     fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
+        let mut now = [T::ZERO; MAX_CABLES];
+        let Stretch::Driven(series) = self.motion(step.taut) else {
+            return now;
+        };
         if step.taut != step.carrying {
             let t = step.t_start + s;
-            return tensions(&self.system, t, &self.series.state(s), step.taut);
+            return tensions(&self.system, t, &series.state(s), step.taut);
         }
-        let mut now = [T::ZERO; MAX_CABLES];
         for cable in step.taut.iter() {
-            now[cable] = self.series.tension(cable, s);
+            now[cable] = series.tension(cable, s);
         }
         now
     }
 
     /// How far the latest expansion of taut motion may be used.
     pub(crate) fn expansion(&self) -> T {
-        self.series.step()
+        self.series.as_ref().map_or(T::ZERO, |series| series.step())
     }
 }

@@ -81,6 +81,7 @@ impl<T: Real> System<T> {
     }
 
     /// The normals of the cables of a set; the others' entries are zero.
+    #[inline(always)]
     pub fn normals(&self, state: &State<T>, set: TautSet) -> [Normal<T>; MAX_CABLES] {
         let mut normals = [Normal::default(); MAX_CABLES];
         for cable in set.iter() {
@@ -90,6 +91,7 @@ impl<T: Real> System<T> {
     }
 
     /// (ẍ, ÿ, θ̈) if no cable pulled: the forces and the drag, for unit mass.
+    #[inline(always)]
     pub fn free_acceleration(&self, t: T, state: &State<T>) -> [T; 3] {
         let [x, y] = self.forcing.at(t);
         match &self.drag {
@@ -103,6 +105,7 @@ impl<T: Real> System<T> {
 
     /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with (f, θ̈) the free
     /// acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
+    #[inline(always)]
     pub fn free_normal_acceleration(
         &self,
         cable: usize,

@@ -24,6 +24,7 @@ pub(crate) struct Hold {
 ///
 /// The problem is solved with as few cables as will do. Where others stay closed as well, g̈ = 0, and all of them depend on
 /// each other, all are taut, and as many carry as there are directions to hold.
+#[inline(always)]
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
     t: T,
@@ -66,6 +67,7 @@ pub(crate) fn taut_next<T: Real>(
 ///
 /// Where more cables are taut than the body has freedoms for, or one lies along another, these are the tensions of the
 /// least norm: those of cables that are stretched by the same force per length.
+#[inline(always)]
 pub(crate) fn tensions<T: Real>(
     system: &System<T>,
     t: T,
@@ -83,6 +85,7 @@ pub(crate) fn tensions<T: Real>(
 }
 
 /// Tensions that move the body as it moves: where taut cables depend on each other, one solution of many.
+#[inline(always)]
 fn some_tensions<T: Real>(
     system: &System<T>,
     t: T,
@@ -117,6 +120,7 @@ pub(crate) fn acceleration<T: Real>(
 }
 
 /// g̈/(2r) of a closed cable while the cables of `taut` pull.
+#[inline(always)]
 pub(crate) fn normal_acceleration<T: Real>(
     system: &System<T>,
     t: T,
@@ -131,6 +135,7 @@ pub(crate) fn normal_acceleration<T: Real>(
 }
 
 /// W and b of g̈/(2r) = b − W T.
+#[inline(always)]
 fn problem<T: Real>(
     system: &System<T>,
     t: T,
@@ -150,6 +155,7 @@ fn problem<T: Real>(
 /// Moves the body by the least distance in the mass metric so that the gaps of a set close.
 ///
 /// As many Newton steps as a start's tolerance of 1e-9 may need.
+#[inline(always)]
 pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
     let inverse_inertia = system.body.inverse_inertia();
     for _ in 0..T::NEWTON_STEPS {
@@ -168,6 +174,7 @@ pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>
 }
 
 /// Takes the normal velocities of a set to zero by the least change in the mass metric.
+#[inline(always)]
 pub(crate) fn project_velocity<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
     let inverse_inertia = system.body.inverse_inertia();
     let normals = system.normals(state, set);

@@ -1,7 +1,7 @@
 //! One cable along a slack flight, in closed form.
 
 use crate::forcing::Push;
-use crate::lane::{Lane, Turn, combined, difference, dot, quarter_turn, scaled, select2, sum};
+use crate::lane::{Lane, Turn, added, combined, difference, dot, quarter_turn, select2, sum};
 use crate::{Cable, Harmonic, State};
 
 /// Bounds on derivatives are computed in rounded arithmetic; this much more makes them safe.
@@ -42,6 +42,7 @@ pub(crate) struct GapJet<L> {
     pub(crate) value: L,
     pub(crate) rate: L,
     pub(crate) accel: L,
+    pub(crate) jerk: L,
     /// Bound on the rounding error of `value`, the motion taken as exact.
     pub(crate) noise: L,
     /// Ṗ.
@@ -64,7 +65,7 @@ impl<L: Lane> Tether<L> {
         let span = cable.span_moved(cable.moved(state, turn));
         let lever = cable.lever(turn.sine, turn.cosine);
         let spin = state.vtheta;
-        let velocity = sum([state.vx, state.vy], scaled(quarter_turn(lever), spin));
+        let velocity = added([state.vx, state.vy], quarter_turn(lever), spin);
         let turning = spin.abs();
         let centripetal = spin * spin * reach;
         let jerk = centripetal * turning;
@@ -80,12 +81,12 @@ impl<L: Lane> Tether<L> {
             bounds: [
                 (force[0] + centripetal) * INFLATION,
                 (force[1] + jerk) * INFLATION,
-                (force[2] + jerk * turning) * INFLATION,
+                jerk.mul_add(turning, force[2]) * INFLATION,
             ],
         }
     }
 
-    /// g, ġ, g̈ a time `s` into the flight.
+    /// g, ġ, g̈, g⃛ a time `s` into the flight.
     ///
     /// With P − P₀ = Ṗ₀ s + q, where q is of second order and free of cancellation,
     /// g = g₀ + ġ₀ s + 2 d₀·q + |P − P₀|²; so a gap that starts closed, and its rate, are known to a few
@@ -96,25 +97,29 @@ impl<L: Lane> Tether<L> {
         let quarter = quarter_turn(self.lever);
         let bent = combined(turn.chord, self.lever, turn.lag, quarter);
         let remainder = difference(push.drift, bent);
-        let moved = sum(scaled(self.velocity, s), remainder);
+        let moved = added(remainder, self.velocity, s);
         let span = sum(self.span, moved);
         // What the lever and its quarter turn have changed by.
         let turned = combined(turn.sine, quarter, -turn.chord, self.lever);
         let lever = sum(self.lever, turned);
-        let gain = sum(push.gain, scaled(quarter_turn(turned), spin));
+        let gain = added(push.gain, quarter_turn(turned), spin);
         let velocity = sum(self.velocity, gain);
-        let accel = difference(push.force, scaled(lever, spin * spin));
+        let square_spin = spin * spin;
+        let accel = added(push.force, lever, -square_spin);
+        let jerk = added(push.rate, quarter_turn(lever), -(square_spin * spin));
 
+        let two = L::from_f64(2.0);
         let linear = self.gap_rate * s;
-        let bend = dot(self.span, remainder) * 2.0;
+        let bend = dot(self.span, remainder);
         let square = dot(moved, moved);
         let size = self.gap.abs() + linear.abs() + square;
-        let noise = size * 4.0 + self.length * self.bounds[0] * s * s * 16.0;
+        let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
         GapJet {
-            value: self.gap + (linear + bend + square),
-            rate: self.gap_rate + (dot(moved, self.velocity) + dot(span, gain)) * 2.0,
+            value: self.gap + bend.mul_add(two, linear + square),
+            rate: (dot(moved, self.velocity) + dot(span, gain)).mul_add(two, self.gap_rate),
             accel: (dot(velocity, velocity) + dot(span, accel)) * 2.0,
-            noise: self.gap_error + noise * L::EPSILON,
+            jerk: dot(velocity, accel).mul_add(L::from_f64(3.0), dot(span, jerk)) * 2.0,
+            noise: noise.mul_add(L::EPSILON, self.gap_error),
             velocity,
         }
     }
@@ -126,39 +131,48 @@ impl<L: Lane> Tether<L> {
         self.length * self.speed * s * L::EPSILON * 16.0
     }
 
-    /// g̈ = 2 (|Ṗ|² + d·P̈) and g⃛ = 2 (3 Ṗ·P̈ + d·P⃛) at the start, with the force f and its
-    /// rate ḟ there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ.
+    /// |d| within a flight of length `s` on which |Ṗ| ≤ `speed`, as it is at most r at both ends.
     #[inline(always)]
-    pub(crate) fn bend_at_start(&self, force: [L; 2], force_rate: [L; 2], spin: L) -> [L; 2] {
-        let square = spin * spin;
-        let accel = difference(force, scaled(self.lever, square));
-        let jerk = difference(force_rate, scaled(quarter_turn(self.lever), square * spin));
-        [
-            (dot(self.velocity, self.velocity) + dot(self.span, accel)) * 2.0,
-            (dot(self.velocity, accel) * 3.0 + dot(self.span, jerk)) * 2.0,
-        ]
+    fn span_bound(&self, speed: L, s: L) -> L {
+        speed.mul_add(s * 0.5, self.length)
     }
 
-    /// One of two tethers, lane by lane.
+    /// |g⃛| ≤ 2 (3 |Ṗ||P̈| + |d||P⃛|) up to `s`, where |Ṗ| grows by at most |P̈|s and |d| by half of what
+    /// that comes to if |d| ≤ r at both ends.
     #[inline(always)]
-    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        let [a, j, k] = yes.bounds;
-        let [b, l, m] = no.bounds;
-        Self {
-            span: select2(mask, yes.span, no.span),
-            lever: select2(mask, yes.lever, no.lever),
-            velocity: select2(mask, yes.velocity, no.velocity),
-            gap: L::select(mask, yes.gap, no.gap),
-            gap_rate: L::select(mask, yes.gap_rate, no.gap_rate),
-            gap_error: L::select(mask, yes.gap_error, no.gap_error),
-            length: L::select(mask, yes.length, no.length),
-            speed: L::select(mask, yes.speed, no.speed),
-            bounds: [
-                L::select(mask, a, b),
-                L::select(mask, j, l),
-                L::select(mask, k, m),
-            ],
-        }
+    pub(crate) fn third(&self, s: L) -> L {
+        let [a, j, _] = self.bounds;
+        let speed = a.mul_add(s, self.speed);
+        (self.span_bound(speed, s).mul_add(j, speed * a * 3.0)) * 2.0
+    }
+
+    /// |g⁗| ≤ 2 (3 |P̈|² + 4 |Ṗ||P⃛| + |d||P⁗|), likewise.
+    #[inline(always)]
+    pub(crate) fn fourth(&self, s: L) -> L {
+        let [a, j, k] = self.bounds;
+        let speed = a.mul_add(s, self.speed);
+        let fixed = (speed * 4.0).mul_add(j, a * a * 3.0);
+        self.span_bound(speed, s).mul_add(k, fixed) * 2.0
+    }
+
+    /// g̈ = 2 (|Ṗ|² + d·P̈), g⃛ = 2 (3 Ṗ·P̈ + d·P⃛) and g⁗ = 2 (3 |P̈|² + 4 Ṗ·P⃛ + d·P⁗) at the start, with the force and
+    /// its derivatives there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ, P⁗ = f̈ + θ̇⁴ρ.
+    #[inline(always)]
+    pub(crate) fn bends_at_start(&self, force: [[L; 2]; 3], spin: L) -> [L; 3] {
+        let square = spin * spin;
+        let [force, rate, bend] = force;
+        let three = L::from_f64(3.0);
+        let accel = added(force, self.lever, -square);
+        let jerk = added(rate, quarter_turn(self.lever), -(square * spin));
+        let snap = added(bend, self.lever, square * square);
+        [
+            (dot(self.velocity, self.velocity) + dot(self.span, accel)) * 2.0,
+            dot(self.velocity, accel).mul_add(three, dot(self.span, jerk)) * 2.0,
+            dot(self.velocity, jerk).mul_add(
+                L::from_f64(4.0),
+                dot(accel, accel).mul_add(three, dot(self.span, snap)),
+            ) * 2.0,
+        ]
     }
 }
 
@@ -168,9 +182,9 @@ impl<L: Lane> Instant<L> {
     pub(crate) fn state(&self, start: &State<L>, s: L) -> State<L> {
         let push = &self.push;
         State {
-            x: start.x + (start.vx * s + push.drift[0]),
-            y: start.y + (start.vy * s + push.drift[1]),
-            theta: start.theta + start.vtheta * s,
+            x: start.x + start.vx.mul_add(s, push.drift[0]),
+            y: start.y + start.vy.mul_add(s, push.drift[1]),
+            theta: start.vtheta.mul_add(s, start.theta),
             vx: start.vx + push.gain[0],
             vy: start.vy + push.gain[1],
             vtheta: start.vtheta,
@@ -187,6 +201,15 @@ impl<L: Lane> Instant<L> {
         }
     }
 
+    /// The forces' part a little later; its turn stays behind.
+    #[inline(always)]
+    pub(crate) fn later(self, s: L, bend: [L; 2]) -> Self {
+        Self {
+            push: self.push.later(s, bend),
+            ..self
+        }
+    }
+
     /// With a harmonic that is given relative to the flight's start.
     #[inline(always)]
     pub(crate) fn with(self, wave: &Harmonic<L>, s: L) -> Self {
@@ -198,6 +221,43 @@ impl<L: Lane> Instant<L> {
 }
 
 impl<L: Lane> GapJet<L> {
+    /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between.
+    #[inline(always)]
+    pub(crate) fn later(&self, s: L, fourth: L) -> Self {
+        let sixth = self.jerk * (1.0 / 6.0);
+        let square = s * s;
+        Self {
+            value: self.value + self.rise(s, sixth),
+            rate: (self.jerk * 0.5)
+                .mul_add(s, self.accel)
+                .mul_add(s, self.rate),
+            accel: self.jerk.mul_add(s, self.accel),
+            noise: (fourth * (1.0 / 24.0)).mul_add(square * square, self.noise),
+            ..*self
+        }
+    }
+
+    /// What the cubic gains in a time `s`, given a sixth of the jerk.
+    #[inline(always)]
+    fn rise(&self, s: L, sixth: L) -> L {
+        let bend = sixth.mul_add(s, self.accel * 0.5);
+        bend.mul_add(s, self.rate) * s
+    }
+
+    /// How much later the cubic is zero: a step of Halley's, and one of Newton's with nearly its slope; and what the
+    /// cubic is there. The denominator of the step tells whether there is such a zero.
+    #[inline(always)]
+    pub(crate) fn root(&self) -> (L, L, L) {
+        let sixth = self.jerk * (1.0 / 6.0);
+        let twice = self.rate * 2.0;
+        let below = self.rate.mul_add(twice, -(self.value * self.accel));
+        let slowness = twice / below;
+        let s = -(self.value * slowness);
+        let s = (-slowness).mul_add(self.value + self.rise(s, sixth), s);
+        let s = (-slowness).mul_add(self.value + self.rise(s, sixth), s);
+        (s, self.value + self.rise(s, sixth), below)
+    }
+
     /// One of two jets, lane by lane.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
@@ -205,6 +265,7 @@ impl<L: Lane> GapJet<L> {
             value: L::select(mask, yes.value, no.value),
             rate: L::select(mask, yes.rate, no.rate),
             accel: L::select(mask, yes.accel, no.accel),
+            jerk: L::select(mask, yes.jerk, no.jerk),
             noise: L::select(mask, yes.noise, no.noise),
             velocity: select2(mask, yes.velocity, no.velocity),
         }

@@ -1,7 +1,7 @@
 //! Several doubles side by side: portable, and in the registers of x86 processors.
 //!
 //! Every operation is the one that IEEE 754 defines, lane by lane, so all of these give the same bits.
-//! None of them fuses a multiply with an add.
+//! `mul_add` always fuses; a multiply and an add apart never do.
 
 use crate::elementary::{self, Doubles};
 use crate::lane::{Lane, Mask};
@@ -111,6 +111,12 @@ impl<const N: usize> Lane for Portable<N> {
         Self([value; N])
     }
     #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        Self(std::array::from_fn(|k| {
+            self.0[k].mul_add(by.0[k], plus.0[k])
+        }))
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }
@@ -175,6 +181,10 @@ macro_rules! with_doubles {
     };
 }
 with_doubles!(Portable<N>, const N);
+
+#[cfg(target_arch = "x86_64")]
+#[path = "vector_twice.rs"]
+pub(crate) mod twice;
 
 #[cfg(target_arch = "x86_64")]
 #[path = "vector_x86.rs"]

@@ -215,6 +215,11 @@ impl Lane for Avx2 {
         unsafe { Self(_mm256_set1_pd(value)) }
     }
     #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        // SAFETY: the processor has FMA, as the head of this file says.
+        unsafe { Self(_mm256_fmadd_pd(self.0, by.0, plus.0)) }
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         // SAFETY: the processor has AVX, as the head of this file says.
         unsafe { Self(_mm256_sqrt_pd(self.0)) }
@@ -259,6 +264,11 @@ impl Lane for Avx512 {
     fn from_f64(value: f64) -> Self {
         // SAFETY: the processor has AVX-512, as the head of this file says.
         unsafe { Self(_mm512_set1_pd(value)) }
+    }
+    #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        // SAFETY: the processor has AVX-512, as the head of this file says.
+        unsafe { Self(_mm512_fmadd_pd(self.0, by.0, plus.0)) }
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

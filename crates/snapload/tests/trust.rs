@@ -40,13 +40,14 @@ fn proven(found: &Verification) -> usize {
 /// The prediction is the width of a distribution, the difference that is proven one draw from it. While errors
 /// grow from impact to impact, this does not move the horizon; where bounces accumulate they stand still for a
 /// hundred impacts, at times near the tolerance. So the prediction is held to where the difference passes a
-/// third of the tolerance, and to where it passes three times it.
+/// twentieth of the tolerance, as 4 % of all draws are smaller than that part of the width, and to where it passes three
+/// times it.
 fn assert_as_proven(id: &str, found: &Verification) {
     let passes = |size: f64| {
         let wrong = found.differences.iter().position(|d| *d > size);
         wrong.map_or(found.differences.len() + 1, |k| k + 1)
     };
-    let (early, late) = (passes(TOLERANCE / 3.0), passes(TOLERANCE * 3.0));
+    let (early, late) = (passes(TOLERANCE / 20.0), passes(TOLERANCE * 3.0));
     let predicted = predicted(found);
     assert_alike(
         id,
@@ -96,7 +97,7 @@ fn horizons_are_where_the_oracle_has_them() {
 /// Up to the horizon the difference from the run with many digits is of the size of the standard deviation
 /// that was predicted: one draw from a distribution whose width is itself a model of rounding. Where
 /// bounces accumulate the model says too much, as gaps and normal velocities then keep their relative
-/// precision; it must never say too little by much.
+/// precision; it must never say too little by much. Of a handful of impacts the median is one draw like any other.
 fn errors_are_of_the_size_predicted(id: &str, found: &Verification) {
     let horizon = predicted(found).min(proven(found)) - 1;
     let mut ratios: Vec<f64> = (0..horizon)
@@ -108,7 +109,8 @@ fn errors_are_of_the_size_predicted(id: &str, found: &Verification) {
         "{id}: difference over prediction, median {median:.2}, largest {:.2}",
         ratios[ratios.len() - 1]
     );
-    assert!((1e-3..5.0).contains(&median), "{id}: {median}");
+    let usual = if ratios.len() < 10 { 30.0 } else { 5.0 };
+    assert!((1e-3..usual).contains(&median), "{id}: {median}");
     assert!(ratios[ratios.len() - 1] < 30.0, "{id}: {ratios:?}");
 }
 
