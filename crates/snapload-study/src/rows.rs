@@ -1,8 +1,7 @@
 //! The one place where cases become rows.
 
 use crate::Drawn;
-use rayon::prelude::*;
-use snapload::analysis::{Certainty, share};
+use snapload::analysis::{Certainty, shared};
 use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 
 /// A row of a study: the keys of a case and what its run comes to.
@@ -23,15 +22,12 @@ pub struct Row {
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
 pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> {
-    drawn
-        .par_chunks(share(drawn.len()))
-        .flat_map_iter(|drawn| side_by_side(drawn, trust, done))
-        .collect()
+    shared(drawn, |drawn| side_by_side(drawn, trust, done))
 }
 
-fn side_by_side(drawn: &[Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
+fn side_by_side(drawn: &[&Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
     let mut cases = Vec::with_capacity(drawn.len());
-    let made = |drawn: &Drawn| {
+    let made = |drawn: &&Drawn| {
         let case = drawn.parameters.clone().and_then(Case::new)?;
         let certainty = trust.then(|| Certainty::of(&case));
         cases.push(case);
@@ -39,7 +35,7 @@ fn side_by_side(drawn: &[Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
     };
     let certainties: Vec<Result<Option<Certainty>, CaseError>> = drawn.iter().map(made).collect();
     let mut outcomes = Lanes::best().outcomes(&cases).0.into_iter();
-    let row = |(drawn, certainty): (&Drawn, Result<Option<Certainty>, CaseError>)| {
+    let row = |(drawn, certainty): (&&Drawn, Result<Option<Certainty>, CaseError>)| {
         done();
         Some(Row {
             index: drawn.index,

@@ -37,7 +37,7 @@ pub(crate) enum Ready<T> {
 }
 
 impl<T: Real> Ready<T> {
-    #[inline]
+    #[inline(always)]
     pub(crate) fn new(set: TautSet, w: impl Fn(usize, usize) -> T) -> Self {
         let mut cables = set.iter();
         match (cables.next(), cables.next(), cables.next()) {
@@ -49,7 +49,7 @@ impl<T: Real> Ready<T> {
     }
 
     /// z, with the W that it was made of.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn solve(&self, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
         let mut z = [T::ZERO; MAX_CABLES];
         match *self {
@@ -63,6 +63,7 @@ impl<T: Real> Ready<T> {
 }
 
 /// Solves W z = q over the cables of a set ([`Ready`]).
+#[inline(always)]
 pub(crate) fn solve<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -82,7 +83,7 @@ pub(crate) struct Two<T> {
 }
 
 impl<T: Real> Two<T> {
-    #[inline]
+    #[inline(always)]
     fn new(matrix: [T; 3]) -> Self {
         let [a, b, c] = matrix;
         let determinant = a * c - b * b;
@@ -95,7 +96,7 @@ impl<T: Real> Two<T> {
 
     /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the cables are almost in
     /// line; there its answer is put in twice for what is left over.
-    #[inline]
+    #[inline(always)]
     fn solve(&self, q: [T; 2]) -> [T; 2] {
         let [a, b, c] = self.matrix;
         let Some(inverse) = self.inverse else {

@@ -145,6 +145,7 @@ impl Reached {
 /// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of location
 /// overlap, or whose times are bit-equal, cross at one instant; the intervals allow for the rounding of the velocities, too, so that
 /// impacts which are simultaneous by symmetry stay so once rounding has broken it.
+#[inline(always)]
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl Watched<T>,
     t: T,

@@ -93,10 +93,11 @@ impl<T: Real> Flight<T> {
 
     #[inline(always)]
     fn instant(&self, s: T) -> Instant<T> {
-        let flight = Instant::at(s, self.constant, self.start.vtheta);
-        self.harmonics
-            .iter()
-            .fold(flight, |flight, harmonic| flight.with(harmonic, s))
+        let mut flight = Instant::at(s, self.constant, self.start.vtheta);
+        for harmonic in &self.harmonics {
+            flight = flight.with(harmonic, s);
+        }
+        flight
     }
 
     /// The state a time `s` into the flight.

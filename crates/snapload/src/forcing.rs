@@ -178,10 +178,11 @@ impl<T: Real> Forcing<T> {
     /// The force at time t.
     #[inline(always)]
     pub fn at(&self, t: T) -> [T; 2] {
-        self.harmonics.iter().fold(self.constant, |sum, harmonic| {
-            let now = harmonic.shifted(t).cosine;
-            [sum[0] + now[0], sum[1] + now[1]]
-        })
+        let mut force = self.constant;
+        for harmonic in &self.harmonics {
+            force = sum(force, harmonic.shifted(t).cosine);
+        }
+        force
     }
 
     /// Bounds on |dⁿf/dtⁿ| over all time, for n = 0, 1, 2.

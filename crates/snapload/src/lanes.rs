@@ -63,14 +63,19 @@ impl Lanes {
 
     /// The outcomes of many cases, in their order, on one thread, and how well the lanes were used.
     pub fn outcomes(self, cases: &[Case]) -> (Vec<Outcome>, Usage) {
-        let mut outcomes = vec![None; cases.len()];
-        let mut runs = cases.iter().map(Case::simulation);
+        self.outcomes_of(cases.iter().map(Case::simulation))
+    }
+
+    /// The same of motions that have just begun.
+    pub fn outcomes_of(
+        self,
+        mut runs: impl ExactSizeIterator<Item = Simulation>,
+    ) -> (Vec<Outcome>, Usage) {
+        let mut outcomes = vec![None; runs.len()];
         let usage = self.run(&mut runs, &mut |index, outcome| {
             outcomes[index] = Some(outcome);
         });
-        let told: Vec<Outcome> = outcomes.into_iter().flatten().collect();
-        assert_eq!(told.len(), cases.len(), "every run is told of once");
-        (told, usage)
+        (outcomes.into_iter().flatten().collect(), usage)
     }
 
     /// Runs all of `runs` to their ends and tells each as it stops. Lanes that this processor lacks are

@@ -193,9 +193,10 @@ macro_rules! vector {
                 self.to_array()[lane]
             }
             fn set(&mut self, lane: usize, value: f64) {
-                let mut array = self.to_array();
-                array[lane] = value;
-                *self = Self::from_array(array);
+                let register: *mut [f64; $width] = (&raw mut self.0).cast();
+                // SAFETY: a register is as many doubles, and any bits are legal in both. In place, because a register
+                // can not be read at once after a part of it was written.
+                unsafe { (*register)[lane] = value };
             }
         }
     };
