@@ -1,7 +1,7 @@
 //! The one place where cases become rows.
 
 use crate::Drawn;
-use snapload::analysis::{Certainty, shared};
+use snapload::analysis::{Certainty, on_all_threads};
 use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 
 /// A row of a study: the keys of a case and what its run comes to.
@@ -22,7 +22,7 @@ pub struct Row {
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
 pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> {
-    shared(drawn, |drawn| side_by_side(drawn, trust, done))
+    on_all_threads(drawn, |drawn| side_by_side(drawn, trust, done))
 }
 
 fn side_by_side(drawn: &[&Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {

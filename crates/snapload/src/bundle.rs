@@ -36,7 +36,7 @@ impl<T, const W: usize> IndexMut<usize> for Bundle<T, W> {
 
 impl<T: Real, const W: usize> Bundle<T, W> {
     /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet is zero, so that
-    /// its products are left out.
+    /// its products are left out; all have to be finite, as those beyond k meet zeros.
     #[inline(always)]
     pub(crate) fn convolve(&self, other: &Self, k: usize) -> [T; W] {
         let length = (k + 1).next_multiple_of(BLOCK);
@@ -50,6 +50,7 @@ impl<T: Real, const W: usize> Bundle<T, W> {
             add_products(&mut sums, &x[2], &y[1]);
             add_products(&mut others, &x[3], &y[0]);
         }
+        // Seen through, the sums would be made across the lanes, with more shuffling than arithmetic.
         std::hint::black_box(std::array::from_fn(|w| sums[w] + others[w]))
     }
 }
@@ -65,19 +66,21 @@ fn add_products<T: Real, const W: usize>(sums: &mut [T; W], a: &[T; W], b: &[T; 
 mod tests {
     use super::*;
 
-    /// Of (1 + s)^n and (1 − s)^n, of which products and squares are known.
+    /// 1/(1 − s) times 1/(1 − 2s) is Σ (2^{k+1} − 1) s^k, its square Σ (k + 1) s^k. While the k-th coefficients are not
+    /// known, the two products with them are missing: those with 2^k and 1, and with 1 and 1.
     #[test]
-    fn products_of_powers_of_binomials() {
-        let mut plus = Bundle::<f64, 2>::default();
-        for (k, c) in [1.0, 4.0, 6.0, 4.0, 1.0].into_iter().enumerate() {
-            let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-            plus[k] = [c, sign * c];
-        }
-        let eighth = [1.0, 8.0, 28.0, 56.0, 70.0, 56.0, 28.0, 8.0, 1.0, 0.0];
-        for (k, c) in eighth.into_iter().enumerate() {
-            let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-            let known = [c, sign * c];
-            assert_eq!(plus.convolve(&plus, k), known);
+    fn products_of_geometric_series() {
+        let (mut ones, mut powers) = (Bundle::<f64, 2>::default(), Bundle::default());
+        for k in 0..=ORDER {
+            let (n, power) = (k as f64, 2.0_f64.powi(k as i32));
+            if k > 0 {
+                let known = [power - 2.0, n - 1.0];
+                assert_eq!(ones.convolve(&powers, k), known, "k = {k}");
+            }
+            (ones[k], powers[k]) = ([1.0, 1.0], [power, 1.0]);
+            let product = [2.0 * power - 1.0, n + 1.0];
+            assert_eq!(ones.convolve(&powers, k), product, "k = {k}");
+            assert_eq!(powers.convolve(&ones, k), product, "k = {k}");
         }
     }
 }

@@ -125,7 +125,7 @@ fn in_line<T: Real>([a, b, c]: [T; 3]) -> bool {
     a * c - b * b <= a * c * (T::EPSILON * NEARLY_ONE_LINE)
 }
 
-/// The same for three and more, what is left over put in twice again: of three cables that are almost dependent the
+/// Three and more equations. What is left over is put in twice: of three cables that are almost dependent the
 /// tensions are large, and their sum has to leave the body where it is.
 fn eliminate_and_refine<T: Real>(
     set: TautSet,

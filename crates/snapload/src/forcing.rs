@@ -121,7 +121,7 @@ impl<L: Lane> Push<L> {
         }
     }
 
-    /// A little later, up to where the third derivative of the force would tell; `bend` is the second.
+    /// A little later, f̈ being `bend`: drift and gain to the third order, the force to the first; the rate stays behind.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, bend: [L; 2]) -> Self {
         let (force, rate) = (self.force, scaled(self.rate, s));

@@ -50,7 +50,7 @@ pub trait Lane:
 
     /// The same number in every lane.
     fn from_f64(value: f64) -> Self;
-    /// self · by + plus, rounded once.
+    /// self · by + plus; see [`Real::mul_add`].
     fn mul_add(self, by: Self, plus: Self) -> Self;
     /// Square root, correctly rounded.
     fn sqrt(self) -> Self;
@@ -160,7 +160,8 @@ pub(crate) fn length<L: Lane>(a: [L; 2]) -> L {
     dot(a, a).sqrt()
 }
 
-/// A bound on the length of a plane vector, at most an eighth above it: the larger component and half of the smaller.
+/// A bound on the length of a plane vector, at most an eighth above it: the larger component and half of the smaller, as
+/// (x + y/2)² ≥ x² + y² for 0 ≤ y ≤ x.
 #[inline(always)]
 pub(crate) fn length_bound<L: Lane>(a: [L; 2]) -> L {
     let (x, y) = (a[0].abs(), a[1].abs());

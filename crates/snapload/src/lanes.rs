@@ -71,11 +71,14 @@ impl Lanes {
         self,
         mut runs: impl ExactSizeIterator<Item = Simulation>,
     ) -> (Vec<Outcome>, Usage) {
-        let mut outcomes = vec![None; runs.len()];
+        let count = runs.len();
+        let mut outcomes = vec![None; count];
         let usage = self.run(&mut runs, &mut |index, outcome| {
             outcomes[index] = Some(outcome);
         });
-        (outcomes.into_iter().flatten().collect(), usage)
+        let told: Vec<Outcome> = outcomes.into_iter().flatten().collect();
+        assert_eq!(told.len(), count, "every run is told of once");
+        (told, usage)
     }
 
     /// Runs all of `runs` to their ends and tells each as it stops. Lanes that this processor lacks are

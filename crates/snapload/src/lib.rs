@@ -58,6 +58,7 @@ mod simulate;
 mod start;
 mod state;
 mod system;
+mod takeoff;
 mod tangent;
 mod taut;
 mod taut_set;

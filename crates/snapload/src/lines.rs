@@ -31,7 +31,7 @@ pub(crate) struct Lines<T: Real> {
 }
 
 impl<T: Real> Lines<T> {
-    /// Begins new series. Room for the cables comes with the first, as most runs make none.
+    /// Begins new series.
     #[inline(always)]
     pub(crate) fn begin(&mut self, system: &System<T>) {
         self.pairs
@@ -84,7 +84,8 @@ impl<T: Real> Lines<T> {
         (normal, cross(at(&pair.lever[0]), normal))
     }
 
-    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders give them.
+    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders give them; keeps each T n,
+    /// to which [`Lines::pull`] adds the rest.
     #[inline(always)]
     pub(crate) fn pulls(&mut self, k: usize) -> [T; 3] {
         let mut sums = [T::ZERO; 3];

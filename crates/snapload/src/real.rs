@@ -3,8 +3,8 @@
 //! The whole motion is generic over [`Real`]: doubles for the ordinary run, [`crate::Dual`] numbers
 //! for its derivatives, [`crate::Precise`] ones for its proof. In a chaotic system a different last bit
 //! is a different picture: no function of a double calls the platform's `libm` (sine and cosine are
-//! those of [`crate::elementary`], plain arithmetic in a fixed order), and a multiply is never fused with
-//! an add.
+//! those of [`crate::elementary`], plain arithmetic in a fixed order), and a multiply is fused with an add
+//! where `mul_add` says so, on every machine, and nowhere else.
 
 use crate::elementary;
 use crate::fused;
@@ -65,7 +65,8 @@ pub trait Real:
     /// under a sinusoidal force and the chord of a rotation are made of them.
     fn versines(self) -> (Self, Self);
 
-    /// [`Simulation::step`] over this arithmetic.
+    /// [`Simulation::step`] over this arithmetic, by the best instructions for it: a number knows those, a motion does
+    /// not.
     #[doc(hidden)]
     fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
         simulation.step_here()

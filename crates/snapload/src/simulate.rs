@@ -43,7 +43,7 @@ pub struct Simulation<T: Real = f64> {
     /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
     departure: Option<Moment<T>>,
     flight: Flight<T>,
-    /// Made when a cable is first taut along a stretch: it is large, and in most runs none ever is.
+    /// Made for the first stretch without a closed form: it is large, and most runs have none.
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
     impacts: u64,
@@ -225,6 +225,7 @@ impl<T: Real> Simulation<T> {
         T::step(self)
     }
 
+    /// The same, compiled for where it is called.
     #[inline(always)]
     pub(crate) fn step_here(&mut self) -> Option<Step<T>> {
         if self.stop.is_some() {

@@ -153,8 +153,7 @@ impl<T: Real> Simulation<T> {
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
         let Hold { taut, carrying } = self.hold;
-        let series = self.series.as_ref().filter(|_| taut != carrying);
-        self.hold = if let Some(series) = series {
+        self.hold = if let (Some(series), true) = (&self.series, taut != carrying) {
             let since = self.t - self.begun;
             let clear = |&later: &T| {
                 let tension = |cable| series.tension(cable, since + later);

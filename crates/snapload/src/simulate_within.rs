@@ -17,9 +17,9 @@ const LOOKS: usize = 64;
 /// The motion along a stretch.
 pub(super) enum Stretch<'a, T: Real> {
     /// In closed form.
-    Free(Cow<'a, Flight<T>>),
+    Closed(Cow<'a, Flight<T>>),
     /// By a series, as cables are taut or the water resists.
-    Driven(&'a Series<T>),
+    Expanded(&'a Series<T>),
 }
 
 impl<T: Real> Stretch<'_, T> {
@@ -27,8 +27,8 @@ impl<T: Real> Stretch<'_, T> {
     #[inline(always)]
     pub(super) fn state(&self, s: T) -> State<T> {
         match self {
-            Self::Free(flight) => flight.state(s),
-            Self::Driven(series) => series.state(s),
+            Self::Closed(flight) => flight.state(s),
+            Self::Expanded(series) => series.state(s),
         }
     }
 
@@ -36,8 +36,16 @@ impl<T: Real> Stretch<'_, T> {
     #[inline(always)]
     pub(super) fn contact(&self, cable: usize, s: T) -> Contact<T> {
         match self {
-            Self::Free(flight) => flight.contact(cable, s),
-            Self::Driven(series) => series.contact(cable, s),
+            Self::Closed(flight) => flight.contact(cable, s),
+            Self::Expanded(series) => series.contact(cable, s),
+        }
+    }
+
+    /// g and ġ of a slack cable then.
+    fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+        match self {
+            Self::Closed(flight) => flight.gap_and_rate(cable, s),
+            Self::Expanded(series) => series.gap_and_rate(cable, s),
         }
     }
 
@@ -46,8 +54,8 @@ impl<T: Real> Stretch<'_, T> {
     pub(super) fn bends(&self, system: &System<T>) -> [T; 3] {
         let forcing = &system.forcing;
         match self {
-            Self::Free(_) => [forcing.most_upward(), forcing.steepest(), T::ZERO],
-            Self::Driven(series) => {
+            Self::Closed(_) => [forcing.most_upward(), forcing.steepest(), T::ZERO],
+            Self::Expanded(series) => {
                 let [y, theta] = series.steepest();
                 [y, y, theta]
             }
@@ -64,9 +72,10 @@ impl<T: Real> Simulation<T> {
     /// The motion of the latest stretch.
     #[inline(always)]
     pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
+        // A series is there whenever a stretch was no free flight.
         match &self.series {
-            Some(series) if !self.system.flies_freely(taut) => Stretch::Driven(series),
-            _ => Stretch::Free(self.flown()),
+            Some(series) if !self.system.flies_freely(taut) => Stretch::Expanded(series),
+            _ => Stretch::Closed(self.flown()),
         }
     }
 
@@ -110,7 +119,7 @@ impl<T: Real> Simulation<T> {
         }
         let motion = self.motion(step.taut);
         let (bend, first) = match (&motion, &self.departure) {
-            (Stretch::Driven(series), _) => (
+            (Stretch::Expanded(series), _) => (
                 series.gap_bend(cable),
                 series.gap_and_rate(cable, T::ZERO).0,
             ),
@@ -126,10 +135,7 @@ impl<T: Real> Simulation<T> {
             (T::ZERO, margin / s)
         };
         let nearness = |s: T| {
-            let (gap, rate) = match &motion {
-                Stretch::Free(flight) => flight.gap_and_rate(cable, s),
-                Stretch::Driven(series) => series.gap_and_rate(cable, s),
-            };
+            let (gap, rate) = motion.gap_and_rate(cable, s);
             (gap + offset + slope * s, rate + slope)
         };
         rises_above_zero(&nearness, s, bend)
@@ -188,7 +194,7 @@ impl<T: Real> Simulation<T> {
 
     fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
         let mut now = [T::ZERO; MAX_CABLES];
-        let Stretch::Driven(series) = self.motion(step.taut) else {
+        let Stretch::Expanded(series) = self.motion(step.taut) else {
             return now;
         };
         if step.taut != step.carrying {

@@ -201,7 +201,7 @@ impl<L: Lane> Instant<L> {
         }
     }
 
-    /// The forces' part a little later; its turn stays behind.
+    /// The forces' part a little later; the turn stays behind.
     #[inline(always)]
     pub(crate) fn later(self, s: L, bend: [L; 2]) -> Self {
         Self {
@@ -221,7 +221,7 @@ impl<L: Lane> Instant<L> {
 }
 
 impl<L: Lane> GapJet<L> {
-    /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between.
+    /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ stays behind.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, fourth: L) -> Self {
         let sixth = self.jerk * (1.0 / 6.0);
@@ -244,18 +244,18 @@ impl<L: Lane> GapJet<L> {
         bend.mul_add(s, self.rate) * s
     }
 
-    /// How much later the cubic is zero: a step of Halley's, and one of Newton's with nearly its slope; and what the
+    /// How much later the cubic is zero: a step of Halley's, and two of Newton's with nearly its slope; and what the
     /// cubic is there. The denominator of the step tells whether there is such a zero.
     #[inline(always)]
     pub(crate) fn root(&self) -> (L, L, L) {
         let sixth = self.jerk * (1.0 / 6.0);
         let twice = self.rate * 2.0;
-        let below = self.rate.mul_add(twice, -(self.value * self.accel));
-        let slowness = twice / below;
-        let s = -(self.value * slowness);
-        let s = (-slowness).mul_add(self.value + self.rise(s, sixth), s);
-        let s = (-slowness).mul_add(self.value + self.rise(s, sixth), s);
-        (s, self.value + self.rise(s, sixth), below)
+        let denominator = self.rate.mul_add(twice, -(self.value * self.accel));
+        let per_slope = twice / denominator;
+        let s = -(self.value * per_slope);
+        let s = (-per_slope).mul_add(self.value + self.rise(s, sixth), s);
+        let s = (-per_slope).mul_add(self.value + self.rise(s, sixth), s);
+        (s, self.value + self.rise(s, sixth), denominator)
     }
 
     /// One of two jets, lane by lane.

@@ -2,7 +2,7 @@
 //!
 //! `unsafe` here says only that the processor has the instructions. The proof is one for all of it: a value of these
 //! types exists only in a fleet of [`crate::lanes`], and the two functions there that make such fleets ask the
-//! processor first. (That most of it is compiled with the instructions enabled is for speed.)
+//! processor first: for [`Avx2`] whether it has AVX2 and FMA, for [`Avx512`] whether it has AVX-512F. (That most of it is compiled with the instructions enabled is for speed.)
 #![expect(unsafe_code, reason = "the instructions of a processor; see above")]
 
 use super::{Bits, Vector};
@@ -194,8 +194,8 @@ macro_rules! vector {
             }
             fn set(&mut self, lane: usize, value: f64) {
                 let register: *mut [f64; $width] = (&raw mut self.0).cast();
-                // SAFETY: a register is as many doubles, and any bits are legal in both. In place, because a register
-                // can not be read at once after a part of it was written.
+                // SAFETY: a register is as many doubles, and any bits are legal in both. In place, because a register that
+                // is read right after a part of it was written to memory waits for the store.
                 unsafe { (*register)[lane] = value };
             }
         }

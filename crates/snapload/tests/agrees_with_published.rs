@@ -152,9 +152,9 @@ fn the_sliding_example_slides_hits_slides_and_rocks() {
         ..STANDARD
     };
     let (mut again_from, mut rocking_from) = (Vec::new(), Vec::new());
-    for k in 0..52 {
-        let v_stick = [1e-6, 1e-7, 1e-8, 1e-9][k % 4];
-        let f_o = it.f_o * (1.0 + k as f64 * f64::EPSILON);
+    let neighbours = (0..13).flat_map(|k| [1e-6, 1e-7, 1e-8, 1e-9].map(|v_stick| (k, v_stick)));
+    for (k, v_stick) in neighbours {
+        let f_o = it.f_o * (1.0 + f64::from(k) * f64::EPSILON);
         let run = Breakwater { f_o, v_stick, ..it }.run();
         let modes: Vec<_> = run
             .modes()
@@ -180,7 +180,8 @@ fn the_sliding_example_slides_hits_slides_and_rocks() {
         let rocking = modes.iter().find(|mode| mode.taut.len() == 2);
         rocking_from.extend(rocking.map(|mode| mode.t_start));
     }
-    assert!(again_from.len() > 45, "nearly all slide again");
+    // One in a thousand rocks at once.
+    assert!(again_from.len() >= 48, "nearly all slide again");
     assert_eq!(rocking_from.len(), 52, "all rock");
     for (times, published, range) in [
         (again_from, 8.762, 8.6..8.8),

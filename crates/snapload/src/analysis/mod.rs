@@ -13,7 +13,7 @@ pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, Share, Tally};
 pub use exceedance::{ExceedanceCurve, Exceeding};
 pub use lyapunov::Frame;
-pub use many::{outcomes, shared};
+pub use many::{on_all_threads, outcomes};
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
 pub use trust::{
     Certainty, Doubt, Graze, Horizon, Loss, START_KEYS, Trust, UNCERTAIN_KEYS, Witness, trusted_run,
