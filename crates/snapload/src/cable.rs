@@ -130,6 +130,7 @@ impl<T: Real> Cable<T> {
 
     /// The constraint's direction, and how its entries n_x, n_y and s change with x, y and θ:
     /// ∂n = (δP)/r, ∂s = δρ × n + ρ × ∂n, as P moves by (δx, δy) and by δθ about the centre.
+    #[inline(always)]
     pub(crate) fn normal_and_slopes(&self, state: &State<T>) -> (Normal<T>, [[T; 3]; 3]) {
         let (sine, cosine) = state.theta.sin_cos();
         let lever = self.lever(sine, cosine);

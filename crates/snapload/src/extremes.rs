@@ -53,6 +53,7 @@ impl<T: Real> Extremes<T> {
 }
 
 /// Whether a function with |f̈| ≤ `bend` has a maximum above zero inside \[0, s\].
+#[inline(always)]
 pub(crate) fn rises_above_zero<T: Real>(f: &impl Fn(T) -> (T, T), s: T, bend: T) -> bool {
     let mut record = T::ZERO;
     search(f, (T::ZERO, f(T::ZERO)), (s, f(s)), bend, bend, &mut record);

@@ -118,6 +118,7 @@ impl<T: Real> Flight<T> {
     }
 
     /// g and ġ of a cable a time `s` into the flight.
+    #[inline(always)]
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         let jet = self.tethers[cable].jet(s, &self.instant(s));
         (jet.value, jet.rate)

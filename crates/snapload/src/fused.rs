@@ -1,7 +1,7 @@
-//! Steps compiled twice: for any processor of a family, and for one that fuses a multiply with an add.
+//! Work compiled twice: for any processor of a family, and for one that fuses a multiply with an add.
 //!
-//! All on the way of a step is `#[inline(always)]`, and loops stand where a closure would: what is only called is compiled for
-//! the other processors.
+//! All on its way is `#[inline(always)]`, and loops stand where a closure would: what is only called is compiled for the
+//! other processors.
 //!
 //! [`crate::Real::mul_add`] rounds once everywhere, so the bits are the same. Where a processor has no instruction for it, or
 //! the compiler may not assume one, it is a function, which takes longer than both operations.
@@ -13,7 +13,13 @@
     )
 )]
 
-use crate::{Simulation, Step};
+/// Something to do that may be compiled for one kind of processor.
+pub(crate) trait Work {
+    /// What it comes to.
+    type Done;
+    /// Does it; `#[inline(always)]`.
+    fn done(self) -> Self::Done;
+}
 
 /// Whether the processor has AVX2 and FMA.
 #[cfg(target_arch = "x86_64")]
@@ -21,30 +27,52 @@ pub(crate) fn is_here() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
-/// The next step of a motion of doubles, by the best instructions for it.
+/// Does it by the best instructions for it.
 #[cfg(target_arch = "x86_64")]
-pub(crate) fn step(simulation: &mut Simulation<f64>) -> Option<Step<f64>> {
+#[inline]
+pub(crate) fn best<W: Work>(work: W) -> W::Done {
     #[target_feature(enable = "avx2,fma")]
-    fn fused(simulation: &mut Simulation<f64>) -> Option<Step<f64>> {
-        simulation.step_here()
+    fn fused<W: Work>(work: W) -> W::Done {
+        work.done()
     }
     if is_here() {
         // SAFETY: the processor has AVX2 and FMA, as was just asked.
-        unsafe { fused(simulation) }
+        unsafe { fused(work) }
     } else {
-        simulation.step_here()
+        work.done()
     }
 }
 
 /// Other families are compiled once: 64-bit Arm always fuses, elsewhere it is a function.
 #[cfg(not(target_arch = "x86_64"))]
-pub(crate) fn step(simulation: &mut Simulation<f64>) -> Option<Step<f64>> {
-    simulation.step_here()
+#[inline]
+pub(crate) fn best<W: Work>(work: W) -> W::Done {
+    work.done()
 }
 
 #[cfg(test)]
 mod tests {
     use crate::{Case, Parameters, Simulation};
+
+    /// Products whose rounding before the sum shows, and halfway cases that a wider intermediate rounds twice.
+    #[test]
+    fn the_platform_fuses_right() {
+        let (one, e) = (1.0_f64, f64::EPSILON);
+        for (a, b, c, known) in [
+            (one + e, one - e, -one, -e * e),
+            (one + e, one + e, -(one + 2.0 * e), e * e),
+            // 1 + ε/2 is halfway between 1 and its neighbour; a trace more or less decides.
+            (e * 0.5, one + e, one, one + e),
+            (e * 0.5, one - e, one, one),
+            (one + e * 2.0_f64.powi(20), e * 0.5, one + e, one + 2.0 * e),
+        ] {
+            assert_eq!(
+                std::hint::black_box(a).mul_add(b, c),
+                known,
+                "{a:e} {b:e} {c:e}"
+            );
+        }
+    }
 
     /// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the same bits.
     #[test]
@@ -60,7 +88,7 @@ mod tests {
             let mut fused = case.expect("a legal case").simulation();
             let mut plain = fused.clone();
             let bits = |simulation: &Simulation| simulation.state().components().map(f64::to_bits);
-            while let Some(step) = super::step(&mut fused) {
+            while let Some(step) = fused.step() {
                 modes[step.taut.len()] += 1;
                 assert!(plain.step_here().is_some());
                 assert_eq!(fused.time().to_bits(), plain.time().to_bits());

@@ -110,6 +110,7 @@ pub(crate) fn impact<T: Real>(
 /// ```text
 /// δp = (1 + e) (δv_n/w − v_n δw/w²),   δv⁺ = δv − M⁻¹(Gᵀ δp + δGᵀ p)
 /// ```
+#[inline(always)]
 pub(crate) fn slope_of_impact_alone(
     system: &System,
     before: &State,

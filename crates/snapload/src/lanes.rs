@@ -6,6 +6,7 @@
 //! itself, because both make the same operations: here only the bounces of several runs are made at once.
 
 use crate::bounce::bounce;
+use crate::fused::{Work, best};
 use crate::lane::Lane;
 use crate::mooring::{MOMENT, MOORING, Moment, Mooring};
 use crate::simulate::{LastImpacts, Progress};
@@ -34,6 +35,10 @@ pub enum Lanes {
 impl Lanes {
     /// All that this processor can do.
     pub fn available() -> Vec<Self> {
+        #[cfg_attr(
+            not(target_arch = "x86_64"),
+            expect(unused_mut, reason = "no more are known")
+        )]
         let mut all = vec![Self::One, Self::Four, Self::Eight];
         #[cfg(target_arch = "x86_64")]
         {
@@ -89,10 +94,10 @@ impl Lanes {
             Self::Avx2 if crate::fused::is_here() => x86::avx2(runs, tell),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
-            Self::One => Fleet::<f64>::board(runs, tell).sail_fused(),
-            Self::Four => Fleet::<Portable<4>>::board(runs, tell).sail_fused(),
+            Self::One => best(Fleet::<f64>::board(runs, tell)),
+            Self::Four => best(Fleet::<Portable<4>>::board(runs, tell)),
             Self::Eight | Self::Avx2 | Self::Avx512 => {
-                Fleet::<Portable<8>>::board(runs, tell).sail_fused()
+                best(Fleet::<Portable<8>>::board(runs, tell))
             }
         }
     }
@@ -104,19 +109,12 @@ mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
     use super::{Fleet, Simulation, Tell, Usage};
     use crate::fused;
-    use crate::vector::Vector;
     use crate::vector::twice::Twice;
     use crate::vector::x86::{Avx2, Avx512};
 
     pub(super) fn avx2(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
-        #[target_feature(enable = "avx2,fma")]
-        fn sail(fleet: Fleet<'_, Twice<Avx2>>) -> Usage {
-            fleet.sail()
-        }
         assert!(fused::is_here());
-        let fleet = Fleet::board(runs, tell);
-        // SAFETY: the processor has AVX2 and FMA, as was just asked.
-        unsafe { sail(fleet) }
+        fused::best(Fleet::<Twice<Avx2>>::board(runs, tell))
     }
 
     pub(super) fn avx512(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
@@ -128,20 +126,6 @@ mod x86 {
         let fleet = Fleet::board(runs, tell);
         // SAFETY: the processor has AVX-512, as was just asked.
         unsafe { sail(fleet) }
-    }
-
-    /// With AVX2 and FMA, if they are here.
-    pub(super) fn sail<L: Vector>(fleet: Fleet<'_, L>) -> Usage {
-        #[target_feature(enable = "avx2,fma")]
-        fn fused<L: Vector>(fleet: Fleet<'_, L>) -> Usage {
-            fleet.sail()
-        }
-        if fused::is_here() {
-            // SAFETY: the processor has AVX2 and FMA, as was just asked.
-            unsafe { fused(fleet) }
-        } else {
-            fleet.sail()
-        }
     }
 }
 
@@ -193,6 +177,14 @@ struct Fleet<'a, L> {
     usage: Usage,
 }
 
+impl<L: Vector> Work for Fleet<'_, L> {
+    type Done = Usage;
+    #[inline(always)]
+    fn done(self) -> Usage {
+        self.sail()
+    }
+}
+
 impl<'a, L: Vector> Fleet<'a, L> {
     fn board(runs: &'a mut dyn Iterator<Item = Simulation>, tell: Tell<'a>) -> Self {
         let zero = L::ZERO;
@@ -214,14 +206,6 @@ impl<'a, L: Vector> Fleet<'a, L> {
             fleet.refill(lane);
         }
         fleet
-    }
-
-    /// [`Fleet::sail`], by the best instructions for it.
-    fn sail_fused(self) -> Usage {
-        #[cfg(target_arch = "x86_64")]
-        return x86::sail(self);
-        #[cfg(not(target_arch = "x86_64"))]
-        return self.sail();
     }
 
     /// Bounces until all runs have stopped.

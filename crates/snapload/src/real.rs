@@ -7,9 +7,7 @@
 //! where `mul_add` says so, on every machine, and nowhere else.
 
 use crate::elementary;
-use crate::fused;
 pub(crate) use crate::lane::{cross, dot, length, quarter_turn};
-use crate::{Simulation, Step};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -65,12 +63,6 @@ pub trait Real:
     /// under a sinusoidal force and the chord of a rotation are made of them.
     fn versines(self) -> (Self, Self);
 
-    /// [`Simulation::step`] over this arithmetic, by the best instructions for it: a number knows those, a motion does
-    /// not.
-    #[doc(hidden)]
-    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
-        simulation.step_here()
-    }
     /// Absolute value.
     fn abs(self) -> Self {
         if self < Self::ZERO { -self } else { self }
@@ -135,9 +127,6 @@ impl Real for f64 {
     #[inline(always)]
     fn versines(self) -> (Self, Self) {
         elementary::versines(self)
-    }
-    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
-        fused::step(simulation)
     }
     #[inline(always)]
     fn abs(self) -> Self {

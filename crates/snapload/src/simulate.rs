@@ -4,6 +4,7 @@ use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Reached, first_crossing};
 use crate::extremes::Extremes;
 use crate::flight::Flight;
+use crate::fused::{Work, best};
 use crate::impact::Shock;
 use crate::mooring::{Moment, Mooring};
 use crate::real::Real;
@@ -108,6 +109,17 @@ pub(crate) struct Event {
     pub(crate) closed: TautSet,
     /// Those of them without normal velocity.
     pub(crate) still: TautSet,
+}
+
+/// A step to be made, by the best instructions for it.
+struct NextStep<'a, T: Real>(&'a mut Simulation<T>);
+
+impl<T: Real> Work for NextStep<'_, T> {
+    type Done = Option<Step<T>>;
+    #[inline(always)]
+    fn done(self) -> Self::Done {
+        self.0.step_here()
+    }
 }
 
 impl<T: Real> Step<T> {
@@ -222,10 +234,9 @@ impl<T: Real> Simulation<T> {
     /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
     /// the motion has stopped.
     pub fn step(&mut self) -> Option<Step<T>> {
-        T::step(self)
+        best(NextStep(self))
     }
 
-    /// The same, compiled for where it is called.
     #[inline(always)]
     pub(crate) fn step_here(&mut self) -> Option<Step<T>> {
         if self.stop.is_some() {

@@ -42,6 +42,7 @@ impl<T: Real> Stretch<'_, T> {
     }
 
     /// g and ġ of a slack cable then.
+    #[inline(always)]
     fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         match self {
             Self::Closed(flight) => flight.gap_and_rate(cable, s),
@@ -72,14 +73,21 @@ impl<T: Real> Simulation<T> {
     /// The motion of the latest stretch.
     #[inline(always)]
     pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
-        // A series is there whenever a stretch was no free flight.
-        match &self.series {
-            Some(series) if !self.system.flies_freely(taut) => Stretch::Expanded(series),
-            _ => Stretch::Closed(self.flown()),
+        match self.expanded(taut) {
+            Some(series) => Stretch::Expanded(series),
+            None => Stretch::Closed(self.flown()),
         }
     }
 
+    /// The series of the latest stretch, which there is if that was no free flight.
+    #[inline(always)]
+    fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
+        let series = self.series.as_deref();
+        series.filter(|_| !self.system.flies_freely(taut))
+    }
+
     /// The flight of the latest step.
+    #[inline(always)]
     fn flown(&self) -> Cow<'_, Flight<T>> {
         let Some(from) = &self.departure else {
             return Cow::Borrowed(&self.flight);
@@ -112,19 +120,20 @@ impl<T: Real> Simulation<T> {
     /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
     /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
     /// grows from nothing.
+    #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
         if s <= T::ZERO {
             return false;
         }
-        let motion = self.motion(step.taut);
-        let (bend, first) = match (&motion, &self.departure) {
-            (Stretch::Expanded(series), _) => (
+        let series = self.expanded(step.taut);
+        let (bend, first) = match (series, &self.departure) {
+            (Some(series), _) => (
                 series.gap_bend(cable),
                 series.gap_and_rate(cable, T::ZERO).0,
             ),
-            (_, Some(from)) => (self.gap_bend(step, cable), from.gaps[cable][0]),
-            (_, None) => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+            (None, Some(from)) => (self.gap_bend(step, cable), from.gaps[cable][0]),
+            (None, None) => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
         };
         if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
             return false;
@@ -134,6 +143,7 @@ impl<T: Real> Simulation<T> {
         } else {
             (T::ZERO, margin / s)
         };
+        let motion = self.motion(step.taut);
         let nearness = |s: T| {
             let (gap, rate) = motion.gap_and_rate(cable, s);
             (gap + offset + slope * s, rate + slope)
@@ -142,6 +152,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    #[inline(always)]
     fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
         let tether = &self.system.cables[cable];
         let (start, reach) = (&step.start, length(tether.fairlead()));
@@ -153,10 +164,13 @@ impl<T: Real> Simulation<T> {
     }
 
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
+    #[inline(always)]
     pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
         let s = step.t_end - step.t_start;
-        let motion = self.motion(step.taut);
-        let [_, y_bend, theta_bend] = motion.bends(&self.system);
+        let [y_bend, theta_bend] = match self.expanded(step.taut) {
+            Some(series) => series.steepest(),
+            None => [self.system.forcing.steepest(), T::ZERO],
+        };
         let reach = self.system.body.reach();
         let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
         if rough < floor {
@@ -165,6 +179,7 @@ impl<T: Real> Simulation<T> {
         let width = s / LOOKS as f64;
         let spin = step.start.vtheta.abs() + theta_bend * s;
         let bend = y_bend + (spin * spin + theta_bend) * reach;
+        let motion = self.motion(step.taut);
         (0..=LOOKS)
             .map(|k| self.system.top(&motion.state(width * k as f64)))
             .fold(step.start.y, T::max)
@@ -194,7 +209,7 @@ impl<T: Real> Simulation<T> {
 
     fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
         let mut now = [T::ZERO; MAX_CABLES];
-        let Stretch::Expanded(series) = self.motion(step.taut) else {
+        let Some(series) = self.expanded(step.taut) else {
             return now;
         };
         if step.taut != step.carrying {

@@ -75,6 +75,7 @@ impl<T: Real> System<T> {
     }
 
     /// y of the highest point of the body.
+    #[inline(always)]
     pub fn top(&self, state: &State<T>) -> T {
         let (sine, cosine) = state.theta.sin_cos();
         state.y + self.body.top(sine, cosine)

@@ -225,8 +225,10 @@ impl<L: Lane> TakeOff<L> {
         // are off by less, as a length times that is what the gap is off by.
         let lost = self.force[2] * self.wave.omega.abs() * quartic;
         let speed = self.force[0].mul_add(longest, self.tethers[0].speed);
+        // The bounds hold as long as the look is at most half of the flight away.
         let near = (left * BELOW_ROUNDING).at_most(struck.noise)
-            & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON);
+            & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON)
+            & (rest.abs() * 2.0).at_most(s);
         Look {
             s,
             now,
@@ -306,7 +308,11 @@ impl<L: Lane> TakeOff<L> {
     /// zero at the end of the stretch. A cable that closed at the end, or that was closed at the start, is
     /// known to have g = 0 there.
     ///
-    /// |d| ≤ r at both ends, so in between it is at most r + |Ṗ|s/2. The jet at the end is that of a look nearby, moved by
+    /// |d| ≤ r at both ends, so in between it is at most r + |Ṗ|s/2, and up to a look later by less than half of that. That
+    /// the other gap is open at the end is seen with an error told by K itself; twice that is allowed for, and the K of the
+    /// |d| so allowed is not twice as large.
+    ///
+    /// The jet at the end is that of a look nearby, moved by
     /// its cubic over `rest`: ġ₁ may be off by K rest³/6 and g̈₁ by K rest²/2, with the K of g⁗; `astray` and
     /// `astray` times `rest` are more than that.
     #[inline(always)]

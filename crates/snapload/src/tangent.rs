@@ -160,6 +160,7 @@ impl StepMap {
     }
 
     /// −∇h/ḣ: how much later the event comes for a deviation just before it.
+    #[inline(always)]
     pub fn delay(&self) -> &[f64; 6] {
         &self.delay
     }
@@ -173,6 +174,7 @@ impl StepMap {
     }
 
     /// ż just before the event.
+    #[inline(always)]
     pub fn rate(&self) -> &[f64; 6] {
         &self.rate
     }
@@ -200,6 +202,7 @@ impl Tangent {
     }
 
     /// Of the step that `simulation` has just made.
+    #[inline(always)]
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
         let flow = Flow {
@@ -231,6 +234,7 @@ impl Tangent {
 
     /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the rule of Runge and
     /// Kutta. The motion itself is known to rounding; its deviation need only be known to some digits.
+    #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
         let count = (SUBSTEPS * s / simulation.expansion()).ceil().max(1.0);
@@ -281,6 +285,7 @@ impl Tangent {
     }
 
     /// R' of an impact, and of the sticking that may follow.
+    #[inline(always)]
     fn law(&self, system: &System, step: &Step) -> [[f64; 6]; 3] {
         let event = &step.event;
         let mut closed = event.closed.iter();

@@ -97,6 +97,7 @@ fn some_tensions<T: Real>(
 }
 
 /// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).
+#[inline(always)]
 pub(crate) fn acceleration<T: Real>(
     system: &System<T>,
     t: T,

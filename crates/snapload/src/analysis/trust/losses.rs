@@ -10,6 +10,7 @@ const REACH: f64 = 3.0;
 
 /// Whether, and why, neighbours may leave the run's sequence of events at this step. `spread` is told just
 /// before the event, at the time of the one before.
+#[inline(always)]
 pub(super) fn loss(
     simulation: &Simulation,
     step: &Step,
@@ -80,6 +81,7 @@ pub(super) struct Closing {
 
 impl Closing {
     /// Of a step that ends with one cable's impact.
+    #[inline(always)]
     pub(super) fn of(simulation: &Simulation, step: &Step, map: &StepMap) -> Option<Self> {
         let mut struck = step.event.reached.gaps.iter();
         let (Some(cable), None) = (struck.next(), struck.next()) else {
@@ -101,12 +103,14 @@ impl Closing {
 
 /// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in time,
 /// which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
+#[inline(always)]
 fn may_miss(map: &StepMap, spread: &Spread, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
     alpha < 0.0 && REACH * spread.along(map.delay()) * 2.0 * -alpha >= v_n
 }
 
 /// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its end.
+#[inline(always)]
 fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize) -> bool {
     let tether = &simulation.system().cables[cable];
     // A bound first: |n| = 1, and the arm is no longer than the lever.
@@ -122,6 +126,7 @@ fn may_snap(simulation: &Simulation, step: &Step, spread: &Spread, cable: usize)
 }
 
 /// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.
+#[inline(always)]
 fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
     let rules = simulation.rules();
     let (before, reached) = (&step.before, step.event.reached);
@@ -143,6 +148,7 @@ fn may_stop(simulation: &Simulation, step: &Step, spread: &Spread) -> bool {
 
 /// Whether neighbours may turn round just before a limit that the run still reaches: as for a graze, where
 /// they lag by more than the rate over twice the slowing-down.
+#[inline(always)]
 fn may_fall_short(simulation: &Simulation, step: &Step, map: &StepMap, spread: &Spread) -> bool {
     let (before, reached) = (&step.before, step.event.reached);
     if !(reached.rotation || reached.top) {

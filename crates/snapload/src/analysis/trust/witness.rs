@@ -4,6 +4,7 @@ use super::losses::{Closing, loss, loss_at_start, may_run_out_of_time};
 use super::spread::Spread;
 use super::{Doubt, Graze, Horizon, Loss, START_KEYS, Trust};
 use crate::analysis::Frame;
+use crate::fused::{Work, best};
 use crate::tangent::{Block, combined};
 use crate::{Case, CaseError, Deviation, Dual, Simulation, State, Step, StepMap, Tangent, Value};
 
@@ -30,6 +31,17 @@ pub struct Witness {
     end_error: f64,
     begin: f64,
     end: f64,
+}
+
+/// A step to be followed, by the best instructions for it.
+struct Following<'a>(&'a mut Witness, &'a Simulation, &'a Step);
+
+impl Work for Following<'_> {
+    type Done = StepMap;
+    #[inline(always)]
+    fn done(self) -> StepMap {
+        self.0.follow_here(self.1, self.2)
+    }
 }
 
 /// The same run with its derivatives by an uncertain parameter.
@@ -108,6 +120,11 @@ impl Witness {
 
     /// Takes in the step, but for the exponents, which the horizon does not depend on.
     pub(super) fn follow_spread(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
+        best(Following(self, simulation, step))
+    }
+
+    #[inline(always)]
+    fn follow_here(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
         let map = self.tangent.of_step(simulation, step);
         self.end = step.t_end;
         let rows = step.impacts().count();
@@ -130,6 +147,7 @@ impl Witness {
     }
 
     /// Carries the spread through the step; returns the error at its event.
+    #[inline(always)]
     fn carry(
         &mut self,
         simulation: &Simulation,
@@ -168,6 +186,7 @@ impl Witness {
         });
     }
 
+    #[inline(always)]
     fn note_graze(&mut self, closing: Option<Closing>, map: &StepMap) {
         let Some(Closing { v_n, alpha, .. }) = closing else {
             return;
