@@ -4,6 +4,7 @@ use super::{Simulation, Step};
 use crate::contact::Contact;
 use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
+use crate::fused::{Work, best};
 use crate::real::{Real, length};
 use crate::series::Series;
 use crate::taut::tensions;
@@ -20,6 +21,17 @@ pub(super) enum Stretch<'a, T: Real> {
     Closed(Cow<'a, Flight<T>>),
     /// By a series, as cables are taut or the water resists.
     Expanded(&'a Series<T>),
+}
+
+/// A gap to be looked at, by the best instructions for it.
+struct GapAndRate<'a, T: Real>(&'a Stretch<'a, T>, usize, T);
+
+impl<T: Real> Work for GapAndRate<'_, T> {
+    type Done = (T, T);
+    #[inline(always)]
+    fn done(self) -> (T, T) {
+        self.0.gap_and_rate(self.1, self.2)
+    }
 }
 
 impl<T: Real> Stretch<'_, T> {
@@ -145,7 +157,7 @@ impl<T: Real> Simulation<T> {
         };
         let motion = self.motion(step.taut);
         let nearness = |s: T| {
-            let (gap, rate) = motion.gap_and_rate(cable, s);
+            let (gap, rate) = best(GapAndRate(&motion, cable, s));
             (gap + offset + slope * s, rate + slope)
         };
         rises_above_zero(&nearness, s, bend)

@@ -160,7 +160,6 @@ impl StepMap {
     }
 
     /// −∇h/ḣ: how much later the event comes for a deviation just before it.
-    #[inline(always)]
     pub fn delay(&self) -> &[f64; 6] {
         &self.delay
     }
@@ -174,7 +173,6 @@ impl StepMap {
     }
 
     /// ż just before the event.
-    #[inline(always)]
     pub fn rate(&self) -> &[f64; 6] {
         &self.rate
     }
@@ -207,7 +205,11 @@ impl Tangent {
         let system = simulation.system();
         let flow = Flow {
             s: step.t_end - step.t_start,
-            driven: (!system.flies_freely(step.taut)).then(|| self.driven_flow(simulation, step)),
+            driven: if system.flies_freely(step.taut) {
+                None
+            } else {
+                Some(self.driven_flow(simulation, step))
+            },
         };
         let first = rate(system, step.t_start, &step.start, step.taut);
         let last = rate(system, step.t_end, &step.before, step.taut);
@@ -227,7 +229,11 @@ impl Tangent {
             ),
             rate: last,
             delay: self.delay(system, step),
-            law: (!step.event.reached.gaps.is_empty()).then(|| self.law(system, step)),
+            law: if step.event.reached.gaps.is_empty() {
+                None
+            } else {
+                Some(self.law(system, step))
+            },
             rate_after,
         }
     }
@@ -266,6 +272,7 @@ impl Tangent {
 
     /// −∇h/ḣ of what was reached: a gap, the rotation limit or the upper bound. A tension that is lost changes
     /// no velocity and hardly an acceleration, so its time does not matter.
+    #[inline(always)]
     fn delay(&self, system: &System, step: &Step) -> [f64; 6] {
         let (before, reached) = (&step.before, step.event.reached);
         if let Some(cable) = reached.gaps.iter().next() {
@@ -312,6 +319,7 @@ fn variables(state: &State) -> State<Number> {
 }
 
 /// ż.
+#[inline(always)]
 fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
     let [x, y, theta] = acceleration(system, t, state, taut);
     [state.vx, state.vy, state.vtheta, x, y, theta]

@@ -22,23 +22,17 @@ pub(super) fn loss(
     if struck.len() > 1 {
         return Some(Loss::Simultaneous);
     }
-    let graze = closing
-        .filter(|closing| may_miss(map, spread, closing))
-        .map(|closing| Loss::Graze {
-            cable: closing.cable,
-        });
-    let near = || {
-        (0..simulation.system().cables.len())
-            .filter(|cable| !(step.event.closed.contains(*cable) || step.taut.contains(*cable)))
-            .find(|&cable| may_snap(simulation, step, spread, cable))
-            .map(|cable| Loss::NearMiss { cable })
-    };
-    let stop = || {
-        let may =
-            may_stop(simulation, step, spread) || may_fall_short(simulation, step, map, spread);
-        may.then_some(Loss::StopRule)
-    };
-    graze.or_else(near).or_else(stop)
+    if let Some(Closing { cable, .. }) = closing.filter(|closing| may_miss(map, spread, closing)) {
+        return Some(Loss::Graze { cable });
+    }
+    for cable in 0..simulation.system().cables.len() {
+        let known = step.event.closed.contains(cable) || step.taut.contains(cable);
+        if !known && may_snap(simulation, step, spread, cable) {
+            return Some(Loss::NearMiss { cable });
+        }
+    }
+    let may = may_stop(simulation, step, spread) || may_fall_short(simulation, step, map, spread);
+    may.then_some(Loss::StopRule)
 }
 
 /// A cable that is closed at the start of a run, and might be slack within what is in doubt, or leave or snap where
