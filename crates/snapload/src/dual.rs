@@ -65,7 +65,7 @@ impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
 
 impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn add(mut self, other: Self) -> Self {
         self.value += other.value;
         for (slope, more) in self.slope.iter_mut().zip(other.slope) {
@@ -77,7 +77,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
 
 impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn sub(mut self, other: Self) -> Self {
         self.value -= other.value;
         for (slope, less) in self.slope.iter_mut().zip(other.slope) {
@@ -89,7 +89,7 @@ impl<T: Real, const N: usize> Sub for Dual<T, N> {
 
 impl<T: Real, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let mut product = Self::constant(self.value * other.value);
         for (i, slope) in product.slope.iter_mut().enumerate() {
@@ -190,7 +190,7 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn to_f64(self) -> f64 {
         self.value.to_f64()
     }
-    #[inline(always)]
+    #[inline]
     fn mul_add(self, by: Self, plus: Self) -> Self {
         let mut all = Self::constant(self.value.mul_add(by.value, plus.value));
         for (i, slope) in all.slope.iter_mut().enumerate() {

@@ -37,6 +37,8 @@ pub trait Real:
     const ONE: Self;
     /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
     const NEWTON_STEPS: usize;
+    /// Whether its products and sums are those of the processor, so that steps are compiled for kinds of it.
+    const FUSES: bool = false;
     /// Whether it carries derivatives, which [`Real::detached`] leaves out.
     const CARRIES_SLOPES: bool = false;
 
@@ -94,6 +96,7 @@ impl Real for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
     const NEWTON_STEPS: usize = 2;
+    const FUSES: bool = true;
 
     #[inline(always)]
     fn from_f64(value: f64) -> Self {

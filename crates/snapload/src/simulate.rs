@@ -234,7 +234,11 @@ impl<T: Real> Simulation<T> {
     /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
     /// the motion has stopped.
     pub fn step(&mut self) -> Option<Step<T>> {
-        best(NextStep(self))
+        if T::FUSES {
+            best(NextStep(self))
+        } else {
+            self.step_here()
+        }
     }
 
     #[inline(always)]
