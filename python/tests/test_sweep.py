@@ -8,14 +8,13 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import snapload
 import xarray
-
-LARGE = dict(f_o="0.1:0.6:400", omega="0.5:1.5:400")
 
 
 def test_a_dataset_is_labelled(tmp_path: Path):
@@ -91,12 +90,19 @@ except KeyboardInterrupt:
 """
 
 
-def interrupt(call: str, after: str = "", wait: float = 0.7) -> tuple[float, str]:
-    """Sends Ctrl-C to a Python at work; gives how long it took to answer, and what it says after that."""
+def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = None) -> tuple[float, str]:
+    """Sends Ctrl-C to a Python at work; gives how long it took to answer, and what it says after that.
+
+    It is sent as soon as `at_work` holds, or else after 0.7 s to calls that go on for minutes."""
     code = INTERRUPTED.format(call=call, after=after)
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None and process.stdout.readline() == "ready\n"
-        time.sleep(wait)
+        if at_work is None:
+            time.sleep(0.7)
+        else:
+            while not at_work():
+                assert process.poll() is None, "it ended before it was told to"
+                time.sleep(0.001)
         sent = time.monotonic()
         process.send_signal(signal.SIGINT)
         answered = float(process.stdout.readline())
@@ -121,7 +127,7 @@ def test_ctrl_c_is_answered_within_a_second(call):
 
 def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
     out = tmp_path / "map.parquet"
-    call = f"snapload.sweep(snapload.Case(t_end=1), out={str(out)!r}, trust=False, f_o='0.1:0.6:200', e='0.5:0.9:200')"
+    call = f"snapload.sweep(snapload.Case(t_end=1), out={str(out)!r}, trust=False, f_o='0.1:0.6:400', e='0.5:0.9:400')"
     # What was being brought to the disk holds the file until it is there; the error says so.
     again = f"""
     while True:
@@ -132,14 +138,14 @@ def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
             assert "another snapload is at work" in str(error)
             time.sleep(0.05)
     print('whole')"""
-    took, said = interrupt(call, again, wait=0.4)
+    took, said = interrupt(call, again, lambda: any(tmp_path.glob("map.parquet.parts/rows-*")))
     assert took < 1.0
     assert said == "whole\n"
-    assert snapload.open_study(out).sizes == {"f_o": 200, "e": 200}
+    assert snapload.open_study(out).sizes == {"f_o": 400, "e": 400}
 
 
 def test_other_threads_run_meanwhile():
-    work = threading.Thread(target=snapload.sweep, args=[snapload.Case()], kwargs=dict(e="0.5:0.9:600"))
+    work = threading.Thread(target=snapload.sweep, args=[snapload.Case()], kwargs=dict(e="0.5:0.9:3000"))
     begun = time.monotonic()
     work.start()
     turns = 0
