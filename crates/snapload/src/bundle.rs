@@ -39,19 +39,69 @@ impl<T: Real, const W: usize> Bundle<T, W> {
     /// its products are left out; all have to be finite, as those beyond k meet zeros.
     #[inline(always)]
     pub(crate) fn convolve(&self, other: &Self, k: usize) -> [T; W] {
-        let length = (k + 1).next_multiple_of(BLOCK);
-        let a = &self.0[MARGIN..][..length];
-        let b = &other.0[..MARGIN + k + 1][MARGIN + k + 1 - length..];
-        let (mut sums, mut others) = ([T::ZERO; W], [T::ZERO; W]);
-        for (x, y) in a.chunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK)) {
-            // Two sums that take turns, as a processor can do several at once.
-            add_products(&mut sums, &x[0], &y[3]);
-            add_products(&mut others, &x[1], &y[2]);
-            add_products(&mut sums, &x[2], &y[1]);
-            add_products(&mut others, &x[3], &y[0]);
+        let [sums] = convolve([(self, other)], k);
+        sums
+    }
+}
+
+/// The k-th coefficients of several products, in one pass.
+#[inline(always)]
+pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
+    factors: [(&Bundle<T, W>, &Bundle<T, W>); N],
+    k: usize,
+) -> [[T; W]; N] {
+    let mut products = factors.map(|(a, b)| Products::begin(a, b, k));
+    let length = (k + 1).next_multiple_of(BLOCK);
+    // The newest coefficients come last, at either end: the rest is added up before they are there.
+    let mut from = BLOCK;
+    while from < length {
+        for product in &mut products {
+            product.add(from);
         }
-        // Seen through, the sums would be made across the lanes, with more shuffling than arithmetic.
-        std::hint::black_box(std::array::from_fn(|w| sums[w] + others[w]))
+        from += BLOCK;
+    }
+    for product in &mut products {
+        product.add(0);
+    }
+    // Seen through, the sums would be made across the lanes, with more shuffling than arithmetic.
+    std::hint::black_box(products.map(|product| product.sum()))
+}
+
+/// A convolution that is being summed: the coefficients of one factor, those of the other, to be taken in reverse, and two
+/// sums that take turns, as a processor can do several at once.
+struct Products<'a, T, const W: usize> {
+    a: &'a [[T; W]],
+    b: &'a [[T; W]],
+    sums: [[T; W]; 2],
+}
+
+impl<'a, T: Real, const W: usize> Products<'a, T, W> {
+    #[inline(always)]
+    fn begin(a: &'a Bundle<T, W>, b: &'a Bundle<T, W>, k: usize) -> Self {
+        let length = (k + 1).next_multiple_of(BLOCK);
+        Self {
+            a: &a.0[MARGIN..][..length],
+            b: &b.0[..MARGIN + k + 1][MARGIN + k + 1 - length..],
+            sums: [[T::ZERO; W]; 2],
+        }
+    }
+
+    /// Takes in the block that begins there.
+    #[inline(always)]
+    fn add(&mut self, from: usize) {
+        let a = &self.a[from..][..BLOCK];
+        let b = &self.b[self.b.len() - from - BLOCK..][..BLOCK];
+        let [even, odd] = &mut self.sums;
+        add_products(even, &a[3], &b[0]);
+        add_products(odd, &a[2], &b[1]);
+        add_products(even, &a[1], &b[2]);
+        add_products(odd, &a[0], &b[3]);
+    }
+
+    #[inline(always)]
+    fn sum(&self) -> [T; W] {
+        let [even, odd] = &self.sums;
+        std::array::from_fn(|w| even[w] + odd[w])
     }
 }
 

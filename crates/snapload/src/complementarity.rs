@@ -25,8 +25,13 @@ const NEARLY_ONE_LINE: f64 = 4.5;
 ///
 /// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
 /// mirror image moves as such to the last bit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Ready<T> {
+pub(crate) struct Ready<T, W> {
+    w: W,
+    found: Found<T>,
+}
+
+/// What is found out of a matrix before it meets a q.
+enum Found<T> {
     None,
     /// A cable and 1/W.
     One(usize, T),
@@ -36,27 +41,39 @@ pub(crate) enum Ready<T> {
     Many(TautSet),
 }
 
-impl<T: Real> Ready<T> {
+impl<T: Real, W: Fn(usize, usize) -> T> Ready<T, W> {
     #[inline(always)]
-    pub(crate) fn new(set: TautSet, w: impl Fn(usize, usize) -> T) -> Self {
+    pub(crate) fn new(set: TautSet, w: W) -> Self {
         let mut cables = set.iter();
-        match (cables.next(), cables.next(), cables.next()) {
-            (None, ..) => Self::None,
-            (Some(i), None, _) => Self::One(i, T::ONE / w(i, i)),
-            (Some(i), Some(j), None) => Self::Two([i, j], Two::new([w(i, i), w(i, j), w(j, j)])),
-            _ => Self::Many(set),
+        let found = match (cables.next(), cables.next(), cables.next()) {
+            (None, ..) => Found::None,
+            (Some(i), None, _) => Found::One(i, T::ONE / w(i, i)),
+            (Some(i), Some(j), None) => Found::Two([i, j], Two::new([w(i, i), w(i, j), w(j, j)])),
+            _ => Found::Many(set),
+        };
+        Self { w, found }
+    }
+
+    /// z of the first two cables, where there are no more.
+    #[inline(always)]
+    pub(crate) fn solve_two(&self, q: [T; 2]) -> [T; 2] {
+        match self.found {
+            Found::One(0, inverse) => [q[0] * inverse, T::ZERO],
+            Found::One(_, inverse) => [T::ZERO, q[1] * inverse],
+            Found::Two(_, ref matrix) => matrix.solve(q),
+            _ => [T::ZERO; 2],
         }
     }
 
-    /// z, with the W that it was made of.
+    /// z.
     #[inline(always)]
-    pub(crate) fn solve(&self, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
+    pub(crate) fn solve(&self, q: &PerCable<T>) -> PerCable<T> {
         let mut z = [T::ZERO; MAX_CABLES];
-        match *self {
-            Self::None => {}
-            Self::One(i, inverse) => z[i] = q[i] * inverse,
-            Self::Two([i, j], ref matrix) => [z[i], z[j]] = matrix.solve([q[i], q[j]]),
-            Self::Many(set) => z = eliminate_and_refine(set, w, q),
+        match self.found {
+            Found::None => {}
+            Found::One(i, inverse) => z[i] = q[i] * inverse,
+            Found::Two([i, j], ref matrix) => [z[i], z[j]] = matrix.solve([q[i], q[j]]),
+            Found::Many(set) => z = eliminate_and_refine(set, &self.w, q),
         }
         z
     }
@@ -69,7 +86,7 @@ pub(crate) fn solve<T: Real>(
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> PerCable<T> {
-    Ready::new(set, &w).solve(&w, q)
+    Ready::new(set, w).solve(q)
 }
 
 /// Two equations with the matrix \[\[a, b\], \[b, c\]\].

@@ -21,16 +21,16 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s`, on which ÿ ≤ `up`, |ÿ| ≤ `y_bend` and
-    /// |θ̈| ≤ `theta_bend`.
+    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ| ≤ `y_bend` and
+    /// |θ̈| ≤ `theta_bend`. `state` tells the state within.
     #[inline(always)]
     pub(crate) fn cover(
         &mut self,
         state: impl Fn(T) -> State<T>,
         s: T,
+        [first, last]: [&State<T>; 2],
         [up, y_bend, theta_bend]: [T; 3],
     ) {
-        let (first, last) = (state(T::ZERO), state(s));
         let bulge = s * s * 0.125;
         let y = first.y.max(last.y) + y_bend * bulge;
         let theta = first.theta.abs().max(last.theta.abs()) + theta_bend * bulge;

@@ -65,10 +65,10 @@ impl<T: Real> Polynomial<T> {
         let (mut value, mut rate, mut half_accel) = (T::ZERO, T::ZERO, T::ZERO);
         let mut size = T::ZERO;
         for coefficient in self.0[..=order].iter().rev() {
-            half_accel = half_accel * s + rate;
-            rate = rate * s + value;
-            value = value * s + *coefficient;
-            size = size * s + coefficient.abs();
+            half_accel = half_accel.mul_add(s, rate);
+            rate = rate.mul_add(s, value);
+            value = value.mul_add(s, *coefficient);
+            size = size.mul_add(s, coefficient.abs());
         }
         ([value, rate, half_accel * 2.0], size)
     }
@@ -93,8 +93,9 @@ impl<T: Real> Polynomial<T> {
     #[inline(always)]
     pub(crate) fn derivative_bound(&self, n: usize, s: T, order: usize) -> T {
         let mut bound = T::ZERO;
-        for (c, falling) in self.0[..=order].iter().zip(&FALLING[n]).skip(n).rev() {
-            bound = bound * s + c.abs() * *falling;
+        let (coefficients, falling) = (&self.0[n..=order], &FALLING[n][n..=order]);
+        for k in (0..coefficients.len()).rev() {
+            bound = bound.mul_add(s, coefficients[k].abs() * falling[k]);
         }
         bound
     }
@@ -110,7 +111,10 @@ impl<T: Real> Polynomial<T> {
         let tail = [self.0[order - 1].abs(), self.0[order].abs()];
         // A step is at most 1, so no term is larger than its coefficient.
         let inner = &self.0[1..order - 1];
-        let ceiling = inner.iter().fold(scale, |most, c| most.max(c.abs()));
+        let mut ceiling = scale;
+        for coefficient in inner {
+            ceiling = ceiling.max(coefficient.abs());
+        }
         while step > T::EPSILON {
             let power = power(step, order - 1);
             let last = (tail[0] * power).max(tail[1] * power * step);
@@ -127,11 +131,16 @@ impl<T: Real> Polynomial<T> {
     /// With all signs changed.
     #[inline(always)]
     pub(crate) fn negated(&self) -> Self {
-        Self(self.0.map(|c| -c))
+        let mut negated = *self;
+        for coefficient in &mut negated.0 {
+            *coefficient = -*coefficient;
+        }
+        negated
     }
 }
 
 /// x^n by repeated squaring.
+#[inline(always)]
 fn power<T: Real>(x: T, n: usize) -> T {
     let (mut power, mut square, mut left) = (T::ONE, x, n);
     while left > 0 {
@@ -145,12 +154,14 @@ fn power<T: Real>(x: T, n: usize) -> T {
 }
 
 /// The largest of |c_1| x, |c_2| x², …, and of `least`.
+#[inline(always)]
 fn largest<T: Real>(coefficients: &[T], x: T, least: T) -> T {
-    let mut power = T::ONE;
-    coefficients.iter().fold(least, |most, c| {
+    let (mut power, mut most) = (T::ONE, least);
+    for coefficient in coefficients {
         power = power * x;
-        most.max(c.abs() * power)
-    })
+        most = most.max(coefficient.abs() * power);
+    }
+    most
 }
 
 /// Σ a_j b_{k−j}, the k-th coefficient of a product.

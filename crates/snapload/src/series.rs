@@ -37,7 +37,7 @@ use crate::complementarity::{PerCable, Ready};
 use crate::contact::{Contact, Contacts};
 use crate::drag::DragSeries;
 use crate::event::{Jet, Jets, Watch, Watched};
-use crate::lines::Lines;
+use crate::pairs::Pairs;
 use crate::polynomial::{ORDER, Polynomial};
 use crate::real::{Real, dot};
 use crate::taut::Hold;
@@ -76,7 +76,7 @@ pub(crate) struct Series<T: Real> {
     /// θ̈ by drag.
     turning: Polynomial<T>,
     drag: DragSeries<T>,
-    geometry: Lines<T>,
+    pairs: Pairs<T>,
     lines: Vec<Line<T>>,
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
@@ -102,7 +102,7 @@ impl<T: Real> Series<T> {
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
-            geometry: Lines::default(),
+            pairs: Pairs::default(),
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
@@ -142,13 +142,12 @@ impl<T: Real> Series<T> {
         self.circle[0] = [cosine, sine];
         let (sine, cosine) = self.rotation(1);
         self.circle[1] = [cosine, sine];
-        self.geometry.begin(system);
+        self.pairs.begin(system);
         for k in 0..2 {
-            self.extend_geometry(k);
+            self.extend_pairs(k);
         }
         for (cable, tether) in system.cables.iter().enumerate() {
-            self.geometry.set_span(cable, tether.span(start));
-            self.lines[cable].gap[1] = self.geometry.ends(cable, 1);
+            self.pairs.set_span(cable, tether.span(start));
         }
         self.extend_motions(system);
         self.know_gaps();
@@ -252,90 +251,76 @@ impl<T: Real> Series<T> {
 
     /// ρ and d of every cable to order k; d but for its constant.
     #[inline(always)]
-    fn extend_geometry(&mut self, k: usize) {
+    fn extend_pairs(&mut self, k: usize) {
         let [cosine, sine] = self.circle[k];
-        self.geometry
-            .extend(k, [self.x[k], self.y[k]], sine, cosine);
+        self.pairs.extend(k, [self.x[k], self.y[k]], sine, cosine);
     }
 
     /// All coefficients, order by order.
     #[inline(always)]
     fn extend_motions(&mut self, system: &System<T>) {
         let inverse_inertia = system.body.inverse_inertia();
-        let carrying = self.hold.carrying;
-        let mut normals = [([T::ZERO; 2], T::ZERO); MAX_CABLES];
-        for cable in carrying.iter() {
-            normals[cable] = self.geometry.normal_and_arm(cable);
-        }
-        let coupling = |i: usize, j: usize| {
-            let (([a, b], s), ([c, d], t)) = (normals[i], normals[j]);
-            a * c + b * d + s * t * inverse_inertia
-        };
-        let ready = Ready::new(carrying, coupling);
+        let normals = self.pairs.hold(self.hold.carrying);
+        let coupling = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let ready = Ready::new(self.hold.carrying, coupling);
+        self.keep_gaps(1);
         for k in 0..ORDER - 1 {
             self.extend_drag(system, k);
-            self.extend_motion(system, k, &normals, |load| ready.solve(coupling, load));
-            self.extend_geometry(k + 2);
-            for cable in 0..self.lines.len() {
-                self.lines[cable].gap[k + 2] += self.geometry.ends(cable, k + 2);
-            }
+            self.extend_motion(k, inverse_inertia, &ready);
+            self.extend_pairs(k + 2);
+            self.keep_gaps(k + 2);
+            self.keep_tensions(k);
         }
     }
 
-    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion; of the gaps what does not
-    /// depend on that.
+    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
     #[inline(always)]
     fn extend_motion(
         &mut self,
-        system: &System<T>,
         k: usize,
-        normals: &PerCable<([T; 2], T)>,
-        solve: impl Fn(&PerCable<T>) -> PerCable<T>,
+        inverse_inertia: T,
+        ready: &Ready<T, impl Fn(usize, usize) -> T>,
     ) {
-        let inverse_inertia = system.body.inverse_inertia();
-        let carrying = self.hold.carrying;
         // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
         self.turn(k + 2, T::ZERO);
         let (sine, cosine) = self.rotation(k + 2);
-        let orders = ((k + 1) * (k + 2)) as f64;
-        let share = T::ONE / orders;
+        let share = T::ONE / ((k + 1) * (k + 2)) as f64;
 
-        let [x, y, moment] = self.geometry.pulls(k);
-        let mut accel = [
+        let [x, y, moment] = self.pairs.pulls(k);
+        let known = [
             self.force[0][k] - x,
             self.force[1][k] - y,
             self.turning[k] - moment * inverse_inertia,
         ];
+        let [x, y, moment] = self.pairs.pull(k, known, [sine, cosine], ready);
+        self.x[k + 2] = (known[0] - x) * share;
+        self.y[k + 2] = (known[1] - y) * share;
+        let theta = (known[2] - moment * inverse_inertia) * share;
+        self.turn(k + 2, theta);
+        let [cosine_0, sine_0] = self.circle[0];
+        self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
+    }
+
+    /// The gap of every cable to order k, once d is known to that; where all carry, there is none.
+    #[inline(always)]
+    fn keep_gaps(&mut self, k: usize) {
+        if self.hold.carrying.len() == self.lines.len() {
+            return;
+        }
         for (pair, lines) in self.lines.chunks_mut(2).enumerate() {
-            let bends = self.geometry.bends(pair, k + 2);
-            for (line, bend) in lines.iter_mut().zip(bends) {
-                line.gap[k + 2] = bend;
+            for (line, gap) in lines.iter_mut().zip(self.pairs.gaps(pair, k)) {
+                line.gap[k] = gap;
             }
         }
-        let mut load = [T::ZERO; MAX_CABLES];
-        for cable in carrying.iter() {
-            let tether = &system.cables[cable];
-            let (normal, arm) = normals[cable];
-            let bend = self.lines[cable].gap[k + 2] * tether.per_length() * 0.5
-                + dot(normal, tether.lever(sine, cosine));
-            load[cable] = dot(normal, [accel[0], accel[1]]) + arm * accel[2] + bend * orders;
+    }
+
+    #[inline(always)]
+    fn keep_tensions(&mut self, k: usize) {
+        for (pair, lines) in self.lines.chunks_mut(2).enumerate() {
+            for (line, tension) in lines.iter_mut().zip(self.pairs.tensions(pair, k)) {
+                line.tension[k] = tension;
+            }
         }
-        let tension = solve(&load);
-        for cable in carrying.iter() {
-            let (normal, arm) = normals[cable];
-            let tension = tension[cable];
-            self.lines[cable].tension[k] = tension;
-            self.geometry.pull(cable, k, tension, normal);
-            accel[0] -= normal[0] * tension;
-            accel[1] -= normal[1] * tension;
-            accel[2] -= arm * tension * inverse_inertia;
-        }
-        self.x[k + 2] = accel[0] * share;
-        self.y[k + 2] = accel[1] * share;
-        self.turn(k + 2, accel[2] * share);
-        let [cosine_0, sine_0] = self.circle[0];
-        let theta = self.theta[k + 2];
-        self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
     }
 
     /// The first coefficients of the gaps, as they are known.
@@ -373,15 +358,17 @@ impl<T: Real> Series<T> {
     /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
     #[inline(always)]
     fn choose_step(&self, system: &System<T>) -> T {
-        let light = self.hold.carrying.iter().fold(T::ONE, |w, cable| {
+        let mut light = T::ONE;
+        for cable in self.hold.carrying.iter() {
             let fairlead = system.cables[cable].fairlead();
-            w.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia())
-        });
+            light = light.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia());
+        }
         let still = T::from_f64(STILL);
         let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
-        let mut step = [&self.x, &self.y, &self.theta]
-            .iter()
-            .fold(longest, |step, p| p.converged_within(step, ORDER, still));
+        let mut step = longest;
+        for motion in [&self.x, &self.y, &self.theta] {
+            step = motion.converged_within(step, ORDER, still);
+        }
         for cable in self.hold.carrying.iter() {
             let tension = &self.lines[cable].tension;
             let scale = (tension[0].abs() + 1.0) * 20.0;
@@ -449,7 +436,10 @@ impl<T: Real> Series<T> {
     /// Bounds on |ÿ| and |θ̈| over the step.
     #[inline(always)]
     pub(crate) fn steepest(&self) -> [T; 2] {
-        [&self.y, &self.theta].map(|p| p.derivative_bound(2, self.step, ORDER))
+        [
+            self.y.derivative_bound(2, self.step, ORDER),
+            self.theta.derivative_bound(2, self.step, ORDER),
+        ]
     }
 
     #[inline(always)]

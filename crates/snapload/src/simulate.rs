@@ -21,6 +21,8 @@ mod by_bounces;
 #[path = "simulate_within.rs"]
 mod within;
 
+use within::StateAt;
+
 /// So many instants of impact in a row on the same cables count as a converging series.
 const CONVERGING: u32 = 5;
 
@@ -325,9 +327,11 @@ impl<T: Real> Simulation<T> {
         let s = crossing.s;
         let motion = self.motion(self.hold.taut);
         let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
-        let mut extremes = self.extremes;
-        extremes.cover(|s| motion.state(s), s, motion.bends(&self.system));
         let state = motion.state(s);
+        let mut extremes = self.extremes;
+        let bends = motion.bends(&self.system);
+        let within = |s| best(StateAt(&motion, s));
+        extremes.cover(within, s, [&self.state, &state], bends);
         let mut contacts = self.contacts;
         for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
             if self.hold.taut.contains(cable) {

@@ -208,17 +208,18 @@ impl<T: Real> Simulation<T> {
         if !converging {
             return None;
         }
-        let others: TautSet = self
-            .hold
-            .taut
-            .iter()
-            .filter(|&cable| !cables.contains(cable))
-            .collect();
-        cables
-            .iter()
-            .map(|cable| normal_acceleration(&self.system, self.t, &self.state, cable, others))
-            .filter(|&alpha| alpha > T::ZERO)
-            .map(|alpha| self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha))
-            .reduce(T::max)
+        let mut others = self.hold.taut;
+        for cable in cables.iter() {
+            others = others.without(cable);
+        }
+        let mut limit = None;
+        for cable in cables.iter() {
+            let alpha = normal_acceleration(&self.system, self.t, &self.state, cable, others);
+            if alpha > T::ZERO {
+                let at = self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha);
+                limit = Some(limit.map_or(at, |limit: T| limit.max(at)));
+            }
+        }
+        limit
     }
 }

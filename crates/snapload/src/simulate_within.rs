@@ -34,6 +34,17 @@ impl<T: Real> Work for GapAndRate<'_, T> {
     }
 }
 
+/// A state to be looked at, likewise.
+pub(super) struct StateAt<'a, T: Real>(pub(super) &'a Stretch<'a, T>, pub(super) T);
+
+impl<T: Real> Work for StateAt<'_, T> {
+    type Done = State<T>;
+    #[inline(always)]
+    fn done(self) -> State<T> {
+        self.0.state(self.1)
+    }
+}
+
 impl<T: Real> Stretch<'_, T> {
     /// The state a time `s` into it.
     #[inline(always)]
