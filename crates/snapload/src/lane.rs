@@ -71,12 +71,12 @@ pub trait Lane:
     fn detached(self) -> Self {
         self
     }
-    /// The larger of two.
+    /// The larger of two; the first if they are equal or one is not a number.
     #[inline(always)]
     fn larger(self, other: Self) -> Self {
         Self::select(self.below(other), other, self)
     }
-    /// The smaller of two.
+    /// The smaller of two, likewise.
     #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         Self::select(other.below(self), other, self)

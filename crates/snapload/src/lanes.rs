@@ -5,7 +5,7 @@
 //! freely again; a run that has stopped gives its lane to the next. A lane has the bits of the same run by
 //! itself, because both make the same operations: here only the bounces of several runs are made at once.
 
-use crate::bounce::bounce;
+use crate::bounce::{Bounce, bounce};
 use crate::fused::{Work, best};
 use crate::lane::Lane;
 use crate::mooring::{MOMENT, MOORING, Moment, Mooring};
@@ -216,10 +216,14 @@ impl<'a, L: Vector> Fleet<'a, L> {
         loop {
             let bounce = bounce(&self.mooring, &self.moment);
             let plain = bounce.plain & self.tally.impacts.below(self.most_impacts);
-            self.tally
-                .take(plain, bounce.second, bounce.v_n, bounce.next.t);
-            self.moment = Moment::select(plain, &bounce.next, &self.moment);
-            let plain = plain.bits() & !empty;
+            let (tally, bits) = (self.tally.with(&bounce), plain.bits());
+            if bits == all {
+                (self.moment, self.tally) = (bounce.next, tally);
+            } else {
+                self.moment = Moment::select(plain, &bounce.next, &self.moment);
+                self.tally = Tally::select(plain, &tally, &self.tally);
+            }
+            let plain = bits & !empty;
             self.usage.rounds += 1;
             self.usage.bounces += u64::from(plain.count_ones());
             if plain != all {
@@ -348,32 +352,37 @@ impl Rider {
 }
 
 impl<L: Lane> Tally<L> {
-    /// Counts an impact, in the lanes that have one, as [`Outcome::take`] and [`Simulation`] do.
+    /// With an impact counted in every lane, as [`Outcome::take`] and [`Simulation`] do.
     #[inline(always)]
-    fn take(&mut self, plain: L::Mask, second: L::Mask, v_n: L, t: L) {
-        let cables = L::select(second, L::from_f64(2.0), L::ONE);
+    fn with(
+        &self,
+        Bounce {
+            second, v_n, next, ..
+        }: &Bounce<L>,
+    ) -> Self {
+        let cables = L::select(*second, L::from_f64(2.0), L::ONE);
         let same = cables.at_most(self.cables) & self.cables.at_most(cables);
-        let early = t.at_most(L::from_f64(RHO2_UNTIL));
-        let counted = Self {
+        let early = next.t.at_most(L::from_f64(RHO2_UNTIL));
+        Self {
             impacts: self.impacts + 1.0,
-            second: L::select(second, self.second + 1.0, self.second),
-            rho1: self.rho1.larger(v_n),
-            rho2: L::select(early, self.rho2 + v_n, self.rho2),
-            rho3: self.rho3 + v_n,
+            second: self.second + (cables - 1.0),
+            rho1: self.rho1.larger(*v_n),
+            rho2: L::select(early, self.rho2 + *v_n, self.rho2),
+            rho3: self.rho3 + *v_n,
             cables,
-            v_n,
+            v_n: *v_n,
             repeats: L::select(same, self.repeats + 1.0, L::ONE),
-        };
-        *self = Self {
-            impacts: L::select(plain, counted.impacts, self.impacts),
-            second: L::select(plain, counted.second, self.second),
-            rho1: L::select(plain, counted.rho1, self.rho1),
-            rho2: L::select(plain, counted.rho2, self.rho2),
-            rho3: L::select(plain, counted.rho3, self.rho3),
-            cables: L::select(plain, counted.cables, self.cables),
-            v_n: L::select(plain, counted.v_n, self.v_n),
-            repeats: L::select(plain, counted.repeats, self.repeats),
-        };
+        }
+    }
+
+    /// One of two, lane by lane.
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        let (mut numbers, others) = (no.numbers(), yes.numbers());
+        for k in 0..TALLY {
+            numbers[k] = L::select(mask, others[k], numbers[k]);
+        }
+        Self::from_numbers(numbers)
     }
 }
 

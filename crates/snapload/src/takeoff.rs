@@ -29,6 +29,13 @@ pub(crate) struct Look<L: Lane> {
     near: L::Mask,
 }
 
+/// Where the parabola of a gap crosses zero.
+struct Parabola<L: Lane> {
+    s: L,
+    slope: L,
+    crosses: L::Mask,
+}
+
 /// The end of a flight.
 pub(crate) struct Arrival<L> {
     pub(crate) s: L,
@@ -144,28 +151,21 @@ impl<L: Lane> TakeOff<L> {
     /// Newton's from there to that of the cubic, and for the first of them one more to that of fourth order.
     #[inline(always)]
     pub(crate) fn guess(&self) -> (L::Mask, L) {
-        let parabolas = [self.parabola(0), self.parabola(1)];
-        let [(left, slope), (other_left, other_slope)] = [
-            self.beyond(0, parabolas[0].0),
-            self.beyond(1, parabolas[1].0),
-        ];
-        // One division serves both. Where one has no slope the other's guess stays that of its parabola.
-        let shared = L::ONE / (slope * other_slope);
-        let per_slope = [other_slope * shared, slope * shared];
-        let guesses = [
-            stepped(parabolas[0], left * per_slope[0]),
-            stepped(parabolas[1], other_left * per_slope[1]),
-        ];
-        let second = guesses[1].below(guesses[0]);
-        let s = guesses[0].smaller(guesses[1]);
-        let per_slope = L::select(second, per_slope[1], per_slope[0]);
-        let value = self.fourth_order(second, s);
+        let (first, other) = (self.parabola(0), self.parabola(1));
+        // One division serves both.
+        let shared = L::ONE / (first.slope * other.slope);
+        let (guess, per_slope) = self.beyond(0, &first, other.slope * shared);
+        let (other_guess, other_per_slope) = self.beyond(1, &other, first.slope * shared);
+        let second = other_guess.below(guess);
+        let s = guess.smaller(other_guess);
+        let (value, slope) = self.fourth_order(second, s);
+        let per_slope = reciprocal(L::select(second, other_per_slope, per_slope), slope);
         (second, within_twice(s, (-value).mul_add(per_slope, s)))
     }
 
-    /// The Taylor polynomial of a gap.
+    /// The Taylor polynomial of a gap, and its slope.
     #[inline(always)]
-    fn fourth_order(&self, second: L::Mask, s: L) -> L {
+    fn fourth_order(&self, second: L::Mask, s: L) -> (L, L) {
         let [first, other] = &self.tethers;
         let gap = L::select(second, other.gap, first.gap);
         let rate = L::select(second, other.gap_rate, first.gap_rate);
@@ -174,35 +174,45 @@ impl<L: Lane> TakeOff<L> {
         let jerk = L::select(second, e, b) * (1.0 / 6.0);
         let fourth = L::select(second, f, c) * (1.0 / 24.0);
         let value = fourth.mul_add(s, jerk).mul_add(s, accel);
-        value.mul_add(s, rate).mul_add(s, gap)
+        let slope = (fourth * 4.0).mul_add(s, jerk * 3.0);
+        (
+            value.mul_add(s, rate).mul_add(s, gap),
+            slope.mul_add(s, accel * 2.0).mul_add(s, rate),
+        )
     }
 
-    /// The first root of g + ġs + g̈s²/2, and whether there is one.
+    /// The first root of g + ġs + g̈s²/2.
     #[inline(always)]
-    fn parabola(&self, i: usize) -> (L, L::Mask) {
+    fn parabola(&self, i: usize) -> Parabola<L> {
         let (tether, [accel, ..]) = (&self.tethers[i], self.bends[i]);
         let (gap, rate) = (tether.gap, tether.gap_rate);
         let discriminant = rate.mul_add(rate, accel * gap * -2.0);
-        let root = discriminant.positive().sqrt();
+        let slope = discriminant.positive().sqrt();
         // Summands of one sign in either case.
         let rising = L::ZERO.below(rate);
-        let above = L::select(rising, -gap * 2.0, root - rate);
-        let below = L::select(rising, rate + root, accel);
+        let above = L::select(rising, -gap * 2.0, slope - rate);
+        let below = L::select(rising, rate + slope, accel);
         let s = above / below;
-        (s, L::ZERO.at_most(discriminant) & L::ZERO.below(s))
+        let crosses = L::ZERO.below(discriminant);
+        Parabola {
+            s,
+            slope: L::select(crosses, slope, L::ONE),
+            crosses: crosses & L::ZERO.below(s),
+        }
     }
 
-    /// Value and slope of the cubic at a root of the parabola.
+    /// A step of Newton's from the root of a parabola to that of the cubic, and the reciprocal of the slope for it;
+    /// `per_slope` is that of the parabola. A gap that does not cross never closes.
     #[inline(always)]
-    fn beyond(&self, i: usize, s: L) -> (L, L) {
-        let [accel, jerk, _] = self.bends[i];
-        let left = jerk * s * s * s * (1.0 / 6.0);
-        (
-            left,
-            (jerk * 0.5)
-                .mul_add(s, accel)
-                .mul_add(s, self.tethers[i].gap_rate),
-        )
+    fn beyond(&self, i: usize, parabola: &Parabola<L>, per_slope: L) -> (L, L) {
+        let [_, jerk, _] = self.bends[i];
+        let s = parabola.s;
+        let bend = jerk * s * s;
+        let per_slope = reciprocal(per_slope, bend.mul_add(L::from_f64(0.5), parabola.slope));
+        let step = bend * s * (1.0 / 6.0) * per_slope;
+        let stepped = within_twice(s, s - step);
+        let never = L::from_f64(NEVER);
+        (L::select(parabola.crosses, stepped, never), per_slope)
     }
 
     /// Looks at the flight at `s`, and from there for where the gap of one cable closes.
@@ -211,7 +221,7 @@ impl<L: Lane> TakeOff<L> {
         let now = Instant::at(s, self.constant, self.spin).with(&self.wave, s);
         let jets = [self.tethers[0].jet(s, &now), self.tethers[1].jet(s, &now)];
         let struck = GapJet::select(second, &jets[1], &jets[0]);
-        let (rest, left, denominator) = struck.root();
+        let (rest, left) = struck.root();
         let ahead = s + rest;
         let longest = s.larger(ahead);
         let fourths = [
@@ -236,7 +246,7 @@ impl<L: Lane> TakeOff<L> {
             struck,
             rest,
             fourths,
-            rising: L::ZERO.below(struck.rate) & L::ZERO.below(denominator) & L::ZERO.below(ahead),
+            rising: L::ZERO.below(struck.rate) & L::ZERO.below(ahead),
             near,
         }
     }
@@ -349,10 +359,10 @@ impl<L: Lane> TakeOff<L> {
     }
 }
 
-/// A guess less a step, where it is one.
+/// A step of Newton's from the reciprocal of another number, not far away, to that of `x`.
 #[inline(always)]
-fn stepped<L: Lane>((s, crosses): (L, L::Mask), step: L) -> L {
-    L::select(crosses, within_twice(s, s - step), L::from_f64(NEVER))
+fn reciprocal<L: Lane>(near: L, x: L) -> L {
+    near * (-x).mul_add(near, L::from_f64(2.0))
 }
 
 /// `next` where it is between half and twice `s`, else `s`: a longer step of Newton's is none.

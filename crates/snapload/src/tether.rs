@@ -244,18 +244,17 @@ impl<L: Lane> GapJet<L> {
         bend.mul_add(s, self.rate) * s
     }
 
-    /// How much later the cubic is zero: a step of Halley's, and two of Newton's with nearly its slope; and what the
-    /// cubic is there. The denominator of the step tells whether there is such a zero.
+    /// About how much later the cubic is zero, by reversion of its series to the third order, and what it is there.
     #[inline(always)]
-    pub(crate) fn root(&self) -> (L, L, L) {
+    pub(crate) fn root(&self) -> (L, L) {
         let sixth = self.jerk * (1.0 / 6.0);
-        let twice = self.rate * 2.0;
-        let denominator = self.rate.mul_add(twice, -(self.value * self.accel));
-        let per_slope = twice / denominator;
-        let s = -(self.value * per_slope);
-        let s = (-per_slope).mul_add(self.value + self.rise(s, sixth), s);
-        let s = (-per_slope).mul_add(self.value + self.rise(s, sixth), s);
-        (s, self.value + self.rise(s, sixth), denominator)
+        let per_rate = L::ONE / self.rate;
+        let u = -(self.value * per_rate);
+        let (bend, cubic) = (self.accel * 0.5 * per_rate, sixth * per_rate);
+        let third = (bend * 2.0).mul_add(bend, -cubic);
+        let s = u.mul_add(third, -bend).mul_add(u, L::ONE) * u;
+        let s = (-per_rate).mul_add(self.value + self.rise(s, sixth), s);
+        (s, self.value + self.rise(s, sixth))
     }
 
     /// One of two jets, lane by lane.

@@ -165,13 +165,13 @@ impl<const N: usize> Vector for Portable<N> {
 
 /// The operators with a double on the right.
 macro_rules! with_doubles {
-    ($type:ty $(, const $n:ident)?) => {
-        with_doubles!(@ $type, Add, add, + $(, $n)?);
-        with_doubles!(@ $type, Sub, sub, - $(, $n)?);
-        with_doubles!(@ $type, Mul, mul, * $(, $n)?);
+    ([$($generic:tt)*] $type:ty) => {
+        with_doubles!(@ [$($generic)*] $type, Add, add, +);
+        with_doubles!(@ [$($generic)*] $type, Sub, sub, -);
+        with_doubles!(@ [$($generic)*] $type, Mul, mul, *);
     };
-    (@ $type:ty, $trait:ident, $method:ident, $operator:tt $(, $n:ident)?) => {
-        impl$(<const $n: usize>)? $trait<f64> for $type {
+    (@ [$($generic:tt)*] $type:ty, $trait:ident, $method:ident, $operator:tt) => {
+        impl<$($generic)*> $trait<f64> for $type {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: f64) -> Self {
@@ -180,7 +180,7 @@ macro_rules! with_doubles {
         }
     };
 }
-with_doubles!(Portable<N>, const N);
+with_doubles!([const N: usize] Portable<N>);
 
 #[cfg(target_arch = "x86_64")]
 #[path = "vector_twice.rs"]

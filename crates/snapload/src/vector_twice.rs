@@ -50,24 +50,7 @@ twice!(Twice, Vector, Sub, sub);
 twice!(Twice, Vector, Mul, mul);
 twice!(Twice, Vector, Div, div);
 
-/// One with a double on the right.
-macro_rules! twice_f64 {
-    ($trait:ident, $method:ident) => {
-        impl<V: Vector> $trait<f64> for Twice<V> {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: f64) -> Self {
-                Self(
-                    $trait::<f64>::$method(self.0, other),
-                    $trait::<f64>::$method(self.1, other),
-                )
-            }
-        }
-    };
-}
-twice_f64!(Add, add);
-twice_f64!(Sub, sub);
-twice_f64!(Mul, mul);
+with_doubles!([V: Vector] Twice<V>);
 
 impl<M: Mask> Not for TwiceMask<M> {
     type Output = Self;
@@ -128,6 +111,14 @@ impl<V: Vector> Lane for Twice<V> {
             V::select(mask.0, yes.0, no.0),
             V::select(mask.1, yes.1, no.1),
         )
+    }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Self(self.0.larger(other.0), self.1.larger(other.1))
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        Self(self.0.smaller(other.0), self.1.smaller(other.1))
     }
 }
 

@@ -133,8 +133,8 @@ operator!(Avx512, Add, add, _mm512_add_pd);
 operator!(Avx512, Sub, sub, _mm512_sub_pd);
 operator!(Avx512, Mul, mul, _mm512_mul_pd);
 operator!(Avx512, Div, div, _mm512_div_pd);
-with_doubles!(Avx2);
-with_doubles!(Avx512);
+with_doubles!([] Avx2);
+with_doubles!([] Avx512);
 
 impl Neg for Avx2 {
     type Output = Self;
@@ -253,6 +253,17 @@ impl Lane for Avx2 {
         // SAFETY: the processor has AVX, as the head of this file says.
         unsafe { Self(_mm256_blendv_pd(no.0, yes.0, mask.0)) }
     }
+    // The instructions give the second of two that are equal, or of which one is not a number.
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: the processor has AVX, as the head of this file says.
+        unsafe { Self(_mm256_max_pd(other.0, self.0)) }
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        // SAFETY: the processor has AVX, as the head of this file says.
+        unsafe { Self(_mm256_min_pd(other.0, self.0)) }
+    }
 }
 
 impl Lane for Avx512 {
@@ -303,5 +314,16 @@ impl Lane for Avx512 {
     fn select(mask: Avx512Mask, yes: Self, no: Self) -> Self {
         // SAFETY: the processor has AVX-512, as the head of this file says.
         unsafe { Self(_mm512_mask_blend_pd(mask.0, no.0, yes.0)) }
+    }
+    // The instructions give the second of two that are equal, or of which one is not a number.
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        // SAFETY: the processor has AVX-512, as the head of this file says.
+        unsafe { Self(_mm512_max_pd(other.0, self.0)) }
+    }
+    #[inline(always)]
+    fn smaller(self, other: Self) -> Self {
+        // SAFETY: the processor has AVX-512, as the head of this file says.
+        unsafe { Self(_mm512_min_pd(other.0, self.0)) }
     }
 }
