@@ -3,8 +3,8 @@
 use crate::contact::{Contact, Contacts};
 use crate::event::{Jet, Jets, Watch, Watched};
 use crate::lane::Turn;
-use crate::real::{Real, dot, length, quarter_turn};
-use crate::tether::{INFLATION, Instant, Tether};
+use crate::real::{Real, length};
+use crate::tether::{GapJet, INFLATION, Instant, Tether};
 use crate::{Harmonic, State, System, TautSet};
 
 /// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of sinusoids).
@@ -134,9 +134,8 @@ impl<T: Real> Flight<T> {
     /// |P − A| ≤ r holds up to the first crossing, which is all that the bound is used for. |Ṗ| grows
     /// by at most |P̈| σ.
     #[inline(always)]
-    fn gap_jet(&self, cable: usize, s: T, now: &Instant<T>) -> Jet<T> {
+    fn gap_jet(&self, cable: usize, s: T, jet: &GapJet<T>) -> Jet<T> {
         let tether = &self.tethers[cable];
-        let jet = tether.jet(s, now);
         let [a, j, _] = tether.bounds;
         Jet {
             third: (length(jet.velocity) * a * 3.0 + tether.length * j) * 2.0,
@@ -148,26 +147,16 @@ impl<T: Real> Flight<T> {
     }
 
     /// The jet of a cable known to be closed and at rest, at the start of the flight: with ġ = 0
-    /// exact, f⃛ exact, and |g⁗| ≤ 2 (3 |P̈|² + 4 |Ṗ||P⃛| + r |P⁗|).
-    fn resting_jet(&self, cable: usize, jet: Jet<T>) -> Jet<T> {
+    /// exact, g⃛ exact, and |g⁗| ≤ 2 (3 |P̈|² + 4 |Ṗ||P⃛| + r |P⁗|).
+    fn resting_jet(&self, cable: usize, jerk: T, jet: Jet<T>) -> Jet<T> {
         let tether = &self.tethers[cable];
-        let omega = self.start.vtheta;
-        let now = self.instant(T::ZERO);
-        let turn = quarter_turn(tether.lever);
-        let accel = [0, 1].map(|i| now.push.force[i] - omega * omega * tether.lever[i]);
-        let mut jerk = [0, 1].map(|i| -(omega * omega * omega) * turn[i]);
-        for harmonic in &self.harmonics {
-            for (i, component) in jerk.iter_mut().enumerate() {
-                *component += harmonic.omega * harmonic.sine[i];
-            }
-        }
         let [a, j, k] = tether.bounds;
         // Over one unit of time; a longer first step is never needed.
         let speed = length(tether.velocity) + a;
         Jet {
             resting: true,
             blur: tether.length.squared() * T::EPSILON * 4.0,
-            jerk: (dot(tether.velocity, accel) * 3.0 + dot(tether.span, jerk)) * 2.0,
+            jerk,
             fourth: (a * a * 3.0 + speed * j * 4.0 + tether.length * k) * 2.0,
             ..jet
         }
@@ -219,10 +208,11 @@ impl<T: Real> Watched<T> for Flight<T> {
     fn watch(&self, s: T, jets: &mut Jets<T>) {
         let now = self.instant(s);
         for cable in 0..self.tethers.len() {
-            let jet = self.gap_jet(cable, s, &now);
+            let seen = self.tethers[cable].jet(s, &now);
+            let jet = self.gap_jet(cable, s, &seen);
             let at_rest = s == T::ZERO && self.resting.contains(cable);
             jets.push(if at_rest {
-                self.resting_jet(cable, jet)
+                self.resting_jet(cable, seen.jerk, jet)
             } else {
                 jet
             });

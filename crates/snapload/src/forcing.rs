@@ -121,23 +121,18 @@ impl<L: Lane> Push<L> {
         }
     }
 
-    /// A little later, f̈ being `bend`: drift and gain to the third order, the force to the first; the rate stays behind.
+    /// Drift and gain a little later, to the third order, f̈ being `bend`.
     #[inline(always)]
-    pub(crate) fn later(&self, s: L, bend: [L; 2]) -> Self {
+    pub(crate) fn later(&self, s: L, bend: [L; 2]) -> [[L; 2]; 2] {
         let (force, rate) = (self.force, scaled(self.rate, s));
-        let drift = added(
-            scaled(force, L::from_f64(0.5)),
-            rate,
-            L::from_f64(1.0 / 6.0),
-        );
-        let gain = added(force, rate, L::from_f64(0.5));
-        let gain = added(gain, bend, s * s * (1.0 / 6.0));
-        Self {
-            drift: added(self.drift, added(self.gain, drift, s), s),
-            gain: added(self.gain, gain, s),
-            force: sum(force, rate),
-            rate: self.rate,
-        }
+        let half = L::from_f64(0.5);
+        let drift = added(scaled(force, half), rate, L::sixth());
+        let gain = added(force, rate, half);
+        let gain = added(gain, bend, s * s * L::sixth());
+        [
+            added(self.drift, added(self.gain, drift, s), s),
+            added(self.gain, gain, s),
+        ]
     }
 
     /// With that of a harmonic added, which must be given relative to s = 0 ([`Harmonic::shifted`]).

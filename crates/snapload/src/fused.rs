@@ -1,7 +1,7 @@
 //! Work compiled twice: for any processor of a family, and for one that fuses a multiply with an add.
 //!
-//! All on its way is `#[inline(always)]`, and loops stand where a closure would: what is only called is compiled for the
-//! other processors.
+//! All on its way that takes time is `#[inline(always)]`, and loops stand where a closure would: what is only called is
+//! compiled for the other processors.
 //!
 //! [`crate::Real::mul_add`] rounds once everywhere, so the bits are the same. Where a processor has no instruction for it, or
 //! the compiler may not assume one, it is a function, which takes longer than both operations.
@@ -12,6 +12,8 @@
         reason = "a function for one kind of processor; see below"
     )
 )]
+
+use crate::real::Real;
 
 /// Something to do that may be compiled for one kind of processor.
 pub(crate) trait Work {
@@ -41,6 +43,12 @@ pub(crate) fn best<W: Work>(work: W) -> W::Done {
     } else {
         work.done()
     }
+}
+
+/// The same of work over one arithmetic: twice is compiled only what is fast enough for it to be felt.
+#[inline]
+pub(crate) fn best_over<T: Real, W: Work>(work: W) -> W::Done {
+    if T::FUSES { best(work) } else { work.done() }
 }
 
 /// Other families are compiled once: 64-bit Arm always fuses, elsewhere it is a function.

@@ -71,6 +71,11 @@ pub trait Lane:
     fn detached(self) -> Self {
         self
     }
+    /// 1/6 as near as these numbers come to it.
+    #[inline(always)]
+    fn sixth() -> Self {
+        Self::ONE / Self::from_f64(6.0)
+    }
     /// The larger of two; the first if they are equal or one is not a number.
     #[inline(always)]
     fn larger(self, other: Self) -> Self {

@@ -105,9 +105,9 @@ impl<T: Real> Pairs<T> {
     }
 
     /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders give them; keeps each T n,
-    /// to which [`Pairs::pull`] adds the rest.
+    /// to which [`Pairs::find_tensions`] adds the rest.
     #[inline(always)]
-    pub(crate) fn pulls(&mut self, k: usize) -> [T; 3] {
+    pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
         let mut sums = [T::ZERO; 3];
         for pair in &mut self.pairs {
             let [stretched, known] = convolve(
@@ -135,7 +135,7 @@ impl<T: Real> Pairs<T> {
     /// them. `accel` are those of (ẍ, ÿ, θ̈) but for these tensions, and `turned` those of order k + 2 of sine and cosine but
     /// for that of θ.
     #[inline(always)]
-    pub(crate) fn pull(
+    pub(crate) fn find_tensions(
         &mut self,
         k: usize,
         accel: [T; 3],
@@ -145,7 +145,7 @@ impl<T: Real> Pairs<T> {
         // The usual two are done in registers.
         if let [pair] = &mut self.pairs[..] {
             let load = pair.load(k, accel, turned);
-            return pair.pull(k, ready.solve_two(load));
+            return pair.take(k, ready.solve_two(load));
         }
         let mut loads = [T::ZERO; MAX_CABLES];
         for (pair, loads) in self.pairs.iter_mut().zip(loads.chunks_exact_mut(2)) {
@@ -154,7 +154,7 @@ impl<T: Real> Pairs<T> {
         let tensions = ready.solve(&loads);
         let mut sums = [T::ZERO; 3];
         for (pair, tension) in self.pairs.iter_mut().zip(tensions.chunks_exact(2)) {
-            let more = pair.pull(k, [tension[0], tension[1]]);
+            let more = pair.take(k, [tension[0], tension[1]]);
             sums = std::array::from_fn(|i| sums[i] + more[i]);
         }
         sums
@@ -201,7 +201,7 @@ impl<T: Real> Pair<T> {
 
     /// Takes in the k-th coefficients of the tensions; returns Σ T n and Σ s T of them.
     #[inline(always)]
-    fn pull(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
+    fn take(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
         let quad = [tension[0], tension[0], tension[1], tension[1]];
         let pull: Quad<T> = std::array::from_fn(|w| quad[w] * self.normal[w]);
         let (known, turned) = (self.turned_pull[k], turned_back(&pull));

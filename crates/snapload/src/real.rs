@@ -7,7 +7,7 @@
 //! where `mul_add` says so, on every machine, and nowhere else.
 
 use crate::elementary;
-pub(crate) use crate::lane::{cross, dot, length, quarter_turn};
+pub(crate) use crate::lane::{cross, dot, length};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

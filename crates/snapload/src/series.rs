@@ -286,13 +286,13 @@ impl<T: Real> Series<T> {
         let (sine, cosine) = self.rotation(k + 2);
         let share = T::ONE / ((k + 1) * (k + 2)) as f64;
 
-        let [x, y, moment] = self.pairs.pulls(k);
+        let [x, y, moment] = self.pairs.known_pulls(k);
         let known = [
             self.force[0][k] - x,
             self.force[1][k] - y,
             self.turning[k] - moment * inverse_inertia,
         ];
-        let [x, y, moment] = self.pairs.pull(k, known, [sine, cosine], ready);
+        let [x, y, moment] = self.pairs.find_tensions(k, known, [sine, cosine], ready);
         self.x[k + 2] = (known[0] - x) * share;
         self.y[k + 2] = (known[1] - y) * share;
         let theta = (known[2] - moment * inverse_inertia) * share;

@@ -4,7 +4,7 @@ use crate::contact::{Contact, Contacts};
 use crate::event::{Crossing, Reached, first_crossing};
 use crate::extremes::Extremes;
 use crate::flight::Flight;
-use crate::fused::{Work, best};
+use crate::fused::{Work, best_over};
 use crate::impact::Shock;
 use crate::mooring::{Moment, Mooring};
 use crate::real::Real;
@@ -28,8 +28,8 @@ const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
-/// It allocates when it is made and when a cable is first taut, and not after; it has no randomness and reads no
-/// clock: the same system, rules and start give the same bits.
+/// It allocates when it is made and at its first stretch without a closed form, and no other step does; it has no
+/// randomness and reads no clock: the same system, rules and start give the same bits.
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
     system: System<T>,
@@ -236,11 +236,7 @@ impl<T: Real> Simulation<T> {
     /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
     /// the motion has stopped.
     pub fn step(&mut self) -> Option<Step<T>> {
-        if T::FUSES {
-            best(NextStep(self))
-        } else {
-            self.step_here()
-        }
+        best_over::<T, _>(NextStep(self))
     }
 
     #[inline(always)]
@@ -330,7 +326,7 @@ impl<T: Real> Simulation<T> {
         let state = motion.state(s);
         let mut extremes = self.extremes;
         let bends = motion.bends(&self.system);
-        let within = |s| best(StateAt(&motion, s));
+        let within = |s| best_over::<T, _>(StateAt(&motion, s));
         extremes.cover(within, s, [&self.state, &state], bends);
         let mut contacts = self.contacts;
         for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {

@@ -4,7 +4,7 @@ use super::{Simulation, Step};
 use crate::contact::Contact;
 use crate::extremes::rises_above_zero;
 use crate::flight::Flight;
-use crate::fused::{Work, best};
+use crate::fused::{Work, best_over};
 use crate::real::{Real, length};
 use crate::series::Series;
 use crate::taut::tensions;
@@ -168,7 +168,7 @@ impl<T: Real> Simulation<T> {
         };
         let motion = self.motion(step.taut);
         let nearness = |s: T| {
-            let (gap, rate) = best(GapAndRate(&motion, cable, s));
+            let (gap, rate) = best_over::<T, _>(GapAndRate(&motion, cable, s));
             (gap + offset + slope * s, rate + slope)
         };
         rises_above_zero(&nearness, s, bend)

@@ -2,7 +2,7 @@
 
 use crate::lane::{Lane, Mask, difference, length_bound, scaled, sum};
 use crate::mooring::{Moment, Mooring, NEVER};
-use crate::tether::{GapJet, INFLATION, Instant, Tether};
+use crate::tether::{GapJet, INFLATION, Instant, Tether, flown};
 use crate::{Harmonic, State};
 
 /// The most looks of one search; one is usual.
@@ -91,46 +91,11 @@ pub(crate) struct TakeOff<L> {
 impl<L: Lane> TakeOff<L> {
     #[inline(always)]
     pub(crate) fn new(mooring: &Mooring<L>, from: &Moment<L>) -> Self {
-        let state = &from.state;
-        let turn = &from.turn;
-        let spin = state.vtheta;
+        let spin = from.state.vtheta;
         let wave = mooring.wave.shifted(from.t);
         let force = sum(mooring.constant, wave.cosine);
         let force_rate = scaled(wave.sine, wave.omega);
-        let [ux, uy, turning] = from.before;
-        let (speed, speed_before) = (length_bound([state.vx, state.vy]), length_bound([ux, uy]));
-        let speeds = [
-            speed_bound(speed, spin, mooring.reach[0]).larger(speed_bound(
-                speed_before,
-                turning,
-                mooring.reach[0],
-            )),
-            speed_bound(speed, spin, mooring.reach[1]).larger(speed_bound(
-                speed_before,
-                turning,
-                mooring.reach[1],
-            )),
-        ];
-        let tethers = [
-            Tether::new(
-                &mooring.cables[0],
-                mooring.reach[0],
-                state,
-                turn,
-                from.gaps[0],
-                speeds[0],
-                mooring.force,
-            ),
-            Tether::new(
-                &mooring.cables[1],
-                mooring.reach[1],
-                state,
-                turn,
-                from.gaps[1],
-                speeds[1],
-                mooring.force,
-            ),
-        ];
+        let tethers = [tether(mooring, from, 0), tether(mooring, from, 1)];
         let force_bend = scaled(wave.cosine, -(wave.omega * wave.omega));
         let forces = [force, force_rate, force_bend];
         let bends = [
@@ -291,10 +256,10 @@ impl<L: Lane> TakeOff<L> {
     fn after(&self, look: &Look<L>, rest: L, from: &Moment<L>) -> Arrival<L> {
         let s = look.s + rest;
         let [jet, other] = &look.jets;
-        let now = look.now.later(rest, self.force_bend(&look.now));
+        let push = look.now.push.later(rest, self.force_bend(&look.now));
         Arrival {
             s,
-            state: now.state(&from.state, s),
+            state: flown(&from.state, s, push),
             jets: [
                 jet.later(rest, look.fourths[0]),
                 other.later(rest, look.fourths[1]),
@@ -357,6 +322,25 @@ impl<L: Lane> TakeOff<L> {
         let late_open = late_open | (L::ZERO.at_most(end_value) & bound.below(L::ZERO));
         early_open & late_open
     }
+}
+
+/// One cable at the start of a flight.
+#[inline(always)]
+fn tether<L: Lane>(mooring: &Mooring<L>, from: &Moment<L>, i: usize) -> Tether<L> {
+    let (state, [ux, uy, turning]) = (&from.state, from.before);
+    let (cable, reach) = (&mooring.cables[i], mooring.reach[i]);
+    let speed = speed_bound(length_bound([state.vx, state.vy]), state.vtheta, reach);
+    let before = speed_bound(length_bound([ux, uy]), turning, reach);
+    let speed = speed.larger(before);
+    Tether::new(
+        cable,
+        reach,
+        state,
+        &from.turn,
+        from.gaps[i],
+        speed,
+        mooring.force,
+    )
 }
 
 /// A step of Newton's from the reciprocal of another number, not far away, to that of `x`.

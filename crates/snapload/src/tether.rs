@@ -180,15 +180,7 @@ impl<L: Lane> Instant<L> {
     /// The state, from that at the start.
     #[inline(always)]
     pub(crate) fn state(&self, start: &State<L>, s: L) -> State<L> {
-        let push = &self.push;
-        State {
-            x: start.x + start.vx.mul_add(s, push.drift[0]),
-            y: start.y + start.vy.mul_add(s, push.drift[1]),
-            theta: start.vtheta.mul_add(s, start.theta),
-            vx: start.vx + push.gain[0],
-            vy: start.vy + push.gain[1],
-            vtheta: start.vtheta,
-        }
+        flown(start, s, [self.push.drift, self.push.gain])
     }
 
     /// A time `s` into a flight that turns at `spin` under a constant force; harmonics are added.
@@ -198,15 +190,6 @@ impl<L: Lane> Instant<L> {
             push: Push::constant(constant, s),
             turn: Turn::by(spin * s),
             spin,
-        }
-    }
-
-    /// The forces' part a little later; the turn stays behind.
-    #[inline(always)]
-    pub(crate) fn later(self, s: L, bend: [L; 2]) -> Self {
-        Self {
-            push: self.push.later(s, bend),
-            ..self
         }
     }
 
@@ -220,11 +203,24 @@ impl<L: Lane> Instant<L> {
     }
 }
 
+/// The state a time `s` after `start`, as forces have drifted the body and made it gain velocity.
+#[inline(always)]
+pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [[L; 2]; 2]) -> State<L> {
+    State {
+        x: start.x + start.vx.mul_add(s, drift[0]),
+        y: start.y + start.vy.mul_add(s, drift[1]),
+        theta: start.vtheta.mul_add(s, start.theta),
+        vx: start.vx + gain[0],
+        vy: start.vy + gain[1],
+        vtheta: start.vtheta,
+    }
+}
+
 impl<L: Lane> GapJet<L> {
     /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ stays behind.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, fourth: L) -> Self {
-        let sixth = self.jerk * (1.0 / 6.0);
+        let sixth = self.jerk * L::sixth();
         let square = s * s;
         Self {
             value: self.value + self.rise(s, sixth),
@@ -247,7 +243,7 @@ impl<L: Lane> GapJet<L> {
     /// About how much later the cubic is zero, by reversion of its series to the third order, and what it is there.
     #[inline(always)]
     pub(crate) fn root(&self) -> (L, L) {
-        let sixth = self.jerk * (1.0 / 6.0);
+        let sixth = self.jerk * L::sixth();
         let per_rate = L::ONE / self.rate;
         let u = -(self.value * per_rate);
         let (bend, cubic) = (self.accel * 0.5 * per_rate, sixth * per_rate);
@@ -268,5 +264,43 @@ impl<L: Lane> GapJet<L> {
             noise: L::select(mask, yes.noise, no.noise),
             velocity: select2(mask, yes.velocity, no.velocity),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Precise, Real};
+
+    /// What moves a flight to its crossing is right to the last digit of any arithmetic: with 1, 2 and 6 as derivatives the
+    /// cubic is g + s + s² + s³, and a force that grows by 6 drifts by s³.
+    #[test]
+    fn cubics_keep_all_digits() {
+        type Digits = Precise<8>;
+        let [g, rate, accel, jerk, s] =
+            [-0.015625, 1.0, 2.0, 6.0, 0.125].map(<Digits as Real>::from_f64);
+        let zero = <Digits as Real>::ZERO;
+        let jet = GapJet {
+            value: g,
+            rate,
+            accel,
+            jerk,
+            noise: zero,
+            velocity: [zero; 2],
+        };
+        let off = |got: Digits, exact: Digits| (got - exact).to_f64().abs();
+        let cubic = |s: Digits| g + s * (rate + s * (rate + s));
+        assert!(off(jet.later(s, zero).value, cubic(s)) < 1e-150);
+        let (root, left) = jet.root();
+        assert!(off(left, cubic(root)) < 1e-150 && left.to_f64().abs() < 1e-7);
+
+        let push = Push {
+            drift: [zero; 2],
+            gain: [zero; 2],
+            force: [zero; 2],
+            rate: [jerk, zero],
+        };
+        let [drift, gain] = push.later(s, [zero, jerk]);
+        assert!(off(drift[0], s * s * s) < 1e-150 && off(gain[1], s * s * s) < 1e-150);
     }
 }
