@@ -12,6 +12,9 @@ from typing import Any
 import matplotlib
 import pytest
 
+pytest.register_assert_rewrite("explore")
+from explore import browser, open_page, url  # noqa: E402, F401  (fixtures)
+
 ROOT = Path(__file__).resolve().parents[2]
 
 matplotlib.use("Agg")

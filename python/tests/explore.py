@@ -1,0 +1,139 @@
+"""The page of `snapload explore` in a real browser: what its tests share."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+DESKTOP = {"width": 1440, "height": 900}
+SMALLER = {"width": 1024, "height": 768}
+PHONE = {"width": 390, "height": 844}
+SMALLEST = {"width": 320, "height": 568}
+SIDEWAYS = {"width": 740, "height": 360}
+PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
+
+
+@pytest.fixture(scope="module")
+def url() -> Iterator[str]:
+    """The address at which the program serves the page; it ends with 0 when interrupted."""
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    program = [target / "debug" / "snapload", "explore", "--no-browser"]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+        assert server.stdout is not None
+        said = server.stdout.readline()
+        found = re.search(r"http://127\.0\.0\.1:\d+/", said)
+        assert found, said
+        yield found[0]
+        server.send_signal(signal.SIGINT)
+        assert server.wait(timeout=10) == 0
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    chromium = shutil.which("chromium")
+    assert chromium, "there is no chromium on the PATH; ./test.sh installs it"
+    quiet = ["--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run"]
+    with sync_playwright() as playwright:
+        # Chromium refuses to sandbox itself when root runs it.
+        browser = playwright.chromium.launch(executable_path=chromium, args=[*quiet, "--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
+    """Opens the page with a state; afterwards nothing may have gone wrong in it, nor asked another host."""
+    contexts, wrong = [], []
+
+    def visit(fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any) -> Page:
+        context = browser.new_context(viewport=viewport, accept_downloads=True, **options)
+        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=url.rstrip("/"))
+        contexts.append(context)
+        page = context.new_page()
+        page.set_default_timeout(15_000)
+        page.on("pageerror", lambda error: wrong.append(f"error in the page: {error}"))
+        page.on("request", lambda request: outside(request.url) and wrong.append(f"asked {request.url}"))
+        # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
+        page.on("console", lambda line: refused or wrong.append(f"console: {line.text}"))
+        page.goto(url + (f"#{fragment}" if fragment else ""))
+        settled(page)
+        return page
+
+    def outside(address: str) -> bool:
+        return not address.startswith((url, "blob:" + url, "data:"))
+
+    yield visit
+    for context in contexts:
+        context.close()
+    assert wrong == []
+
+
+def settled(page: Page, after: int = 0) -> None:
+    """Waits until a picture is painted, one later than so many."""
+    comes_true(page, lambda: count(page) > after)
+
+
+def comes_true(page: Page, what: Callable[[], bool]) -> None:
+    """Waits for something; the page's rules forbid what Playwright's own wait for a function needs."""
+    for _ in range(1000):
+        if what():
+            return
+        page.wait_for_timeout(15)
+    raise AssertionError("it did not come true in time")
+
+
+def count(page: Page) -> int:
+    return int(page.locator("#took").get_attribute("data-count") or 0)
+
+
+def clock(page: Page) -> float:
+    return float(page.locator("#clock").inner_text().removeprefix("t = ").removesuffix(" T"))
+
+
+def exact_time(page: Page) -> float:
+    return float(page.locator("#clock").get_attribute("data-t") or "nan")
+
+
+def times(page: Page) -> list[float]:
+    """The times of the events that the table shows."""
+    return page.locator("#events-body .go").evaluate_all("all => all.map(one => Number(one.dataset.t))")
+
+
+def read(text: str) -> float:
+    return float(re.findall(r"[−-]?\d+(?:\.\d+)?(?:e[−-]?\d+)?", text)[0].replace("−", "-"))
+
+
+def shown_is(page: Page, run: dict[str, Any]) -> None:
+    """The page shows the run that the command computed: impacts to the last bit, norms as far as they are printed."""
+    impacts = [impact["t"] for impact in run["impacts"]]
+    comes_true(page, lambda: set(impacts[:40]) <= set(times(page)))
+    assert page.locator('[data-norm="impacts"]').inner_text() == str(len(impacts))
+    for norm in ["rho1", "rho2", "rho3", "y_max", "theta_max"]:
+        assert read(page.locator(f'[data-norm="{norm}"]').inner_text()) == pytest.approx(run["norms"][norm], rel=1e-4)
+    page.locator("#last").click()
+    assert exact_time(page) == run["end"]["t"]
+
+
+def download(page: Page, button: str, path: Path) -> bytes:
+    with page.expect_download() as event:
+        page.locator(button).click()
+    assert event.value.suggested_filename == path.name
+    event.value.save_as(path)
+    return path.read_bytes()
+
+
+def drawn(page: Page) -> list[str]:
+    """Every canvas, as it is painted."""
+    page.wait_for_timeout(400)
+    ids = ["#scene", "#strip", "#trajectory .base", "#charts .base"]
+    return page.evaluate("ids => ids.map(id => document.querySelector(id).toDataURL())", ids)

@@ -1,0 +1,195 @@
+"""The page of `snapload explore` is for everyone: in any window, light or dark, read aloud, without motion."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from explore import (
+    DESKTOP,
+    PHONE,
+    SIDEWAYS,
+    SMALLER,
+    SMALLEST,
+    comes_true,
+    count,
+    download,
+    drawn,
+    exact_time,
+    settled,
+)
+from playwright.sync_api import Page, expect
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("viewport", [DESKTOP, SMALLER, PHONE], ids=["desktop", "smaller", "phone"])
+def test_it_is_for_everyone(open_page, viewport, scheme):
+    page = open_page(
+        "f_o=0.27&stop_when_settled=false&t=8.7&t_end=12&map=f_o,0,1,5,e,0.5,1,4,reason",
+        viewport=viewport,
+        color_scheme=scheme,
+    )
+    expect(page.locator("#map-progress")).to_have_text("20 runs")
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    blameless(page)
+
+
+@pytest.mark.parametrize("viewport", [SMALLEST, SIDEWAYS], ids=["smallest", "sideways"])
+def test_it_fits_in_a_small_window(open_page, viewport):
+    page = open_page("t=0", viewport=viewport)
+    before = count(page)
+    page.locator("#case").select_option("1920001000-359")
+    settled(page, before)
+    page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    assert page.locator("#case").bounding_box()["width"] > 200, "the case can not be read"
+
+
+@pytest.mark.parametrize("height", [150, 40])
+def test_a_low_window_breaks_nothing(open_page, height):
+    open_page("t=0", viewport={"width": 900, "height": height}).screenshot(full_page=True)
+    lines = open_page().evaluate(
+        """async height => {
+            const { Run } = await import('./run.js');
+            const { sceneShapes } = await import('./scene.js');
+            const body = JSON.stringify({ values: {}, ghost: null, samples: 100 });
+            const headers = { 'Content-Type': 'application/json' };
+            const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
+            const colours = new Proxy({}, { get: () => 'rgb(0 0 0)' });
+            const options = { width: 900, height, picture: 'real', view: 'whole', colours, speed: 1 };
+            return sceneShapes(run, 1, options).filter(shape => shape.circle).map(shape => shape.circle[2]);
+        }""",
+        height,
+    )
+    assert len(lines) > 3 and min(lines) > 0
+
+
+def blameless(page: Page) -> None:
+    """axe-core finds nothing that would keep anybody out."""
+    result = Axe().run(page)
+    assert result.violations_count == 0, result.generate_report()
+
+
+def test_the_keys_are_told_and_can_be_turned_off(open_page):
+    page = open_page()
+    page.keyboard.press("?")
+    expect(page.locator("#help-dialog")).to_be_visible()
+    assert "next event" in page.locator("#help-keys").inner_text()
+    blameless(page)
+    page.locator("#single-keys").uncheck()
+    page.keyboard.press("Escape")
+    page.keyboard.press("v")
+    expect(page.get_by_label("Real")).to_be_checked()
+    page.keyboard.press("ArrowRight")
+    assert exact_time(page) > 0
+
+
+@pytest.mark.parametrize("floor", ["Infinity", "0"])
+def test_a_slack_line_is_as_long_as_its_cable(open_page, floor):
+    page = open_page()
+    lines = page.evaluate(
+        """async floor => {
+            const { hang } = await import('./hang.js');
+            const ends = [[1, -1.2], [1.49, -0.05], [0.2, -1.3], [0, -1.1], [-0.7, -1.0], [0.9, -0.0001]];
+            return ends.map(end => ({ end, points: hang([0, 0], end, 1.6, Number(floor)) }));
+        }""",
+        floor,
+    )
+    for line in lines:
+        points = line["points"]
+        assert points[0] == [0, 0] and points[-1] == pytest.approx(line["end"], abs=1e-9)
+        # Forty chords of a curve are a little shorter than the curve, never longer.
+        assert 1.6 * (1 - 2e-3) < sum(map(math.dist, points, points[1:])) <= 1.6 * (1 + 1e-9), line["end"]
+        assert max(y for _, y in points) <= (1e-9 if floor == "0" else 1), "it hangs through the floor"
+
+
+def test_between_rows_the_motion_is_the_engines(open_page, command_json):
+    page = open_page()
+    exact = command_json("run", "--ensemble", "0", "--sample", "0.0317")["motion"]
+    drawn = page.evaluate(
+        """async times => {
+            const { Motion } = await import('./run.js');
+            const body = JSON.stringify({ values: {}, ghost: null, samples: 1200 });
+            const headers = { 'Content-Type': 'application/json' };
+            const answer = await fetch('api/run', { method: 'POST', headers, body });
+            const motion = new Motion((await answer.json()).motion);
+            return times.map(t => motion.at(t));
+        }""",
+        [row["t"] for row in exact],
+    )
+    for row, moment in zip(exact, drawn, strict=True):
+        for name in ["x", "y", "theta", "vx", "vy", "vtheta"]:
+            assert moment[name] == pytest.approx(row[name], abs=1e-8), (name, row["t"])
+
+
+def test_the_theme_can_be_chosen(open_page):
+    page = open_page()
+    paper = "() => getComputedStyle(document.documentElement).backgroundColor"
+    light = page.evaluate(paper)
+    for _ in range(2):
+        page.locator("#theme").click()
+    assert page.locator("#theme").inner_text() == "Theme: dark" and page.evaluate(paper) != light
+
+
+def test_those_who_want_no_motion_get_none(open_page):
+    at_a_snap = "t=0.4721795499019612"
+    moving, still = open_page(at_a_snap), open_page(at_a_snap, reduced_motion="reduce")
+    assert drawn(moving)[0] != drawn(still)[0], "the flash is left out"
+    assert drawn(moving)[2:] == drawn(still)[2:]
+    assert exact_time(still) == 0.4721795499019612
+
+
+def test_the_legend_tells_of_what_there_is(open_page):
+    standard, sliding = open_page("f_o=0.3&t=0"), open_page("f_o=0.27&stop_when_settled=false&t=0")
+    cables = {"× snap of cable 1", "○ snap of cable 2", "cable 1 taut here", "cable 2 taut here", "at θ = 0"}
+    assert legend(standard) == cables | {"past the horizon"}, "it never slides nor rocks"
+    assert legend(sliding) == cables | {"slack", "sliding", "rocking", "past the horizon"}
+    expect(standard.locator("#ramp-key")).to_be_hidden()
+    expect(sliding.locator("#ramp-words")).to_have_text(re.compile(r"^tension, up to [\d.]+ F$"))
+    colour = "of => getComputedStyle(document.querySelector(`.legend [data-of=${of}]`), '::before').borderTopColor"
+    lines = {of: sliding.evaluate(colour, of) for of in ["taut-1", "taut-2", "slack", "sliding", "rocking"]}
+    assert lines["sliding"] == lines["rocking"] and len(set(lines.values())) == 4, "a colour means one thing"
+    for cable in [1, 2]:
+        stroke = f"() => getComputedStyle(document.querySelector('.boundary.b{cable}')).stroke"
+        assert sliding.evaluate(stroke) == lines[f"taut-{cable}"]
+
+
+def legend(page: Page) -> set[str]:
+    return set(page.locator(".legend [data-of]:visible").all_inner_texts())
+
+
+SNAP_RED = "rgb(161, 18, 31)"
+
+
+def test_a_picture_that_stands_shows_a_snap_at_its_instant_alone(open_page, command_json, tmp_path: Path):
+    first = command_json("run", "--ensemble", "0")["impacts"][0]
+    page = open_page(f"t={first['t']}")
+    expect(page.locator("#caption")).to_have_text(f"snap of cable {first['cable']}; slack")
+    assert SNAP_RED in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # So soon after it that the flash would not have faded if it were played.
+    after = open_page(f"t={first['t'] + 0.001}")
+    expect(after.locator("#caption")).to_have_text("slack")
+    assert SNAP_RED not in download(after, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    # Nor does a picture that is paused keep what was fading while it played.
+    page.locator("#speed").select_option("0.01")
+    page.locator("#play").click()
+    comes_true(page, lambda: exact_time(page) > first["t"])
+    page.locator("#play").click()
+    assert SNAP_RED not in download(page, "#scene-svg", tmp_path / "scene.svg").decode("utf-8")
+    assert drawn(page)[0] == drawn(open_page(f"t={exact_time(page)}&speed=0.01"))[0]
+
+
+def test_a_screen_reader_is_told(open_page):
+    page = open_page("f_o=0.27&stop_when_settled=false&t=30")
+    words = page.locator("#scene").get_attribute("aria-label")
+    assert "rocking: cable 1 taut, tension" in words and "t = 30.000" in words
+    assert "of 100.000 T, rocking" in page.locator("#scrub").get_attribute("aria-valuetext")
+    for chart in page.locator("canvas.base").all():
+        assert len(chart.get_attribute("aria-label")) > 40
+    unnamed = page.evaluate("""() => [...document.querySelectorAll('input, select, button')]
+        .filter(one => !one.labels?.length && !one.ariaLabel && !one.textContent.trim()).map(one => one.id)""")
+    assert unnamed == []
