@@ -141,6 +141,11 @@ impl Asked {
             }
         }
         self.random = args.random.or(self.random);
+        if let (Some(seed), None) = (args.seed, self.random) {
+            return Err(Failure::BadInput(format!(
+                "--seed {seed} says which random points, and there are none; add --random N, or leave it out"
+            )));
+        }
         self.seed = args.seed.unwrap_or(self.seed);
         if let Some(list) = &args.list {
             self.list = Some(list.clone());

@@ -50,6 +50,13 @@ impl PictureArgs {
             let shown = path.display();
             return Err(wrong(format!("{shown} ends neither in .svg nor in .png")));
         }
+        let folder = folder(path);
+        if !folder.is_dir() {
+            let (shown, missing) = (path.display(), folder.display());
+            return Err(wrong(format!(
+                "can not write {shown}: there is no folder {missing}; make it first"
+            )));
+        }
         let axes = axes_of(study).unwrap_or_default();
         let axes: Vec<Axis> = axes.into_iter().filter(|axis| axis.count() > 1).collect();
         if !(1..=2).contains(&axes.len()) {
@@ -106,15 +113,19 @@ impl PictureArgs {
             picture.svg().as_bytes().to_vec()
         };
         let mut stage = Stage::default();
-        let parent = wanted
-            .path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        let room = stage.open(parent.unwrap_or(Path::new(".")))?;
+        let room = stage.open(folder(&wanted.path))?;
         stage.write(room, wanted.path.clone(), |out| out.write_all(&bytes))?;
         stage.commit()?;
         Ok(Some(wanted.path))
     }
+}
+
+/// Where a file is to be.
+fn folder(path: &Path) -> &Path {
+    let parent = path.parent();
+    parent
+        .filter(|parent| !parent.as_os_str().is_empty())
+        .unwrap_or(Path::new("."))
 }
 
 /// The study that a file holds, and how many cases it has.

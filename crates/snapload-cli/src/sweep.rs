@@ -6,7 +6,7 @@ use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use clap::CommandFactory;
 use snapload_study::{
-    Finished, Identity, Opened, Shard, Store, StudyError, Watch, columns, ends, sweep,
+    Finished, Identity, Opened, Shard, Store, StudyError, Tally, Watch, columns, ends, sweep,
 };
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -138,6 +138,15 @@ pub(crate) fn summary(file: &Path, rows: u64, picture: Option<PathBuf>) -> Resul
         counts.join(", ")
     };
     let _ = writeln!(text, "Ends      {ends}");
+    if tally.judged > 0 {
+        let Tally {
+            certain, judged, ..
+        } = tally;
+        let _ = writeln!(
+            text,
+            "Trust     {certain} of {judged} ends are certain: column certain"
+        );
+    }
     if let Some((row, error)) = tally.first_error {
         let first = error.lines().next().unwrap_or_default();
         let _ = writeln!(

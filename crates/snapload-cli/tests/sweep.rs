@@ -282,6 +282,22 @@ fn a_bad_row_is_a_row_with_its_error() {
         ));
 }
 
+/// Where a cable returns half of its velocity errors hardly grow; the standard case is past trust when it ends.
+#[test]
+fn the_summary_tells_how_many_ends_are_certain() {
+    let d = directory();
+    let told = sweep(d.path(), &["--vary", "e=0.5,0.55,0.9"], "e.parquet").success();
+    told.stdout(contains(
+        "Trust     2 of 3 ends are certain: column certain",
+    ));
+    let told = sweep(
+        d.path(),
+        &["--vary", "e=0.5,0.9", "--no-trust"],
+        "plain.parquet",
+    );
+    told.success().stdout(contains("Trust").not());
+}
+
 #[test]
 fn random_points_depend_on_their_seed() {
     let d = directory();
@@ -377,6 +393,11 @@ fn slips_are_refused_before_anything_is_run() {
             "ends neither in .svg nor in .png",
         ),
         (&["--plot", "x.svg"], "a grid over one or two keys"),
+        (
+            &["--vary", "e=0:1:3", "--plot", "none/x.svg"],
+            "there is no folder none; make it first",
+        ),
+        (&["--seed", "3"], "add --random N"),
         (
             &["--vary", "e=0:1:3", "--plot", "x.svg", "--show", "rho"],
             "there is no column \"rho\"",

@@ -273,17 +273,17 @@ fn describe(identity: &Identity) -> String {
 }
 
 fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
-    let mut lines = known.lines().chain(std::iter::repeat("(nothing)"));
-    let mut asked = wanted.lines().chain(std::iter::repeat("(nothing)"));
-    let longest = known.lines().count().max(wanted.lines().count());
-    let differing = (0..longest).find_map(|_| {
-        let (there, here) = (lines.next()?, asked.next()?);
-        (there != here).then(|| format!("there: {there}\nhere:  {here}\n"))
-    });
+    let only = |one: &str, other: &str| {
+        let mut lines = one
+            .lines()
+            .filter(|line| !other.lines().any(|o| o == *line));
+        lines.next().unwrap_or("(nothing of the kind)").to_owned()
+    };
+    let (there, here) = (only(known, wanted), only(wanted, known));
+    let directory = directory.display();
     StudyError::Input(format!(
-        "{} holds rows of another study\n{}hint: choose another --out, or remove it to begin anew",
-        directory.display(),
-        differing.unwrap_or_default()
+        "{directory} holds rows of another study\nthere: {there}\nhere:  {here}\nhint: choose another --out, \
+         or remove {directory} to begin anew"
     ))
 }
 

@@ -164,6 +164,10 @@ fn missing(from: u64, to: u64) -> StudyError {
 pub struct Tally {
     /// How many in which way.
     pub ends: BTreeMap<String, u64>,
+    /// Of how many it was found out whether the end is certain.
+    pub judged: u64,
+    /// How many of these are.
+    pub certain: u64,
     /// How many rows have an error.
     pub errors: u64,
     /// The number of the first of those, and its error.
@@ -177,8 +181,12 @@ pub struct Tally {
 pub fn ends(path: &Path) -> Result<Tally, StudyError> {
     let mut tally = Tally::default();
     let mut row = identity_of(path).map_or(0, |identity| identity.rows.start);
-    read_columns(path, &["end", "error"], |columns| {
-        let (ends, errors) = (columns[0].as_string::<i32>(), columns[1].as_string::<i32>());
+    read_columns(path, &["end", "certain", "error"], |columns| {
+        let (ends, errors) = (columns[0].as_string::<i32>(), columns[2].as_string::<i32>());
+        for certain in columns[1].as_boolean().iter().flatten() {
+            tally.judged += 1;
+            tally.certain += u64::from(certain);
+        }
         for (end, error) in ends.iter().zip(errors) {
             if let Some(end) = end {
                 match tally.ends.get_mut(end) {

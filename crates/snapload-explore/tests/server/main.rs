@@ -1,4 +1,4 @@
-//! What the server answers, and to whom: its numbers are the library's, and strangers are refused.
+//! What the server answers: its numbers are the library's.
 #![allow(clippy::unwrap_used, clippy::panic)]
 #[path = "../common/mod.rs"]
 mod common;
