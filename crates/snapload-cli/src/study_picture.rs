@@ -8,7 +8,7 @@ use snapload_figures::{
     Axis as PlotAxis, Cell, FigureError, Layer, Map, Picture, Plot, Range, Stroke, Width, draw,
     draw_map,
 };
-use snapload_study::{Axis, Column, Shown, columns, identity_of, read_shown};
+use snapload_study::{Axis, Column, Shown, columns, folder_of, identity_of, read_shown};
 use std::path::{Path, PathBuf};
 
 /// The most cells of a map, and points of a line: more are not seen, and make the file large.
@@ -50,13 +50,7 @@ impl PictureArgs {
             let shown = path.display();
             return Err(wrong(format!("{shown} ends neither in .svg nor in .png")));
         }
-        let folder = folder(path);
-        if !folder.is_dir() {
-            let (shown, missing) = (path.display(), folder.display());
-            return Err(wrong(format!(
-                "can not write {shown}: there is no folder {missing}; make it first"
-            )));
-        }
+        folder_of(path).map_err(|error| wrong(error.to_string()))?;
         let axes = axes_of(study).unwrap_or_default();
         let axes: Vec<Axis> = axes.into_iter().filter(|axis| axis.count() > 1).collect();
         if !(1..=2).contains(&axes.len()) {
@@ -113,19 +107,11 @@ impl PictureArgs {
             picture.svg().as_bytes().to_vec()
         };
         let mut stage = Stage::default();
-        let room = stage.open(folder(&wanted.path))?;
+        let room = stage.open(folder_of(&wanted.path)?)?;
         stage.write(room, wanted.path.clone(), |out| out.write_all(&bytes))?;
         stage.commit()?;
         Ok(Some(wanted.path))
     }
-}
-
-/// Where a file is to be.
-fn folder(path: &Path) -> &Path {
-    let parent = path.parent();
-    parent
-        .filter(|parent| !parent.as_os_str().is_empty())
-        .unwrap_or(Path::new("."))
 }
 
 /// The study that a file holds, and how many cases it has.

@@ -414,7 +414,9 @@ fn slips_are_refused_before_anything_is_run() {
     }
     sweep(d.path(), &[], "no/such/out.parquet")
         .code(2)
-        .stderr(contains("No such file"));
+        .stderr(contains(
+            "can not write no/such/out.parquet: there is no folder no/such; make it first",
+        ));
     fs::write(d.path().join("mine"), "mine").unwrap();
     sweep(d.path(), &[], "mine")
         .code(2)

@@ -26,7 +26,7 @@ pub use metadata::{Identity, Shard};
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
 pub use rows::{Row, rows};
 pub use sobol::Sobol;
-pub use store::{Opened, Store, chunk};
+pub use store::{Opened, Store, chunk, folder_of};
 pub use study::{Drawn, Study};
 pub use sweep::{Finished, Watch, sweep};
 pub use table::{Column, columns, reason};

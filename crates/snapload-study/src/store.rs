@@ -54,6 +54,7 @@ impl Store {
         if fs::symlink_metadata(target).is_ok() {
             return finished(target, &directory, &identity, resume);
         }
+        folder_of(target)?;
         let text = describe(&identity);
         let known = fs::read_to_string(directory.join(STUDY)).ok();
         if let Some(known) = &known {
@@ -270,6 +271,25 @@ fn describe(identity: &Identity) -> String {
         "# snapload {version}: rows {} to {} of {cases}\n{study}",
         rows.start, rows.end
     )
+}
+
+/// The folder in which a file is to be.
+///
+/// # Errors
+/// [`StudyError::Input`] if there is none.
+pub fn folder_of(file: &Path) -> Result<&Path, StudyError> {
+    let parent = file
+        .parent()
+        .filter(|parent| !parent.as_os_str().is_empty());
+    let folder = parent.unwrap_or(Path::new("."));
+    if folder.is_dir() {
+        return Ok(folder);
+    }
+    Err(StudyError::Input(format!(
+        "can not write {}: there is no folder {}; make it first",
+        file.display(),
+        folder.display()
+    )))
 }
 
 fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
