@@ -29,7 +29,7 @@ class Verification:
         Decimal digits of the second run.
     digits_left : float
         Those that are still right at its end.
-    proven : int or None
+    first_wrong : int or None
         The first impact, from 1, at which the ordinary run is wrong; None if it is right at all of them.
     predicted : int or None
         Where the ordinary run said that trust in it ends.
@@ -49,7 +49,7 @@ class Verification:
 
     digits: int
     digits_left: float
-    proven: int | None
+    first_wrong: int | None
     predicted: int | None
     compared: int
     end: str | None
@@ -71,12 +71,12 @@ class Verification:
         shown = np.maximum(self.differences, 1e-18)
         ax.semilogy(impacts, shown, color=BLUE, linewidth=1.0)
         ax.axhline(self.tolerance, color=GREY, linewidth=0.8, linestyle=":")
-        for impact, name, style in ((self.predicted, "predicted", "--"), (self.proven, "proven", "-")):
+        for impact, name, style in ((self.predicted, "predicted", "--"), (self.first_wrong, "first_wrong", "-")):
             if impact is not None:
                 ax.axvline(impact, color=VERMILION, linewidth=1.0, linestyle=style, label=name)
         ax.set_xlabel("impact")
         ax.set_ylabel("difference")
-        if self.proven is not None or self.predicted is not None:
+        if self.first_wrong is not None or self.predicted is not None:
             ax.legend(frameon=False, fontsize="small", title="wrong from", title_fontsize="small")
         return ax
 
@@ -84,7 +84,7 @@ class Verification:
         return self._told.rstrip("\n")
 
     def __repr__(self) -> str:
-        return f"<Verification with {self.digits} digits: proven {self.proven}, predicted {self.predicted}>"
+        return f"<Verification with {self.digits} digits: first_wrong {self.first_wrong}, predicted {self.predicted}>"
 
     def _repr_html_(self) -> str:
         return f"<pre>{escape(str(self))}</pre>"
@@ -119,14 +119,14 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     --------
     >>> import snapload
     >>> proof = snapload.verify(snapload.Case(f_o=0.31))
-    >>> proof.proven is None, proof.compared
+    >>> proof.first_wrong is None, proof.compared
     (True, 12)
     """
     digits = whole("digits", digits, 1, _engine.MOST_DIGITS)
     answer, told = _engine.verify(case._engine, digits, tolerance, None)
     found = json.loads(answer)
     return Verification(
-        **{key: found[key] for key in ("digits", "digits_left", "proven", "predicted", "compared")},
+        **{key: found[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},
         **{key: found[key] for key in ("end", "t", "impacts")},
         differences=np.array(found["differences"], dtype=np.float64),
         tolerance=tolerance,

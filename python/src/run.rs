@@ -12,7 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{Doubt, Ensemble, START_KEYS};
+use snapload::analysis::{Ensemble, START_KEYS, Uncertainty};
 use snapload::{CaseError, Playback, Value};
 use snapload_report::{
     CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
@@ -248,10 +248,10 @@ pub(crate) fn doubt(
     case: &snapload::Case,
     uncertainty: Option<&Bound<'_, PyAny>>,
     tolerance: f64,
-) -> PyResult<Doubt> {
-    let mut doubt = Doubt {
+) -> PyResult<Uncertainty> {
+    let mut doubt = Uncertainty {
         tolerance: positive("tolerance", tolerance)?,
-        ..Doubt::default()
+        ..Uncertainty::default()
     };
     let mut set = |name: &str, size: f64| {
         let within = |error: CaseError| PyValueError::new_err(format!("uncertainty: {error}"));
@@ -299,7 +299,7 @@ pub(crate) fn ensemble(
     seed: u64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let doubt = doubt(&case.case, uncertainty, Doubt::default().tolerance)?;
+    let doubt = doubt(&case.case, uncertainty, Uncertainty::default().tolerance)?;
     let ensemble = Ensemble::about(&case.case, &doubt, members, seed);
     let tally = interruptible(py, progress, move |pulse| ensemble.tally(|| pulse.beat()))?;
     let shares = tally.map_err(of_case)?.shares();

@@ -80,8 +80,8 @@ def test_the_proof_is_the_same(command_json, command):
     args = ["verify", "--case", "1710001000-359", "--tolerance", "1e-15"]
     told = command_json(*args)
     proof = snapload.verify(snapload.cases["1710001000-359"], tolerance=1e-15)
-    assert proof.proven is not None
-    for name in ("digits", "digits_left", "proven", "predicted", "compared", "end", "t", "impacts"):
+    assert proof.first_wrong is not None
+    for name in ("digits", "digits_left", "first_wrong", "predicted", "compared", "end", "t", "impacts"):
         assert getattr(proof, name) == told[name]
     assert proof.differences.tolist() == told["differences"]
     assert str(proof) == command(*args).rstrip("\n")

@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::stage::Stage;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
-use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan};
+use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Uncertainty};
 use snapload::{Parameters, Value, key_named};
 use snapload_report::{CriticalRow, Probability};
 use snapload_study::{Grid, reason};
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", conflicts_with = "over", value_parser = clap::value_parser!(u32).range(1..))]
     ensemble: Option<u32>,
     #[command(flatten)]
-    doubt: DoubtArgs,
+    uncertainty: DoubtArgs,
     /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
@@ -56,13 +56,13 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    if args.doubt.is_given() && args.ensemble.is_none() {
+    if args.uncertainty.is_given() && args.ensemble.is_none() {
         return Err(Failure::bad_input(
             "--uncertainty asks for neighbours, but none are to be run; add --ensemble N, such as --ensemble 200",
         ));
     }
     let input = args.case.read()?;
-    let doubt = args.doubt.read(&input.case)?;
+    let uncertainty = args.uncertainty.read(&input.case)?;
     let scan = ForceScan::new(args.step, args.max)
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
     let mut stage = Stage::default();
@@ -72,9 +72,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             let parameters = input.case.parameters();
             let row =
                 CriticalRow(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
-            let curve = args
-                .ensemble
-                .map(|members| probability(parameters, scan, &doubt, members, args.doubt.seed()));
+            let curve = args.ensemble.map(|members| {
+                probability(
+                    parameters,
+                    scan,
+                    &uncertainty,
+                    members,
+                    args.uncertainty.seed(),
+                )
+            });
             Answer::One(row, curve.transpose()?)
         }
         Some(over) => Answer::Many(Many::compute(&input, &Over::parse(over)?, scan)?),
@@ -134,13 +140,13 @@ impl Over {
 fn probability(
     parameters: &Parameters,
     scan: ForceScan,
-    doubt: &Doubt,
+    uncertainty: &Uncertainty,
     members: u32,
     seed: u64,
 ) -> Result<Probability, Failure> {
     let mut progress = Progress::new("force amplitudes", scan.amplitudes().count() as f64);
     let watch = |done: usize| progress.show(done as f64);
-    let curve = ExceedanceCurve::scan(parameters, scan, doubt, members, seed, watch)
+    let curve = ExceedanceCurve::scan(parameters, scan, uncertainty, members, seed, watch)
         .map_err(Failure::bad_input)?;
     Ok(Probability {
         curve,

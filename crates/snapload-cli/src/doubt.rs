@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use crate::progress::Progress;
 use snapload::Case;
-use snapload::analysis::{DEFAULT_MEMBERS, Doubt, START_KEYS};
+use snapload::analysis::{DEFAULT_MEMBERS, START_KEYS, Uncertainty};
 use snapload_report::Trusted;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -48,15 +48,15 @@ pub(crate) struct DoubtArgs {
 
 impl DoubtArgs {
     /// Reads them and checks them against a case.
-    pub(crate) fn read(&self, case: &Case) -> Result<Doubt, Failure> {
-        let mut doubt = Doubt {
+    pub(crate) fn read(&self, case: &Case) -> Result<Uncertainty, Failure> {
+        let mut uncertainty = Uncertainty {
             tolerance: self.tolerance.read()?,
-            ..Doubt::default()
+            ..Uncertainty::default()
         };
         for text in &self.uncertainty {
-            set(&mut doubt, text, case)?;
+            set(&mut uncertainty, text, case)?;
         }
-        Ok(doubt)
+        Ok(uncertainty)
     }
 
     /// Whether anything was said to be uncertain.
@@ -69,7 +69,7 @@ impl DoubtArgs {
     }
 }
 
-fn set(doubt: &mut Doubt, text: &str, case: &Case) -> Result<(), Failure> {
+fn set(uncertainty: &mut Uncertainty, text: &str, case: &Case) -> Result<(), Failure> {
     let wrong = |what: &str| {
         Failure::BadInput(format!(
             "--uncertainty {text:?}: {what}; write a number such as 1e-3 for all start values, or \
@@ -88,7 +88,7 @@ fn set(doubt: &mut Doubt, text: &str, case: &Case) -> Result<(), Failure> {
         None => (START_KEYS.to_vec(), parse(text)?),
     };
     for key in keys {
-        doubt
+        uncertainty
             .set(key, size)
             .map_err(|error| Failure::BadInput(format!("--uncertainty: {error}")))?;
     }
@@ -106,7 +106,7 @@ pub(crate) struct EnsembleArgs {
 /// Runs a case, and its neighbours where it takes them, under progress bars.
 pub(crate) fn trusted(
     case: &Case,
-    doubt: &DoubtArgs,
+    uncertainty: &DoubtArgs,
     ensemble: &EnsembleArgs,
 ) -> Result<Trusted, Failure> {
     let members = ensemble.ensemble;
@@ -122,9 +122,9 @@ pub(crate) fn trusted(
     };
     Trusted::run(
         case,
-        doubt.read(case)?,
+        uncertainty.read(case)?,
         members,
-        doubt.seed(),
+        uncertainty.seed(),
         |t| running.at(t),
         neighbour,
     )

@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    doubt: DoubtArgs,
+    uncertainty: DoubtArgs,
     #[command(flatten)]
     ensemble: EnsembleArgs,
     /// Time step of the motion in --json and --out
@@ -58,7 +58,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let input = args.case.read()?;
     let mut outputs = Outputs::open(args)?;
-    let trusted = trusted(&input.case, &args.doubt, &args.ensemble)?;
+    let trusted = trusted(&input.case, &args.uncertainty, &args.ensemble)?;
     let trajectory = &trusted.run;
     let sampling = args.sample.map(|dt| sampling(dt, trajectory)).transpose()?;
     let progress = RefCell::new(Progress::new("writing the motion", trajectory.end().t));

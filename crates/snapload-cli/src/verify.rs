@@ -19,7 +19,7 @@ Examples:
       the standard case: from which impact on the ordinary run is wrong by 1e-3
   snapload verify --case 1922001000-359 --tolerance 1e-6
       a square, in which errors grow fastest, to six digits
-  snapload verify --digits 150 --json - | jq .proven
+  snapload verify --digits 150 --json - | jq .first_wrong
       with twice the digits, for the next program";
 
 /// Which case, and with how many digits.

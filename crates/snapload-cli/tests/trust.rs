@@ -118,14 +118,14 @@ fn sensitivities_are_those_of_two_runs_side_by_side() {
 fn many_digits_show_where_the_ordinary_run_goes_wrong() {
     let square = ["verify", "--case", "1933001000-359", "--tolerance", "1e-6"];
     let found = json(&square);
-    let (proven, predicted) = (
-        found["proven"].as_u64().unwrap(),
+    let (first_wrong, predicted) = (
+        found["first_wrong"].as_u64().unwrap(),
         found["predicted"].as_u64().unwrap(),
     );
-    assert!((35..60).contains(&proven) && (35..60).contains(&predicted));
+    assert!((35..60).contains(&first_wrong) && (35..60).contains(&predicted));
     assert_eq!(found["digits"], 76);
     let differences = found["differences"].as_array().unwrap();
-    assert!(differences[(proven - 1) as usize].as_f64().unwrap() > 1e-6);
+    assert!(differences[(first_wrong - 1) as usize].as_f64().unwrap() > 1e-6);
     assert!(differences[0].as_f64().unwrap() < 1e-14);
     let text = told(&["verify", "--set", "f_o=0.31"]);
     assert!(

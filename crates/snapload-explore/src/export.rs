@@ -5,7 +5,7 @@ use crate::run::follow;
 use crate::work::Leash;
 use serde::Deserialize;
 use snapload::Case;
-use snapload::analysis::{DEFAULT_MEMBERS, Doubt};
+use snapload::analysis::{DEFAULT_MEMBERS, Uncertainty};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
     Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
@@ -117,7 +117,7 @@ impl File {
     fn fill_trusted(self, case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
         let leash = leash.within(BUDGET);
         let long = || for_the_command(case, "its neighbours take long");
-        let run = Trusted::run_alone(case, Doubt::default(), |_| leash.holds())?;
+        let run = Trusted::run_alone(case, Uncertainty::default(), |_| leash.holds())?;
         let run = run.ok_or_else(long)?;
         if matches!(self, Self::Impacts) {
             let written = tables::impacts(&run.run, run.trust.digits(), out);

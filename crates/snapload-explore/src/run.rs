@@ -228,7 +228,7 @@ impl HorizonTold {
         Self {
             t: horizon.map(|horizon| horizon.t),
             impact: horizon.map(|horizon| horizon.impact),
-            because: horizon.map(|horizon| because(horizon.loss)),
+            because: horizon.map(|horizon| because(horizon.cause)),
             certain: horizon.is_none(),
             words: followed.in_words(),
         }

@@ -143,7 +143,7 @@ pub(crate) fn name_boundaries(
         let size = word_size(name);
         let every = (traces[own].len() / TRIES).max(1);
         let others = || traces.iter().enumerate().filter(|&(index, _)| index != own);
-        let doubt = |at: Point| {
+        let uncertainty = |at: Point| {
             let points = others().flat_map(|(_, trace)| trace);
             let nearest = points
                 .map(|&other| distance(at, other))
@@ -151,8 +151,8 @@ pub(crate) fn name_boundaries(
             2.0 * (UNMISTAKABLE - nearest)
         };
         let candidates = traces[own].iter().step_by(every).flat_map(|&at| {
-            let doubt = doubt(at);
-            beside(at, size, 2.5).map(|(rect, cost)| (rect, cost + doubt))
+            let uncertainty = uncertainty(at);
+            beside(at, size, 2.5).map(|(rect, cost)| (rect, cost + uncertainty))
         });
         write_best(sheet, ink, name, candidates);
     }

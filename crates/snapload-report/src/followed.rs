@@ -1,6 +1,6 @@
 //! A run with what rounding leaves of it: what is quick to know.
 use crate::trusted::horizon_in_words;
-use snapload::analysis::{Doubt, Horizon, Witness};
+use snapload::analysis::{Horizon, TrustMonitor, Uncertainty};
 use snapload::{Case, Simulation, Trajectory};
 use std::ops::ControlFlow;
 
@@ -22,15 +22,16 @@ impl Followed {
         mut running: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Option<Self> {
         let simulation = case.simulation();
-        let mut witness = Witness::new(&simulation, &[0.0; 6], Doubt::default().tolerance);
+        let mut monitor =
+            TrustMonitor::new(&simulation, &[0.0; 6], Uncertainty::default().tolerance);
         let run = Trajectory::record_while(simulation, |simulation, step| {
             // Past it the run goes on by itself, three times as fast.
-            if witness.horizon().is_none() {
-                witness.follow(simulation, step);
+            if monitor.horizon().is_none() {
+                monitor.follow(simulation, step);
             }
             running(simulation)
         })?;
-        let trust = witness.verdict();
+        let trust = monitor.verdict();
         Some(Self {
             digits: trust.digits().collect(),
             horizon: trust.horizon,
@@ -40,7 +41,7 @@ impl Followed {
 
     /// Where trust ends, and on a second line why.
     pub fn in_words(&self) -> String {
-        let tolerance = Doubt::default().tolerance;
+        let tolerance = Uncertainty::default().tolerance;
         horizon_in_words(self.horizon, tolerance, self.run.impacts().len())
     }
 }

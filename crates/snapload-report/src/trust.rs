@@ -3,18 +3,18 @@ use crate::Trusted;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::Stop;
-use snapload::analysis::{Doubt, Loss, START_KEYS, Sensitivity, Share, Trust};
+use snapload::analysis::{HorizonCause, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
 use snapload_study::reason;
 
 /// The name of a loss of trust.
-pub fn because(loss: Loss) -> &'static str {
-    match loss {
-        Loss::Tolerance => "tolerance",
-        Loss::Graze { .. } => "graze",
-        Loss::NearMiss { .. } => "near_miss",
-        Loss::Simultaneous => "simultaneous",
-        Loss::Start { .. } => "start",
-        Loss::StopRule => "stop_rule",
+pub fn because(cause: HorizonCause) -> &'static str {
+    match cause {
+        HorizonCause::Tolerance => "tolerance",
+        HorizonCause::Graze { .. } => "graze",
+        HorizonCause::NearMiss { .. } => "near_miss",
+        HorizonCause::Simultaneous => "simultaneous",
+        HorizonCause::Start { .. } => "start",
+        HorizonCause::StopRule => "stop_rule",
     }
 }
 
@@ -25,7 +25,7 @@ pub struct TrustRow<'a> {
     impact: Option<usize>,
     because: Option<&'static str>,
     tolerance: f64,
-    uncertainty: Uncertainty<'a>,
+    uncertainty: UncertaintyJson<'a>,
     end_error: Option<f64>,
     exponents: [f64; 6],
     grazes: Vec<GrazeRow>,
@@ -45,9 +45,9 @@ impl<'a> TrustRow<'a> {
         Self {
             t: horizon.map(|horizon| horizon.t),
             impact: horizon.map(|horizon| horizon.impact),
-            because: horizon.map(|horizon| because(horizon.loss)),
-            tolerance: trusted.doubt.tolerance,
-            uncertainty: Uncertainty(&trusted.doubt),
+            because: horizon.map(|horizon| because(horizon.cause)),
+            tolerance: trusted.uncertainty.tolerance,
+            uncertainty: UncertaintyJson(&trusted.uncertainty),
             end_error: Some(*end_error).filter(|error| error.is_finite()),
             exponents: *exponents,
             grazes: grazes
@@ -64,9 +64,9 @@ impl<'a> TrustRow<'a> {
 }
 
 /// The uncertainty of each key that has one.
-struct Uncertainty<'a>(&'a Doubt);
+struct UncertaintyJson<'a>(&'a Uncertainty);
 
-impl Serialize for Uncertainty<'_> {
+impl Serialize for UncertaintyJson<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let start = START_KEYS.into_iter().zip(self.0.start);
         let all = start.chain(self.0.keys.iter().copied());

@@ -1,6 +1,7 @@
 //! A run with what is known of it: how far it can be trusted, and how its neighbours end.
 use snapload::analysis::{
-    Doubt, Ensemble, Horizon, Loss, Sensitivity, Tally, Trust, Witness, sensitivity,
+    Ensemble, Horizon, HorizonCause, Sensitivity, Tally, Trust, TrustMonitor, Uncertainty,
+    sensitivity,
 };
 use snapload::{Case, CaseError, Simulation, Stop, Trajectory};
 use snapload_study::reason;
@@ -16,7 +17,7 @@ pub struct Trusted {
     /// How far it can be trusted.
     pub trust: Trust,
     /// What was taken to be uncertain.
-    pub doubt: Doubt,
+    pub uncertainty: Uncertainty,
     /// Which neighbours were drawn.
     pub seed: u64,
     /// How neighbours end; none where the run is certain, or none were asked for.
@@ -33,22 +34,22 @@ impl Trusted {
     /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
     pub fn run(
         case: &Case,
-        doubt: Doubt,
+        uncertainty: Uncertainty,
         members: u32,
         seed: u64,
         mut running: impl FnMut(f64),
         neighbour: impl Fn() + Sync,
     ) -> Result<Self, CaseError> {
-        let mut witness = Witness::of_case(case, &doubt)?;
+        let mut monitor = TrustMonitor::of_case(case, &uncertainty)?;
         let run = Trajectory::record_watched(case.simulation(), |simulation, step| {
-            witness.follow(simulation, step);
+            monitor.follow(simulation, step);
             running(simulation.time());
         });
-        let mut trusted = Self::followed(run, witness, doubt);
+        let mut trusted = Self::followed(run, monitor, uncertainty);
         trusted.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
         trusted.seed = seed;
         if trusted.takes_neighbours(members) {
-            let ensemble = Ensemble::about(case, &trusted.doubt, members, seed);
+            let ensemble = Ensemble::about(case, &trusted.uncertainty, members, seed);
             trusted.tally = Some(ensemble.tally(neighbour)?);
         }
         Ok(trusted)
@@ -61,15 +62,15 @@ impl Trusted {
     /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
     pub fn run_alone(
         case: &Case,
-        doubt: Doubt,
+        uncertainty: Uncertainty,
         mut running: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Result<Option<Self>, CaseError> {
-        let mut witness = Witness::of_case(case, &doubt)?;
+        let mut monitor = TrustMonitor::of_case(case, &uncertainty)?;
         let run = Trajectory::record_while(case.simulation(), |simulation, step| {
-            witness.follow(simulation, step);
+            monitor.follow(simulation, step);
             running(simulation)
         });
-        Ok(run.map(|run| Self::followed(run, witness, doubt)))
+        Ok(run.map(|run| Self::followed(run, monitor, uncertainty)))
     }
 
     /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`] gives. None
@@ -87,7 +88,7 @@ impl Trusted {
         self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
         self.seed = seed;
         if self.takes_neighbours(members) {
-            let ensemble = Ensemble::about(case, &self.doubt, members, seed);
+            let ensemble = Ensemble::about(case, &self.uncertainty, members, seed);
             self.tally = ensemble.tally_while(neighbour)?;
             if self.tally.is_none() {
                 return Ok(None);
@@ -96,11 +97,11 @@ impl Trusted {
         Ok(Some(self))
     }
 
-    fn followed(run: Trajectory, witness: Witness, doubt: Doubt) -> Self {
+    fn followed(run: Trajectory, monitor: TrustMonitor, uncertainty: Uncertainty) -> Self {
         Self {
             run,
-            trust: witness.verdict(),
-            doubt,
+            trust: monitor.verdict(),
+            uncertainty,
             seed: 0,
             tally: None,
             sensitivity: Vec::new(),
@@ -149,36 +150,40 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
 /// Where trust ends, and on a second line why.
 pub fn trust_in_words(trusted: &Trusted) -> String {
     let impacts = trusted.run.impacts().len();
-    horizon_in_words(trusted.trust.horizon, trusted.doubt.tolerance, impacts)
+    horizon_in_words(
+        trusted.trust.horizon,
+        trusted.uncertainty.tolerance,
+        impacts,
+    )
 }
 
 /// The same of a run of so many impacts.
 pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts: usize) -> String {
     let known = format!("known to {tolerance:e}");
-    let Some(Horizon { t, impact, loss }) = horizon else {
+    let Some(Horizon { t, impact, cause }) = horizon else {
         return format!("{known} to the end");
     };
-    let what = match loss {
-        Loss::Start { cable } => {
+    let what = match cause {
+        HorizonCause::Start { cable } => {
             let cable = cable + 1;
             return format!(
                 "none: it begins at the end of cable {cable}, and may in truth begin slack"
             );
         }
-        Loss::Tolerance => "there errors have grown past it".to_owned(),
-        Loss::Graze { cable } => {
+        HorizonCause::Tolerance => "there errors have grown past it".to_owned(),
+        HorizonCause::Graze { cable } => {
             format!(
                 "cable {} is only grazed there, and may be missed",
                 cable + 1
             )
         }
-        Loss::NearMiss { cable } => {
+        HorizonCause::NearMiss { cable } => {
             format!("cable {} all but snaps there, and may in truth", cable + 1)
         }
-        Loss::Simultaneous => {
+        HorizonCause::Simultaneous => {
             "there cables snap at one instant, in an order that decides".to_owned()
         }
-        Loss::StopRule => "there a stop rule may or may not be met".to_owned(),
+        HorizonCause::StopRule => "there a stop rule may or may not be met".to_owned(),
     };
     let place = if impact <= impacts {
         format!("before impact {impact} of {impacts}")

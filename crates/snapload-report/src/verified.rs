@@ -2,7 +2,7 @@
 use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
 use serde::Serialize;
-use snapload::analysis::{Doubt, Verification, sensitivity};
+use snapload::analysis::{Uncertainty, Verification, sensitivity};
 use snapload_study::reason;
 use std::fmt::Write;
 
@@ -19,7 +19,7 @@ pub struct Verified {
 pub struct VerifiedRow<'a> {
     digits: u32,
     digits_left: f64,
-    proven: Option<usize>,
+    first_wrong: Option<usize>,
     predicted: Option<usize>,
     compared: usize,
     end: Option<&'static str>,
@@ -43,9 +43,9 @@ impl Verified {
         let trusted = Trusted {
             run: found.run.clone(),
             trust: found.trust.clone(),
-            doubt: Doubt {
+            uncertainty: Uncertainty {
                 tolerance,
-                ..Doubt::default()
+                ..Uncertainty::default()
             },
             seed: 0,
             tally: None,
@@ -62,7 +62,7 @@ impl Verified {
             run,
             trust,
             differences,
-            proven,
+            first_wrong,
             end,
             t,
             impacts,
@@ -70,7 +70,7 @@ impl Verified {
         VerifiedRow {
             digits: *digits,
             digits_left: *digits_left,
-            proven: *proven,
+            first_wrong: *first_wrong,
             predicted: trust.horizon.map(|horizon| horizon.impact),
             compared: differences.len(),
             end: end.map(reason),
@@ -109,8 +109,8 @@ impl Verified {
             found.t,
             found.impacts
         );
-        let tolerance = self.trusted.doubt.tolerance;
-        let _ = match found.proven {
+        let tolerance = self.trusted.uncertainty.tolerance;
+        let _ = match found.first_wrong {
             Some(impact) => writeln!(
                 text,
                 "Proven    wrong by more than {tolerance:e} from impact {impact} on"

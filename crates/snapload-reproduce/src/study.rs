@@ -1,7 +1,7 @@
 //! Every run that the report needs, each computed once.
 
 use rayon::prelude::*;
-use snapload::analysis::{CriticalForce, Doubt, ExceedanceCurve, ForceScan};
+use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Uncertainty};
 use snapload::{
     Case, CaseError, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
 };
@@ -281,7 +281,7 @@ fn critical_row(
         CriticalForce::scan(&reading.apply(parameters), ForceScan::default())
     })?;
     let scan = ForceScan::new(0.01, looked_up_to(published, &computed))?;
-    let doubt = Doubt::default();
+    let uncertainty = Uncertainty::default();
     Ok(CriticalRow {
         r,
         shape,
@@ -292,7 +292,7 @@ fn critical_row(
             ExceedanceCurve::scan(
                 &reading.apply(parameters),
                 scan,
-                &doubt,
+                &uncertainty,
                 NEIGHBOURS,
                 1,
                 |_| {},

@@ -8,7 +8,7 @@ use crate::structure::{IrregularSea, Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use snapload::analysis::{Trust, Witness};
+use snapload::analysis::{Trust, TrustMonitor};
 use snapload::{
     CaseError, Impact, Playback, Simulation, StartError, State, Step, Stop, Trajectory,
 };
@@ -305,11 +305,11 @@ pub fn assess(
         .begin(1.0)
         .map_err(|error| prepared.explain(error))?;
     let law = SnapLaw::new(&prepared.structure, &prepared.rest, &prepared.model);
-    let mut witness = Witness::new(&simulation, &[0.0; 6], TOLERANCE);
+    let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
     let mut tally = Tally::new(&prepared, law);
     let mut snaps = Vec::new();
     let run = Trajectory::record_watched(simulation, |simulation, step| {
-        witness.follow(simulation, step);
+        monitor.follow(simulation, step);
         tally.stretch(simulation, step);
         snaps.extend(tally.snaps(simulation, step));
     });
@@ -331,7 +331,7 @@ pub fn assess(
     let mut assessment = Assessment {
         warnings,
         run,
-        trust: witness.verdict(),
+        trust: monitor.verdict(),
         snaps,
         outcome,
         neighbours,

@@ -3,7 +3,7 @@
 use crate::assess::{Assessment, Outcome, quantile};
 use crate::structure::Water;
 use snapload::Stop;
-use snapload::analysis::Loss;
+use snapload::analysis::HorizonCause;
 
 /// How it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -156,17 +156,17 @@ impl Assessment {
     pub fn trust_words(&self) -> String {
         let single = match (self.horizon_s(), self.trust.horizon) {
             (Some(t), Some(horizon)) => {
-                let why = match horizon.loss {
-                    Loss::Tolerance => {
+                let why = match horizon.cause {
+                    HorizonCause::Tolerance => {
                         "rounding has grown past a thousandth of the anchors' half distance"
                     }
-                    Loss::Graze { .. } | Loss::NearMiss { .. } => {
+                    HorizonCause::Graze { .. } | HorizonCause::NearMiss { .. } => {
                         "a line comes so near to being taut, or snaps so softly, that a neighbour may do otherwise"
                     }
-                    Loss::Simultaneous => {
+                    HorizonCause::Simultaneous => {
                         "lines snap at one instant, and which is first decides what follows"
                     }
-                    Loss::Start { .. } | Loss::StopRule => {
+                    HorizonCause::Start { .. } | HorizonCause::StopRule => {
                         "a neighbour may start or stop otherwise"
                     }
                 };

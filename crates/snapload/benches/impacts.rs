@@ -5,7 +5,7 @@
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
-use snapload::analysis::{Certainty, Doubt, outcomes, trusted_run};
+use snapload::analysis::{Certainty, Uncertainty, outcomes, trusted_run};
 use snapload::{Case, Lanes, Parameters, Trajectory, named_case};
 use std::hint::black_box;
 use std::thread::available_parallelism;
@@ -65,7 +65,7 @@ fn one_run(c: &mut Criterion) {
             );
         });
         group.bench_function(format!("{name}/trusted"), |b| {
-            b.iter(|| trusted_run(black_box(&case), &Doubt::default()));
+            b.iter(|| trusted_run(black_box(&case), &Uncertainty::default()));
         });
     }
     group.finish();

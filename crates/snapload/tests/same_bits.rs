@@ -1,6 +1,6 @@
 //! The same case gives the same bits, whatever it is computed beside and by how many.
 
-use snapload::analysis::{Doubt, Ensemble, outcomes};
+use snapload::analysis::{Ensemble, Uncertainty, outcomes};
 use snapload::{
     Case, CaseError, Lanes, Outcome, Parameters, Simulation, Trajectory, Value, named_case,
 };
@@ -225,7 +225,7 @@ fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), CaseError> {
     assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
     let outcome = Outcome::of_while(&case, |_| Continue(()));
     assert_eq!(outcome, Some(Outcome::of(&case)));
-    let ensemble = Ensemble::about(&case, &Doubt::default(), 20, 1);
+    let ensemble = Ensemble::about(&case, &Uncertainty::default(), 20, 1);
     let tally = ensemble.tally_while(|| Continue(()))?;
     assert_eq!(tally, Some(ensemble.tally(|| ())?));
 

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
 use serde_json::Value as Json;
-use snapload::analysis::{Doubt, Ensemble, Loss, Verification, trusted_run, verify};
+use snapload::analysis::{Ensemble, HorizonCause, Uncertainty, Verification, trusted_run, verify};
 use snapload::{Case, Impact, Parameters, Value, anchor_height, named_cases};
 
 /// The tolerance of the oracle's horizons.
@@ -33,8 +33,8 @@ fn predicted(found: &Verification) -> usize {
     horizon.min(none)
 }
 
-fn proven(found: &Verification) -> usize {
-    found.proven.unwrap_or(found.differences.len() + 1)
+fn first_wrong(found: &Verification) -> usize {
+    found.first_wrong.unwrap_or(found.differences.len() + 1)
 }
 
 /// The prediction is the width of a distribution, the difference that is proven one draw from it. While errors
@@ -51,9 +51,9 @@ fn assert_as_proven(id: &str, found: &Verification) {
     let predicted = predicted(found);
     assert_alike(
         id,
-        "proven",
+        "first_wrong",
         predicted,
-        predicted.clamp(early.min(proven(found)), late),
+        predicted.clamp(early.min(first_wrong(found)), late),
     );
 }
 
@@ -84,9 +84,9 @@ fn horizons_are_where_the_oracle_has_them() {
         let theirs = truth["horizon_double"]["first_impact_rel_gt_1e_6"].as_u64();
         let theirs = theirs.map_or(found.impacts + 1, |impact| impact as usize);
         println!(
-            "{id}: predicted {}, proven {}, oracle {theirs}",
+            "{id}: predicted {}, first_wrong {}, oracle {theirs}",
             predicted(&found),
-            proven(&found)
+            first_wrong(&found)
         );
         assert_alike(id, "the oracle's", predicted(&found), theirs);
         assert_as_proven(id, &found);
@@ -99,7 +99,7 @@ fn horizons_are_where_the_oracle_has_them() {
 /// bounces accumulate the model says too much, as gaps and normal velocities then keep their relative
 /// precision; it must never say too little by much. Of a handful of impacts the median is one draw like any other.
 fn errors_are_of_the_size_predicted(id: &str, found: &Verification) {
-    let horizon = predicted(found).min(proven(found)) - 1;
+    let horizon = predicted(found).min(first_wrong(found)) - 1;
     let mut ratios: Vec<f64> = (0..horizon)
         .map(|k| found.differences[k] / found.trust.errors[k])
         .collect();
@@ -160,12 +160,12 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
             ("f_o", Value::Number(0.4)),
         ]);
         for uncertain in doubts {
-            let mut doubt = Doubt::default();
+            let mut uncertainty = Uncertainty::default();
             for (key, size) in uncertain {
-                doubt.set(key, *size).expect("a key in doubt");
+                uncertainty.set(key, *size).expect("a key in doubt");
             }
-            let (run, trust) = trusted_run(&case, &doubt).expect("a legal case");
-            let ensemble = Ensemble::about(&case, &doubt, 600, 3);
+            let (run, trust) = trusted_run(&case, &uncertainty).expect("a legal case");
+            let ensemble = Ensemble::about(&case, &uncertainty, 600, 3);
             let crowd: Vec<Vec<Impact>> = (0..ensemble.count)
                 .map(|i| {
                     ensemble
@@ -224,26 +224,32 @@ fn a_graze_ends_trust_where_the_doubt_is_larger() {
             number("vy", it.start.vy),
             number("vtheta", it.start.vtheta),
         ]);
-        let loss = |doubt: f64| {
+        let cause = |uncertainty: f64| {
             let (_, trust) = trusted_run(
                 &case,
-                &Doubt {
+                &Uncertainty {
                     tolerance: 1e9,
-                    ..Doubt::of_start(doubt)
+                    ..Uncertainty::of_start(uncertainty)
                 },
             )
             .expect("legal");
-            trust.horizon.map(|h| h.loss)
+            trust.horizon.map(|h| h.cause)
         };
-        let (coarse, fine) = (loss(10.0 * peak), loss(peak / 1000.0));
+        let (coarse, fine) = (cause(10.0 * peak), cause(peak / 1000.0));
         println!("{id}: {coarse:?} / {fine:?}");
         assert!(
-            matches!(coarse, Some(Loss::Graze { .. } | Loss::NearMiss { .. })),
+            matches!(
+                coarse,
+                Some(HorizonCause::Graze { .. } | HorizonCause::NearMiss { .. })
+            ),
             "{id}: {coarse:?}"
         );
         if peak > 1e-12 {
             assert!(
-                !matches!(fine, Some(Loss::Graze { .. } | Loss::NearMiss { .. })),
+                !matches!(
+                    fine,
+                    Some(HorizonCause::Graze { .. } | HorizonCause::NearMiss { .. })
+                ),
                 "{id}: {fine:?}"
             );
         }
@@ -252,11 +258,17 @@ fn a_graze_ends_trust_where_the_doubt_is_larger() {
 
 #[test]
 fn cables_that_snap_at_one_instant_end_trust() {
-    let (run, trust) =
-        trusted_run(&case([("f_o", Value::Number(0.0))]), &Doubt::default()).expect("legal");
+    let (run, trust) = trusted_run(
+        &case([("f_o", Value::Number(0.0))]),
+        &Uncertainty::default(),
+    )
+    .expect("legal");
     assert_eq!(run.impacts()[0].t, run.impacts()[1].t);
     let horizon = trust.horizon.expect("a horizon");
-    assert_eq!((horizon.impact, horizon.loss), (1, Loss::Simultaneous));
+    assert_eq!(
+        (horizon.impact, horizon.cause),
+        (1, HorizonCause::Simultaneous)
+    );
 }
 
 /// Without restitution the cables stick in turn, ever faster, until both are taut: normal velocities fall to
@@ -278,11 +290,11 @@ fn an_error_is_never_nothing() {
         .into_iter()
         .map(|(key, value)| (key, Value::Number(value)));
     let case = case(numbers.chain([("stop_when_settled", Value::Bool(false))]));
-    let doubt = Doubt::of_start(1e-13);
-    let (run, trust) = trusted_run(&case, &doubt).expect("legal");
+    let uncertainty = Uncertainty::of_start(1e-13);
+    let (run, trust) = trusted_run(&case, &uncertainty).expect("legal");
     assert_eq!(trust.errors.len(), 8);
     for index in 0..20 {
-        let other = Ensemble::about(&case, &doubt, 20, 5).member(index);
+        let other = Ensemble::about(&case, &uncertainty, 20, 5).member(index);
         let other = other.expect("legal").run();
         let pairs = run.impacts().iter().zip(other.impacts());
         for (k, (ours, theirs)) in pairs.enumerate() {
@@ -301,32 +313,32 @@ fn an_error_is_never_nothing() {
 fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let number = |key, value| (key, Value::Number(value));
     let in_doubt = |case: &Case, key: &str, size: f64| {
-        let mut doubt = Doubt::default();
-        doubt.set(key, size).expect("a key in doubt");
-        let (_, trust) = trusted_run(case, &doubt).expect("legal");
-        let ensemble = Ensemble::about(case, &doubt, 50, 1);
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set(key, size).expect("a key in doubt");
+        let (_, trust) = trusted_run(case, &uncertainty).expect("legal");
+        let ensemble = Ensemble::about(case, &uncertainty, 50, 1);
         let tally = ensemble.tally(|| {}).expect("legal");
-        (trust.horizon.map(|h| h.loss), tally.shares().len())
+        (trust.horizon.map(|h| h.cause), tally.shares().len())
     };
     let resting = case([number("y", 0.0), number("t_end", 0.01)]);
-    let (loss, ends) = in_doubt(&resting, "vy", 1e-2);
-    assert_eq!((loss, ends), (Some(Loss::Start { cable: 0 }), 2));
+    let (cause, ends) = in_doubt(&resting, "vy", 1e-2);
+    assert_eq!((cause, ends), (Some(HorizonCause::Start { cable: 0 }), 2));
 
     // Thrown up so that its highest point passes the bound by 1e-6.
     let rise = anchor_height(1.5, 0.1) - 0.1 - 0.3 + 1e-6;
     let speed = (2.0 * rise).sqrt();
     let thrown = [("f_o", 0.0), ("y", 0.3), ("vy", speed), ("t_end", 2.0)];
     let thrown = case(thrown.map(|(key, value)| number(key, value)));
-    let (loss, ends) = in_doubt(&thrown, "vy", 1e-5);
-    assert_eq!((loss, ends), (Some(Loss::StopRule), 2));
+    let (cause, ends) = in_doubt(&thrown, "vy", 1e-5);
+    assert_eq!((cause, ends), (Some(HorizonCause::StopRule), 2));
     assert_eq!(in_doubt(&thrown, "vy", 1e-8), (None, 1));
 
     let turns = |t_end| case([number("f_o", 0.31), number("t_end", t_end)]);
     let t = turns(100.0).run().end().t;
-    let (loss, ends) = in_doubt(&turns(t + 1e-9), "y", 1e-8);
-    assert_eq!((loss, ends), (Some(Loss::StopRule), 2));
-    let (loss, ends) = in_doubt(&turns(t + 1e-3), "y", 1e-8);
-    assert_eq!((loss, ends), (None, 1));
+    let (cause, ends) = in_doubt(&turns(t + 1e-9), "y", 1e-8);
+    assert_eq!((cause, ends), (Some(HorizonCause::StopRule), 2));
+    let (cause, ends) = in_doubt(&turns(t + 1e-3), "y", 1e-8);
+    assert_eq!((cause, ends), (None, 1));
 }
 
 proptest! {
@@ -341,17 +353,17 @@ proptest! {
     #[test]
     fn certain_ends_are_everybodys(
         e in 0.3..1.0f64, a in 0.05..0.3f64, square in any::<bool>(),
-        f_o in 0.05..0.6f64, omega in 0.4..2.2f64, doubt in -12.0..-3.0f64, slides in any::<bool>(),
+        f_o in 0.05..0.6f64, omega in 0.4..2.2f64, uncertainty in -12.0..-3.0f64, slides in any::<bool>(),
     ) {
         let number = |key, value| (key, Value::Number(value));
         let b = if square { a } else { 0.0 };
         let flags = [("stop_when_sliding", Value::Bool(!slides)), number("t_end", 12.0)];
         let numbers = [number("e", e), number("a", a), number("b", b), number("f_o", f_o), number("omega", omega)];
         let case = case(numbers.into_iter().chain(flags));
-        let doubt = Doubt::of_start(10.0_f64.powf(doubt));
-        let (run, trust) = trusted_run(&case, &doubt).expect("legal");
+        let uncertainty = Uncertainty::of_start(10.0_f64.powf(uncertainty));
+        let (run, trust) = trusted_run(&case, &uncertainty).expect("legal");
         if trust.decides_the_end() {
-            let tally = Ensemble::about(&case, &doubt, 40, 11).tally(|| {}).expect("legal");
+            let tally = Ensemble::about(&case, &uncertainty, 40, 11).tally(|| {}).expect("legal");
             let shares = tally.shares();
             prop_assert_eq!(shares.len(), 1);
             prop_assert_eq!(shares[0].0, run.end().reason);

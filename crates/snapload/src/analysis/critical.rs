@@ -1,8 +1,13 @@
 //! The critical force: the smallest force amplitude at which the rotation limit or the upper bound is
 //! reached (chapter 6.4.2), and every other one that reaches it.
 
-use super::outcomes;
-use crate::{Case, CaseError, Outcome, Parameters, Stop, Value};
+use crate::analysis::outcomes::outcomes;
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::parameters::Parameters;
+use crate::case::value::Value;
+use crate::motion::outcome::Outcome;
+use crate::motion::trajectory::Stop;
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]

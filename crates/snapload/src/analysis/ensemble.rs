@@ -1,9 +1,12 @@
 //! Neighbours of a case: what comes of it where one run can not tell.
 
-use crate::Outcome;
-use crate::analysis::{Doubt, START_KEYS};
-use crate::parameters::natural_inertia;
-use crate::{Case, CaseError, Parameters, Stop, Value};
+use crate::analysis::trust::{START_KEYS, Uncertainty};
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::parameters::{Parameters, natural_inertia};
+use crate::case::value::Value;
+use crate::motion::outcome::Outcome;
+use crate::motion::trajectory::Stop;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -17,7 +20,7 @@ use std::ops::ControlFlow;
 #[derive(Clone, Debug)]
 pub struct Ensemble {
     base: Parameters,
-    doubt: Doubt,
+    uncertainty: Uncertainty,
     /// How many members.
     pub count: u32,
     /// Which members.
@@ -35,27 +38,27 @@ const DRAWS: usize = 1000;
 
 impl Ensemble {
     /// About a case, within what is in doubt of it; where nothing is, within [`DEFAULT_CLOUD`].
-    pub fn about(case: &Case, doubt: &Doubt, count: u32, seed: u64) -> Self {
-        let mut doubt = doubt.clone();
-        for (size, key) in doubt.start.iter_mut().zip(START_KEYS) {
+    pub fn about(case: &Case, uncertainty: &Uncertainty, count: u32, seed: u64) -> Self {
+        let mut uncertainty = uncertainty.clone();
+        for (size, key) in uncertainty.start.iter_mut().zip(START_KEYS) {
             if !case.parameters().moves_by(key) {
                 *size = 0.0;
             }
         }
-        if doubt.start == [0.0; 6] && doubt.keys.is_empty() {
-            doubt.start = [DEFAULT_CLOUD; 6];
+        if uncertainty.start == [0.0; 6] && uncertainty.keys.is_empty() {
+            uncertainty.start = [DEFAULT_CLOUD; 6];
         }
         Self {
             base: *case.parameters(),
-            doubt,
+            uncertainty,
             count,
             seed,
         }
     }
 
     /// What the members may be off by.
-    pub fn doubt(&self) -> &Doubt {
-        &self.doubt
+    pub fn uncertainty(&self) -> &Uncertainty {
+        &self.uncertainty
     }
 
     /// One member.
@@ -103,9 +106,9 @@ impl Ensemble {
 
     fn size_of(&self, key: &str) -> f64 {
         if let Some(component) = START_KEYS.iter().position(|name| *name == key) {
-            return self.doubt.start[component];
+            return self.uncertainty.start[component];
         }
-        let given = self.doubt.keys.iter().find(|(name, _)| *name == key);
+        let given = self.uncertainty.keys.iter().find(|(name, _)| *name == key);
         given.map_or(0.0, |(_, size)| *size)
     }
 
@@ -231,10 +234,10 @@ mod tests {
     #[test]
     fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<(), CaseError> {
         let case = Case::new(Parameters::STANDARD)?;
-        let mut doubt = Doubt::default();
-        doubt.set("f_o", 0.02)?;
-        doubt.set("a", 0.001)?;
-        let many = Ensemble::about(&case, &doubt, 100, 7);
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set("f_o", 0.02)?;
+        uncertainty.set("a", 0.001)?;
+        let many = Ensemble::about(&case, &uncertainty, 100, 7);
         let few = Ensemble {
             count: 3,
             ..many.clone()
@@ -261,7 +264,7 @@ mod tests {
             y: 0.0,
             ..Parameters::STANDARD
         })?;
-        let ensemble = Ensemble::about(&case, &Doubt::of_start(1e-3), 50, 1);
+        let ensemble = Ensemble::about(&case, &Uncertainty::of_start(1e-3), 50, 1);
         let tally = ensemble.tally(|| {})?;
         assert_eq!(tally.members(), 50);
         let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();

@@ -1,7 +1,11 @@
 //! The probability of exceeding the limits, against the force amplitude.
 
-use crate::analysis::{Doubt, Ensemble, ForceScan, Share, trusted_run};
-use crate::{Case, CaseError, Parameters};
+use crate::analysis::critical::ForceScan;
+use crate::analysis::ensemble::{Ensemble, Share};
+use crate::analysis::trust::{Uncertainty, trusted_run};
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::parameters::Parameters;
 
 /// The share of neighbours that exceed the limits, at every amplitude of a scan.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,14 +34,14 @@ impl ExceedanceCurve {
     pub fn scan(
         parameters: &Parameters,
         scan: ForceScan,
-        doubt: &Doubt,
+        uncertainty: &Uncertainty,
         count: u32,
         seed: u64,
         mut watch: impl FnMut(usize),
     ) -> Result<Self, CaseError> {
         let mut points = Vec::new();
         for f_o in scan.amplitudes() {
-            points.push(exceeding(parameters, f_o, doubt, count, seed)?);
+            points.push(exceeding(parameters, f_o, uncertainty, count, seed)?);
             watch(points.len());
         }
         Ok(Self { points })
@@ -53,13 +57,13 @@ impl ExceedanceCurve {
 fn exceeding(
     parameters: &Parameters,
     f_o: f64,
-    doubt: &Doubt,
+    uncertainty: &Uncertainty,
     count: u32,
     seed: u64,
 ) -> Result<Exceeding, CaseError> {
     let case = Case::new(Parameters { f_o, ..*parameters })?;
-    let ensemble = Ensemble::about(&case, doubt, count, seed);
-    let (run, trust) = trusted_run(&case, ensemble.doubt())?;
+    let ensemble = Ensemble::about(&case, uncertainty, count, seed);
+    let (run, trust) = trusted_run(&case, ensemble.uncertainty())?;
     let certain = trust.decides_the_end();
     let share = if certain {
         let all = ensemble.count as usize;

@@ -1,7 +1,8 @@
 //! How the first impacts change with each parameter.
 
-use crate::analysis::{START_KEYS, UNCERTAIN_KEYS};
-use crate::{Case, Dual};
+use crate::analysis::trust::{START_KEYS, UNCERTAIN_KEYS};
+use crate::arithmetic::dual::Dual;
+use crate::case::Case;
 
 /// The quantities that an impact is told to depend on: the start and the parameters.
 pub const SENSITIVE_KEYS: usize = START_KEYS.len() + UNCERTAIN_KEYS.len();

@@ -1,7 +1,14 @@
 //! Proof by more digits: the same motion again in multi-precision.
 
-use crate::analysis::{Doubt, Trust, trusted_run};
-use crate::{Case, CaseError, Impact, Precise, Real, Simulation, State, Stop, Trajectory, Value};
+use crate::analysis::trust::{Trust, Uncertainty, trusted_run};
+use crate::arithmetic::precise::Precise;
+use crate::arithmetic::real::Real;
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::value::Value;
+use crate::model::state::State;
+use crate::motion::simulation::Simulation;
+use crate::motion::trajectory::{Impact, Stop, Trajectory};
 
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
@@ -22,7 +29,7 @@ pub struct Verification {
     pub differences: Vec<f64>,
     /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one of them
     /// has.
-    pub proven: Option<usize>,
+    pub first_wrong: Option<usize>,
     /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack flight,
     /// impacts and the stop rules.
     pub end: Option<Stop>,
@@ -68,18 +75,18 @@ fn with_words<const WORDS: usize>(
     tolerance: f64,
     mut watch: impl FnMut(f64),
 ) -> Result<Verification, CaseError> {
-    let doubt = Doubt {
+    let uncertainty = Uncertainty {
         tolerance,
-        ..Doubt::default()
+        ..Uncertainty::default()
     };
-    let (run, trust) = trusted_run(case, &doubt)?;
+    let (run, trust) = trusted_run(case, &uncertainty)?;
     let simulation = case.simulation_over(|_, number| Precise::<WORDS>::from_decimal(number));
     let mut simulation = simulation.map_err(|_| {
         let allowed = "a start that is legal with more digits, too; this one is on the very edge";
         CaseError::value("x, y, theta", "(the start)", allowed)
     })?;
     let mut differences = Vec::new();
-    let mut proven = None;
+    let mut first_wrong = None;
     let mut impacts = 0;
     while let Some(step) = simulation.step() {
         let stuck = simulation.stop().is_none() && !step.taut_after.is_empty();
@@ -89,7 +96,7 @@ fn with_words<const WORDS: usize>(
                     differences.push(difference(ours, &exact))
                 }
                 _ => {
-                    proven.get_or_insert(impacts + 1);
+                    first_wrong.get_or_insert(impacts + 1);
                 }
             }
             impacts += 1;
@@ -100,9 +107,12 @@ fn with_words<const WORDS: usize>(
         }
     }
     let wrong = differences.iter().position(|d| *d > tolerance);
-    proven = [proven, wrong.map(|k| k + 1)].into_iter().flatten().min();
+    first_wrong = [first_wrong, wrong.map(|k| k + 1)]
+        .into_iter()
+        .flatten()
+        .min();
     if simulation.stop().is_some() && run.impacts().len() > impacts {
-        proven = proven.or(Some(impacts + 1));
+        first_wrong = first_wrong.or(Some(impacts + 1));
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,
@@ -110,7 +120,7 @@ fn with_words<const WORDS: usize>(
         run,
         trust,
         differences,
-        proven,
+        first_wrong,
         end: simulation.stop(),
         t: simulation.time().to_f64(),
         impacts,

@@ -1,7 +1,8 @@
 //! How far a run can be trusted if its values are exact, and nothing more.
 
-use super::{Doubt, Horizon, Witness};
-use crate::Case;
+use crate::analysis::trust::monitor::TrustMonitor;
+use crate::analysis::trust::{Horizon, Uncertainty};
+use crate::case::Case;
 
 /// What rounding leaves of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,14 +15,15 @@ impl Certainty {
     /// Of a case; the run is followed as far as its horizon.
     pub fn of(case: &Case) -> Self {
         let mut simulation = case.simulation();
-        let mut witness = Witness::new(&simulation, &[0.0; 6], Doubt::default().tolerance);
-        while witness.horizon().is_none()
+        let mut monitor =
+            TrustMonitor::new(&simulation, &[0.0; 6], Uncertainty::default().tolerance);
+        while monitor.horizon().is_none()
             && let Some(step) = simulation.step()
         {
-            witness.follow_spread(&simulation, &step);
+            monitor.follow_spread(&simulation, &step);
         }
         Self {
-            horizon: witness.horizon(),
+            horizon: monitor.horizon(),
         }
     }
 
@@ -34,14 +36,15 @@ impl Certainty {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::trusted_run;
-    use crate::{CaseError, named_case};
+    use crate::analysis::trust::trusted_run;
+    use crate::case::error::CaseError;
+    use crate::case::named::named_case;
 
     #[test]
     fn certainty_is_that_of_the_trusted_run() -> Result<(), CaseError> {
         for code in ["sliding-example", "rocking-example", "1910001000-359"] {
             let case = Case::new(named_case(code)?.parameters)?;
-            let (_, trust) = trusted_run(&case, &Doubt::default())?;
+            let (_, trust) = trusted_run(&case, &Uncertainty::default())?;
             assert_eq!(Certainty::of(&case).horizon, trust.horizon);
         }
         Ok(())

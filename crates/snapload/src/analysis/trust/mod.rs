@@ -1,25 +1,29 @@
 //! How far a run can be trusted.
 //!
 //! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is carried along
-//! the run by the linearised motion ([`crate::Tangent`]) as the spread of (w, τ), the deviation of state and
+//! the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the spread of (w, τ), the deviation of state and
 //! time told at the events. The *horizon* is the first event where the standard deviation passes a
 //! tolerance, or where neighbours within three standard deviations may have another event than the run:
 //! there the linearisation ends, and with it the knowledge of what follows.
 
+mod causes;
 mod certainty;
-mod losses;
-mod spread;
-mod witness;
+mod covariance;
+mod monitor;
 
 pub use certainty::Certainty;
-pub use witness::Witness;
+pub use monitor::TrustMonitor;
 
-use crate::{Case, CaseError, Key, Trajectory, Value, key_named};
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::schema::{Key, key_named};
+use crate::case::value::Value;
+use crate::motion::trajectory::Trajectory;
 
 /// What of a run is uncertain. The motion is computed from the values given; each may be off by up to its
 /// uncertainty, either way, all values in between being equally likely.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Doubt {
+pub struct Uncertainty {
     /// Of each component of the start: x, y, θ, ẋ, ẏ, θ̇.
     pub start: [f64; 6],
     /// Of parameters, by name of their key.
@@ -28,7 +32,7 @@ pub struct Doubt {
     pub tolerance: f64,
 }
 
-impl Default for Doubt {
+impl Default for Uncertainty {
     /// No more than rounding, and three digits asked for.
     fn default() -> Self {
         Self {
@@ -42,7 +46,7 @@ impl Default for Doubt {
 /// The keys of the start, in the order of its components.
 pub const START_KEYS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
 
-impl Doubt {
+impl Uncertainty {
     /// With every component of the start off by up to `size`.
     pub fn of_start(size: f64) -> Self {
         Self {
@@ -86,7 +90,7 @@ pub const UNCERTAIN_KEYS: [&str; 8] = ["r", "e", "a", "b", "inertia", "f_o", "nu
 
 /// Why a run can not be trusted any further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Loss {
+pub enum HorizonCause {
     /// The deviation has grown past the tolerance.
     Tolerance,
     /// An impact so slow that a neighbour may miss it.
@@ -118,7 +122,7 @@ pub struct Horizon {
     /// The number of the impact, from 1; of the next one where trust ends between impacts.
     pub impact: usize,
     /// Why.
-    pub loss: Loss,
+    pub cause: HorizonCause,
 }
 
 /// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred: the
@@ -169,10 +173,10 @@ impl Trust {
 /// Runs a case and says how far it can be trusted.
 ///
 /// ```
-/// use snapload::analysis::{Doubt, trusted_run};
+/// use snapload::analysis::{Uncertainty, trusted_run};
 /// use snapload::{Case, Parameters};
 /// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
-/// let (run, trust) = trusted_run(&case, &Doubt::default())?;
+/// let (run, trust) = trusted_run(&case, &Uncertainty::default())?;
 /// assert_eq!(run.impacts().len(), 12);
 /// assert!(trust.decides_the_end() && trust.errors[11] < 1e-12);
 /// # Ok::<(), snapload::CaseError>(())
@@ -180,18 +184,22 @@ impl Trust {
 ///
 /// # Errors
 /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
-pub fn trusted_run(case: &Case, doubt: &Doubt) -> Result<(Trajectory, Trust), CaseError> {
-    let mut witness = Witness::of_case(case, doubt)?;
+pub fn trusted_run(
+    case: &Case,
+    uncertainty: &Uncertainty,
+) -> Result<(Trajectory, Trust), CaseError> {
+    let mut monitor = TrustMonitor::of_case(case, uncertainty)?;
     let run = Trajectory::record_watched(case.simulation(), |simulation, step| {
-        witness.follow(simulation, step);
+        monitor.follow(simulation, step);
     });
-    Ok((run, witness.verdict()))
+    Ok((run, monitor.verdict()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Parameters, Simulation};
+    use crate::case::parameters::Parameters;
+    use crate::motion::simulation::Simulation;
 
     /// Without forcing nothing depends on when a motion begins, its exponents neither.
     #[test]
@@ -207,11 +215,11 @@ mod tests {
             rules.t_end = t + 1.0;
             let (system, start) = (usual.system().clone(), *usual.state());
             let mut simulation = Simulation::new(system, rules, 1e-6, t, start).expect("legal");
-            let mut witness = Witness::new(&simulation, &[0.0; 6], 1e-3);
+            let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
             while let Some(step) = simulation.step() {
-                witness.follow(&simulation, &step);
+                monitor.follow(&simulation, &step);
             }
-            witness.verdict().exponents
+            monitor.verdict().exponents
         };
         for (at_once, later) in exponents(0.0).into_iter().zip(exponents(8.0)) {
             assert!((at_once - later).abs() < 1e-9, "{at_once} {later}");
@@ -222,8 +230,8 @@ mod tests {
     /// a case whose inertia is another.
     #[test]
     fn an_inertia_can_be_in_doubt() {
-        let mut doubt = Doubt::default();
-        doubt.set("inertia", 1e-6).expect("a key that moves");
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set("inertia", 1e-6).expect("a key that moves");
         let error = |inertia: f64| {
             let parameters = Parameters {
                 theta: 0.1,
@@ -231,7 +239,7 @@ mod tests {
                 ..Parameters::STANDARD
             };
             let case = Case::new(parameters).expect("legal");
-            trusted_run(&case, &doubt).expect("legal").1.errors[1]
+            trusted_run(&case, &uncertainty).expect("legal").1.errors[1]
         };
         let natural = Parameters::STANDARD.inertia.expect("rigid");
         let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));

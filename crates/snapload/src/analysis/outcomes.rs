@@ -1,0 +1,73 @@
+//! What many runs come to, side by side and on all threads.
+
+use crate::batch::lanes::Lanes;
+use crate::case::Case;
+use crate::motion::outcome::Outcome;
+use rayon::prelude::*;
+
+/// Items that a thread takes at a time at most.
+const MOST_AT_ONCE: usize = 512;
+/// Fewer than this do not fill the lanes; a list is cut finer only to give every thread something.
+const FULL: usize = 64;
+/// Times that each thread takes some, so that one that meets long runs is relieved by the others.
+const TURNS: usize = 4;
+
+/// What `work` makes of the items, a result for each, in their order, on all threads that there are.
+///
+/// A thread takes items from all over the list, as neighbours in a study take alike long, and a few very long.
+pub fn on_all_threads<I: Sync, R: Send>(
+    items: &[I],
+    work: impl Fn(&[&I]) -> Vec<R> + Sync,
+) -> Vec<R> {
+    let (count, threads) = (items.len(), rayon::current_num_threads());
+    let fewest = count.div_ceil(MOST_AT_ONCE).max(count.min(threads));
+    let parts = count.div_ceil(FULL).min(TURNS * threads).max(fewest);
+    let done: Vec<Vec<R>> = (0..parts)
+        .into_par_iter()
+        .map(|part| {
+            let mine: Vec<&I> = items.iter().skip(part).step_by(parts).collect();
+            let made = work(&mine);
+            assert_eq!(made.len(), mine.len(), "every item has one result");
+            made
+        })
+        .collect();
+    let mut lists: Vec<_> = done.into_iter().map(Vec::into_iter).collect();
+    (0..count).filter_map(|k| lists[k % parts].next()).collect()
+}
+
+/// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all threads that
+/// there are. Each has the bits that it has by itself.
+pub fn outcomes(cases: &[Case]) -> Vec<Outcome> {
+    on_all_threads(cases, |cases| {
+        let runs = cases.iter().map(|case| case.simulation());
+        Lanes::best().outcomes_of(runs).0
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn results_come_in_the_order_of_the_items() {
+        for count in [0, 1, 2, 255, 256, 257, 5000] {
+            let items: Vec<usize> = (0..count).collect();
+            let doubled =
+                super::on_all_threads(&items, |part| part.iter().map(|k| **k * 2).collect());
+            assert!(doubled.iter().copied().eq(items.iter().map(|k| k * 2)));
+        }
+    }
+
+    #[test]
+    fn a_short_list_is_for_all_threads_too() {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
+        let calls = AtomicUsize::new(0);
+        pool.expect("threads").install(|| {
+            super::on_all_threads(&[0; 6], |part| {
+                calls.fetch_add(1, Ordering::Relaxed);
+                part.iter().map(|item| **item).collect()
+            })
+        });
+        assert_eq!(calls.into_inner(), 3);
+    }
+}

@@ -1,0 +1,220 @@
+//! The spread of deviations: independent ones, added up.
+
+use crate::motion::tangent::{Block, Deviation, combined};
+
+/// How many parts the start and rounding have: as many as a deviation has components.
+const PARTS: usize = 7;
+/// So many columns: one more stays zero, as eight fill a processor's registers.
+pub(super) const COLUMNS: usize = PARTS + 1;
+
+/// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one standard
+/// deviation long.
+///
+/// The start and rounding have seven of them, whose squares make up a covariance. The covariance itself is not
+/// carried: a slow impact divides by v_n, and the squares of what it leaves cancel to nothing, or to less, where
+/// the parts still have their digits.
+#[derive(Clone, Debug)]
+pub(super) struct CovarianceFactor {
+    /// For the start and for rounding: a row for each component, a column for each part.
+    pub(super) parts: Block<COLUMNS>,
+    /// For each uncertain parameter.
+    pub(super) columns: Vec<Deviation>,
+}
+
+/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
+const LOST: f64 = 1e30;
+
+impl CovarianceFactor {
+    /// One part along each component, so long.
+    pub(super) fn along_components(sizes: &Deviation) -> Self {
+        let mut parts = [[0.0; COLUMNS]; 7];
+        for (i, (row, size)) in parts.iter_mut().zip(sizes).enumerate() {
+            row[i] = *size;
+        }
+        Self {
+            parts,
+            columns: Vec::new(),
+        }
+    }
+
+    /// The same after a linear map of deviations, which the parameters' have been through already.
+    pub(super) fn carried(
+        &self,
+        map: impl FnOnce(&mut Block<COLUMNS>),
+        columns: Vec<Deviation>,
+    ) -> Self {
+        let mut parts = self.parts;
+        map(&mut parts);
+        Self { parts, columns }
+    }
+
+    /// Adds independent noise to the components.
+    pub(super) fn add_noise(&mut self, noise: &Deviation) {
+        if self.is_lost() {
+            return;
+        }
+        // Fourteen parts, made seven again by turning them into each other (Householder's reflections), which
+        // leaves the covariance as it is: component by component, all but one are rid of it. Noise of a later
+        // component can not have it.
+        let mut all = [[0.0; 2 * PARTS]; 7];
+        for (i, (row, part)) in all.iter_mut().zip(&self.parts).enumerate() {
+            row[..PARTS].copy_from_slice(&part[..PARTS]);
+            row[PARTS + i] = noise[i];
+        }
+        for i in 0..7 {
+            let [pivot, below @ ..] = &mut all[i..] else {
+                break;
+            };
+            reflect(i, pivot, below);
+        }
+        for (part, row) in self.parts.iter_mut().zip(&all) {
+            part[..PARTS].copy_from_slice(&row[..PARTS]);
+        }
+    }
+
+    /// Whether nothing is known any more.
+    pub(super) fn is_lost(&self) -> bool {
+        let small = |component: &f64| component.abs() < LOST;
+        let parts = self
+            .parts
+            .as_flattened()
+            .iter()
+            .fold(true, |all, part| all & small(part));
+        !(parts && self.columns.iter().flatten().all(small))
+    }
+
+    /// Variance of component i.
+    pub(super) fn variance(&self, i: usize) -> f64 {
+        let columns: f64 = self
+            .columns
+            .iter()
+            .map(|column| column[i] * column[i])
+            .sum();
+        dot(&self.parts[i], &self.parts[i]) + columns
+    }
+
+    /// Standard deviation of component i.
+    pub(super) fn of_component(&self, i: usize) -> f64 {
+        self.variance(i).sqrt()
+    }
+
+    /// Standard deviation of a linear function of the state.
+    pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {
+        let parts = combined(&self.parts, direction);
+        let along =
+            |column: &Deviation| -> f64 { direction.iter().zip(column).map(|(l, w)| l * w).sum() };
+        let columns: f64 = self
+            .columns
+            .iter()
+            .map(|column| along(column).powi(2))
+            .sum();
+        (dot(&parts, &parts) + columns).sqrt()
+    }
+
+    /// A bound on the standard deviation of a linear function of the position with coefficients of these sizes.
+    pub(super) fn at_most(&self, coefficients: [f64; 3]) -> f64 {
+        (0..3).map(|i| coefficients[i] * self.of_component(i)).sum()
+    }
+}
+
+/// Turns the eight parts from the i-th on into each other, so that only the first of them has anything in row i.
+fn reflect(i: usize, pivot: &mut [f64; 2 * PARTS], below: &mut [[f64; 2 * PARTS]]) {
+    let Some(pivot) = pivot[i..].first_chunk_mut::<COLUMNS>() else {
+        return;
+    };
+    let length = dot(pivot, pivot).sqrt().copysign(-pivot[0]);
+    if length == 0.0 {
+        return;
+    }
+    let mut mirror = pivot.map(|component| component / length);
+    mirror[0] -= 1.0;
+    let scale = 1.0 / mirror[0];
+    *pivot = [0.0; COLUMNS];
+    pivot[0] = length;
+    for row in below {
+        let Some(row) = row[i..].first_chunk_mut::<COLUMNS>() else {
+            return;
+        };
+        let along = dot(&mirror, row) * scale;
+        for (entry, m) in row.iter_mut().zip(mirror) {
+            *entry += m * along;
+        }
+    }
+}
+
+/// Σ a_k b_k, as four sums that a processor can do at once.
+fn dot(a: &[f64; COLUMNS], b: &[f64; COLUMNS]) -> f64 {
+    let mut sums = [0.0; 4];
+    for k in 0..4 {
+        sums[k] = a[k] * b[k] + a[k + 4] * b[k + 4];
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn squares(parts: &Block<COLUMNS>) -> [[f64; 7]; 7] {
+        parts.map(|row| parts.map(|other| dot(&row, &other)))
+    }
+
+    /// A map of deviations, of a block of them.
+    fn each(map: impl Fn(&Deviation) -> Deviation) -> impl Fn(&mut Block<COLUMNS>) {
+        move |block| {
+            for column in 0..COLUMNS {
+                let mapped = map(&block.map(|row| row[column]));
+                for (row, entry) in block.iter_mut().zip(mapped) {
+                    row[column] = entry;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn noise_adds_its_squares_and_nothing_else() {
+        let mut covariance =
+            CovarianceFactor::along_components(&[1.0, 2.0, 0.0, 0.5, 3.0, 1e-9, 0.0]);
+        let noise = [0.1, 0.0, 0.3, 1.0, 1e-12, 2.0, 0.7];
+        let mix = each(|part| {
+            let mut mixed = *part;
+            for i in 0..6 {
+                mixed[i + 1] += 0.7 * part[i];
+                mixed[0] -= 0.3 * part[i + 1];
+            }
+            mixed
+        });
+        covariance = covariance.carried(mix, Vec::new());
+        let before = squares(&covariance.parts);
+        covariance.add_noise(&noise);
+        let after = squares(&covariance.parts);
+        for (i, (before, after)) in before.iter().zip(&after).enumerate() {
+            for (j, (before, after)) in before.iter().zip(after).enumerate() {
+                let added = if i == j { noise[i] * noise[i] } else { 0.0 };
+                assert!((after - before - added).abs() < 1e-13, "{i} {j}");
+            }
+        }
+        covariance.add_noise(&[0.0; 7]);
+        assert!(!covariance.is_lost());
+        for size in [1e31, 1e200, f64::INFINITY, f64::NAN] {
+            let mut lost = CovarianceFactor::along_components(&[size; 7]);
+            lost.add_noise(&noise);
+            assert!(lost.is_lost());
+        }
+    }
+
+    /// A direction that is known 1e12 times better than the others stays so, where a covariance has no digit left of it.
+    #[test]
+    fn what_is_known_well_is_not_lost_among_the_rest() {
+        let nearly_one = each(|part| {
+            let mut known = *part;
+            known[1] = part[0] + 1e-12 * part[1];
+            known
+        });
+        let mut covariance =
+            CovarianceFactor::along_components(&[1e-9; 7]).carried(nearly_one, Vec::new());
+        covariance.add_noise(&[0.0; 7]);
+        let apart = covariance.along(&[1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
+        assert!((apart / 1e-21 - 1.0).abs() < 1e-3, "{apart:e}");
+    }
+}

@@ -1,0 +1,293 @@
+//! Follows a run and keeps account of what is known of it.
+
+use crate::analysis::lyapunov::Frame;
+use crate::analysis::trust::causes::{Closing, cause, cause_at_start, may_run_out_of_time};
+use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::{Graze, Horizon, HorizonCause, START_KEYS, Trust, Uncertainty};
+use crate::arithmetic::dual::Dual;
+use crate::arithmetic::processor::{Kernel, dispatch};
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::value::Value;
+use crate::model::state::State;
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::tangent::{Block, Deviation, StepMap, Tangent, combined};
+
+/// An impact that magnifies more than this is told.
+const MAGNIFIES: f64 = 100.0;
+
+/// What rounding adds in one step to a component of size 1, as standard deviation: a few operations, each
+/// off by up to ε/2, most of them on increments smaller than what they are added to.
+const ROUNDING: f64 = 0.25 * f64::EPSILON;
+/// A component is taken to be no smaller than this: it is computed from others that are not.
+const LEAST: f64 = 0.25;
+
+/// Follows a run, step by step, and says in the end how far it can be trusted.
+#[derive(Clone, Debug)]
+pub struct TrustMonitor {
+    tolerance: f64,
+    tangent: Tangent,
+    covariance: CovarianceFactor,
+    keys: Vec<UncertainKey>,
+    frame: Frame,
+    errors: Vec<f64>,
+    grazes: Vec<Graze>,
+    horizon: Option<Horizon>,
+    end_error: f64,
+    begin: f64,
+    end: f64,
+}
+
+/// A step to be followed, by the best instructions for it.
+struct Following<'a>(&'a mut TrustMonitor, &'a Simulation, &'a Step);
+
+impl Kernel for Following<'_> {
+    type Output = StepMap;
+    #[inline(always)]
+    fn run(self) -> StepMap {
+        self.0.follow_here(self.1, self.2)
+    }
+}
+
+/// The same run with its derivatives by an uncertain parameter.
+#[derive(Clone, Debug)]
+struct UncertainKey {
+    simulation: Simulation<Dual<f64, 1>>,
+    /// Standard deviation of the parameter.
+    size: f64,
+    /// That of (w, τ), at the latest event.
+    deviation: Deviation,
+}
+
+/// The standard deviation of a value that lies anywhere within ± `size`.
+fn uniform(size: f64) -> f64 {
+    size / 3.0_f64.sqrt()
+}
+
+impl TrustMonitor {
+    /// Of a motion about to begin, whose start may be off by `start`.
+    pub fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
+        let tangent = Tangent::new(simulation.system());
+        let projection = tangent.of_start(simulation);
+        let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
+        let covariance = CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
+        let horizon = cause_at_start(simulation, &covariance).map(|cause| Horizon {
+            t: simulation.time(),
+            impact: 1,
+            cause,
+        });
+        let project = |block: &mut Block<_>| {
+            let projected = projection.map(|row| combined(block, &row));
+            block[..6].copy_from_slice(&projected);
+        };
+        let mut covariance = covariance.carried(project, Vec::new());
+        covariance.add_noise(&rounding(simulation.state(), simulation.time()));
+        Self {
+            tolerance,
+            tangent,
+            covariance,
+            keys: Vec::new(),
+            frame: Frame::new(),
+            errors: Vec::new(),
+            grazes: Vec::new(),
+            horizon,
+            end_error: 0.0,
+            begin: simulation.time(),
+            end: simulation.time(),
+        }
+    }
+
+    /// Of a case, with all that is in doubt.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a key that is in doubt has no value in this case.
+    pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
+        let mut start = uncertainty.start;
+        // What the case does not have can not be in doubt.
+        for (size, key) in start.iter_mut().zip(START_KEYS) {
+            if !case.parameters().moves_by(key) {
+                *size = 0.0;
+            }
+        }
+        let mut monitor = Self::new(&case.simulation(), &start, uncertainty.tolerance);
+        for (name, size) in &uncertainty.keys {
+            monitor.keys.push(UncertainKey::new(case, name, *size)?);
+        }
+        monitor.covariance.columns = monitor.keys.iter().map(|key| key.deviation).collect();
+        Ok(monitor)
+    }
+
+    /// Takes in the step that `simulation` has just made.
+    pub fn follow(&mut self, simulation: &Simulation, step: &Step) {
+        let map = self.follow_spread(simulation, step);
+        self.frame.follow(&map);
+    }
+
+    /// Takes in the step, but for the exponents, which the horizon does not depend on.
+    pub(super) fn follow_spread(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
+        dispatch(Following(self, simulation, step))
+    }
+
+    #[inline(always)]
+    fn follow_here(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
+        let map = self.tangent.of_step(simulation, step);
+        self.end = step.t_end;
+        let rows = step.impacts().count();
+        let closing = Closing::of(simulation, step, &map);
+        self.note_graze(closing, &map);
+        let error = if self.is_lost() {
+            self.lose(step, HorizonCause::Tolerance);
+            f64::INFINITY
+        } else {
+            self.carry(simulation, step, &map, closing)
+        };
+        self.errors.extend(std::iter::repeat_n(error, rows));
+        map
+    }
+
+    /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    fn is_lost(&self) -> bool {
+        let other_events = self
+            .horizon
+            .is_some_and(|h| h.cause != HorizonCause::Tolerance);
+        other_events || self.covariance.is_lost()
+    }
+
+    /// Carries the spread through the step; returns the error at its event.
+    #[inline(always)]
+    fn carry(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        map: &StepMap,
+        closing: Option<Closing>,
+    ) -> f64 {
+        let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
+        let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
+        let along = self.covariance.carried(|w| map.carry_along(w), column(0));
+        if let Some(cause) = cause(simulation, step, map, &along, closing) {
+            self.lose(step, cause);
+        }
+        let met = along.carried(|w| map.carry_to_meet(w), column(1));
+        if may_run_out_of_time(simulation, step, &met) {
+            self.lose(step, HorizonCause::StopRule);
+        }
+        let mut after = met.carried(|w| map.carry_through(w), column(2));
+        let error =
+            relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
+        after.add_noise(&rounding(&step.after, step.t_end));
+        self.covariance = after;
+        self.end_error = self.covariance.of_component(6);
+        if error > self.tolerance || self.covariance.is_lost() {
+            self.lose(step, HorizonCause::Tolerance);
+        }
+        if self.is_lost() { f64::INFINITY } else { error }
+    }
+
+    /// Trust ends once.
+    fn lose(&mut self, step: &Step, cause: HorizonCause) {
+        self.horizon.get_or_insert(Horizon {
+            t: step.t_end,
+            impact: self.errors.len() + 1,
+            cause,
+        });
+    }
+
+    #[inline(always)]
+    fn note_graze(&mut self, closing: Option<Closing>, map: &StepMap) {
+        let Some(Closing { v_n, alpha, .. }) = closing else {
+            return;
+        };
+        let factor = map.magnification();
+        if alpha < 0.0 && factor > MAGNIFIES {
+            self.grazes.push(Graze {
+                impact: self.errors.len() + 1,
+                v_n,
+                factor,
+            });
+        }
+    }
+
+    /// Where trust has ended, if it has.
+    pub fn horizon(&self) -> Option<Horizon> {
+        self.horizon
+    }
+
+    /// What there is to say, at the end of the run or wherever it has come to.
+    pub fn verdict(self) -> Trust {
+        let end_error = if self.is_lost() {
+            f64::INFINITY
+        } else {
+            self.end_error
+        };
+        Trust {
+            errors: self.errors,
+            horizon: self.horizon,
+            end_error,
+            grazes: self.grazes,
+            exponents: self.frame.exponents(self.end - self.begin),
+        }
+    }
+}
+
+impl UncertainKey {
+    fn new(case: &Case, name: &'static str, size: f64) -> Result<Self, CaseError> {
+        if !case.parameters().moves_by(name) {
+            let allowed = "no uncertainty, as this case has no such quantity";
+            return Err(CaseError::value(name, Value::Number(size), allowed));
+        }
+        let lift = |key, number| {
+            if key == name {
+                Dual::variable(number, 0)
+            } else {
+                Dual::constant(number)
+            }
+        };
+        let simulation = case.simulation_over(lift).map_err(|_| {
+            let allowed = "an uncertainty about a start that is not on the very edge";
+            CaseError::value(name, Value::Number(size), allowed)
+        })?;
+        let size = uniform(size);
+        let w = simulation.state().components().map(|c| c.slope[0] * size);
+        Ok(Self {
+            simulation,
+            size,
+            deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
+        })
+    }
+
+    /// The deviation just before the event told at the time of the last one, just before it at its own time,
+    /// and after it.
+    fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
+        let Some(step) = self.simulation.step() else {
+            return [self.deviation; 3];
+        };
+        let tau = step.t_end.slope[0] * self.size;
+        let at = |state: &State<Dual<f64, 1>>| -> Deviation {
+            let w = state.components().map(|c| c.slope[0] * self.size);
+            [w[0], w[1], w[2], w[3], w[4], w[5], tau]
+        };
+        let met = at(&step.before);
+        let along = map.before_meeting(&met, self.deviation[6]);
+        self.deviation = at(&step.after);
+        [along, met, self.deviation]
+    }
+}
+
+/// The largest standard deviation of time and state, of each relative to its value where that is above 1.
+fn relative(covariance: &CovarianceFactor, state: &State, t: f64) -> f64 {
+    let [x, y, theta, vx, vy, vtheta] = state.components();
+    let mut largest = 0.0_f64;
+    for (i, value) in [x, y, theta, vx, vy, vtheta, t].into_iter().enumerate() {
+        largest = largest.max(covariance.variance(i) / (value * value).max(1.0));
+    }
+    largest.sqrt()
+}
+
+/// What rounding adds to a state and its time in one step.
+fn rounding(state: &State, t: f64) -> Deviation {
+    let [x, y, theta, vx, vy, vtheta] = state
+        .components()
+        .map(|component| ROUNDING * component.abs().max(LEAST));
+    [x, y, theta, vx, vy, vtheta, ROUNDING * t]
+}

@@ -1,0 +1,394 @@
+//! Numbers of many digits, to prove what doubles only compute.
+
+use crate::arithmetic::real::Real;
+use dashu_float::round::mode::HalfEven;
+use dashu_float::{Context, FBig, FpError, Repr};
+use dashu_int::{IBig, Sign, UBig};
+use std::cmp::Ordering;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A number with a significand of 64 `WORDS` − 2 bits, rounded to nearest after every operation.
+///
+/// The arithmetic is that of the crate `dashu-float`. Its numbers live on the heap and are cloned,
+/// which would litter the formulas of the motion; between two operations they rest here in an array of
+/// fixed size, so that this type is copied as a double is.
+///
+/// Libraries weighed: `rug` (MPFR) is faster and asks for a C compiler and the LGPL; `f256` ends at 71
+/// digits; `astro-float` has not been released for long. `dashu-float` is plain Rust, kept up, under the
+/// same licences as this, and rounds its sines and cosines correctly.
+///
+/// What has no value, such as 0/0 or a number past the exponents, is like a NaN.
+#[derive(Clone, Copy, Debug)]
+pub struct Precise<const WORDS: usize> {
+    /// The significand, an integer, least significant byte first.
+    significand: [[u8; 8]; WORDS],
+    exponent: i64,
+    negative: bool,
+    valid: bool,
+}
+
+type Number = FBig<HalfEven, 2>;
+
+impl<const WORDS: usize> Precise<WORDS> {
+    /// Bits of the significand; a sum may come out with one bit more, which has to fit.
+    const BITS: usize = 64 * WORDS - 2;
+
+    /// Decimal digits that it holds.
+    pub const DIGITS: u32 = (Self::BITS as f64 * std::f64::consts::LOG10_2) as u32;
+
+    const NO_VALUE: Self = Self {
+        significand: [[0; 8]; WORDS],
+        exponent: 0,
+        negative: false,
+        valid: false,
+    };
+
+    const fn power_of_two(exponent: i64) -> Self {
+        let mut significand = [[0; 8]; WORDS];
+        significand[0][0] = 1;
+        Self {
+            significand,
+            exponent,
+            negative: false,
+            valid: true,
+        }
+    }
+
+    fn context() -> Context<HalfEven> {
+        Context::new(Self::BITS)
+    }
+
+    fn repr(&self) -> Repr<2> {
+        let magnitude = UBig::from_le_bytes(self.significand.as_flattened());
+        let sign = if self.negative {
+            Sign::Negative
+        } else {
+            Sign::Positive
+        };
+        Repr::new(IBig::from_parts(sign, magnitude), self.exponent as isize)
+    }
+
+    fn from_repr(repr: &Repr<2>) -> Self {
+        let (sign, magnitude) = repr.significand().clone().into_parts();
+        let bytes = magnitude.to_le_bytes();
+        if repr.is_infinite() || bytes.len() > 8 * WORDS {
+            return Self::NO_VALUE;
+        }
+        let mut number = Self::ZERO;
+        number.significand.as_flattened_mut()[..bytes.len()].copy_from_slice(&bytes);
+        if !bytes.is_empty() {
+            number.exponent = repr.exponent() as i64;
+            number.negative = sign == Sign::Negative;
+        }
+        number
+    }
+
+    fn from_number<E>(result: Result<Number, E>) -> Self {
+        result.map_or(Self::NO_VALUE, |number| Self::from_repr(number.repr()))
+    }
+
+    /// One operation of the library, on what has a value.
+    fn binary(
+        self,
+        other: Self,
+        operation: impl Fn(Context<HalfEven>, &Repr<2>, &Repr<2>) -> Result<Number, FpError>,
+    ) -> Self {
+        if !(self.valid && other.valid) {
+            return Self::NO_VALUE;
+        }
+        Self::from_number(operation(Self::context(), &self.repr(), &other.repr()))
+    }
+
+    fn unary(
+        self,
+        operation: impl Fn(Context<HalfEven>, &Repr<2>) -> Result<Number, FpError>,
+    ) -> Self {
+        if !self.valid {
+            return Self::NO_VALUE;
+        }
+        Self::from_number(operation(Self::context(), &self.repr()))
+    }
+
+    fn is_zero(&self) -> bool {
+        self.valid
+            && self
+                .significand
+                .as_flattened()
+                .iter()
+                .all(|byte| *byte == 0)
+    }
+
+    /// Terms that bring the series of [`Real::versines`] below half a rounding at |z| ≤ 1: where
+    /// (2k + 2)! passes 2^BITS.
+    fn versine_terms() -> u32 {
+        let mut bits = 0.0;
+        let mut n = 1;
+        while bits < Self::BITS as f64 {
+            n += 1;
+            bits += f64::from(n).log2();
+        }
+        n / 2
+    }
+}
+
+impl<const WORDS: usize> Default for Precise<WORDS> {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl<const WORDS: usize> PartialEq for Precise<WORDS> {
+    fn eq(&self, other: &Self) -> bool {
+        self.partial_cmp(other) == Some(Ordering::Equal)
+    }
+}
+
+impl<const WORDS: usize> PartialOrd for Precise<WORDS> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        (self.valid && other.valid).then(|| self.repr().cmp(&other.repr()))
+    }
+}
+
+impl<const WORDS: usize> Add for Precise<WORDS> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.binary(other, |context, a, b| {
+            context.add(a, b).map(|sum| sum.value())
+        })
+    }
+}
+
+impl<const WORDS: usize> Sub for Precise<WORDS> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.binary(other, |context, a, b| {
+            context.sub(a, b).map(|difference| difference.value())
+        })
+    }
+}
+
+impl<const WORDS: usize> Mul for Precise<WORDS> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.binary(other, |context, a, b| {
+            context.mul(a, b).map(|product| product.value())
+        })
+    }
+}
+
+impl<const WORDS: usize> Div for Precise<WORDS> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        self.binary(other, |context, a, b| {
+            context.div(a, b).map(|quotient| quotient.value())
+        })
+    }
+}
+
+impl<const WORDS: usize> Neg for Precise<WORDS> {
+    type Output = Self;
+    fn neg(mut self) -> Self {
+        self.negative = !self.negative && !self.is_zero();
+        self
+    }
+}
+
+impl<const WORDS: usize> Add<f64> for Precise<WORDS> {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        self + Self::from_f64(other)
+    }
+}
+
+impl<const WORDS: usize> Sub<f64> for Precise<WORDS> {
+    type Output = Self;
+    fn sub(self, other: f64) -> Self {
+        self - Self::from_f64(other)
+    }
+}
+
+impl<const WORDS: usize> Mul<f64> for Precise<WORDS> {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        self * Self::from_f64(other)
+    }
+}
+
+impl<const WORDS: usize> Div<f64> for Precise<WORDS> {
+    type Output = Self;
+    fn div(self, other: f64) -> Self {
+        self / Self::from_f64(other)
+    }
+}
+
+impl<const WORDS: usize> AddAssign for Precise<WORDS> {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const WORDS: usize> SubAssign for Precise<WORDS> {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<const WORDS: usize> Real for Precise<WORDS> {
+    const EPSILON: Self = Self::power_of_two(1 - Self::BITS as i64);
+    const ZERO: Self = Self {
+        valid: true,
+        ..Self::NO_VALUE
+    };
+    const ONE: Self = Self::power_of_two(0);
+    // Each doubles the 30 bits that 1e-9 leaves.
+    const NEWTON_STEPS: usize = (Self::BITS / 30).ilog2() as usize + 1;
+
+    fn from_f64(value: f64) -> Self {
+        Self::from_number(Number::try_from(value))
+    }
+
+    fn from_decimal(value: f64) -> Self {
+        // Rust writes a double as the shortest decimal that is read back as the same double.
+        let written = format!("{value:e}");
+        let (digits, power) = written.split_once('e').unwrap_or((&written, "0"));
+        let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+        let integer = format!("{whole}{fraction}").parse::<i64>();
+        let power = power
+            .parse::<i32>()
+            .map(|power| power - fraction.len() as i32);
+        let (Ok(integer), Ok(power)) = (integer, power) else {
+            return Self::NO_VALUE;
+        };
+        let integer = Self::from_repr(&Repr::new(IBig::from(integer), 0));
+        let scale = UBig::from(10u8).pow(power.unsigned_abs() as usize);
+        let scale = Self::from_number(Ok::<_, FpError>(
+            Self::context().convert_int(IBig::from(scale)).value(),
+        ));
+        if power < 0 {
+            integer / scale
+        } else {
+            integer * scale
+        }
+    }
+
+    fn half_pi() -> Self {
+        Self::from_repr(Self::context().pi::<2>(None).value().repr()) * 0.5
+    }
+
+    fn to_f64(self) -> f64 {
+        if self.valid {
+            Number::from_repr(self.repr(), Self::context())
+                .to_f64()
+                .value()
+        } else {
+            f64::NAN
+        }
+    }
+
+    fn sqrt(self) -> Self {
+        self.unary(|context, x| context.sqrt(x).map(|root| root.value()))
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        if !self.valid {
+            return (Self::NO_VALUE, Self::NO_VALUE);
+        }
+        let (sine, cosine) = Self::context().sin_cos(&self.repr(), None);
+        (
+            Self::from_number(sine.map(|sine| sine.value())),
+            Self::from_number(cosine.map(|cosine| cosine.value())),
+        )
+    }
+
+    fn versines(self) -> (Self, Self) {
+        let square = self * self;
+        if square <= Self::ONE {
+            // As for doubles: Horner from the smallest term.
+            let (mut even, mut odd) = (Self::ONE, Self::ONE);
+            for k in (1..Self::versine_terms()).rev() {
+                let n = 2.0 * f64::from(k);
+                even = Self::ONE - even * square / ((n + 1.0) * (n + 2.0));
+                odd = Self::ONE - odd * square / ((n + 2.0) * (n + 3.0));
+            }
+            (even * 0.5, self * odd / 6.0)
+        } else {
+            let half_sine = (self * 0.5).sin_cos().0;
+            (
+                half_sine * half_sine * 2.0 / square,
+                (self - self.sin_cos().0) / square,
+            )
+        }
+    }
+
+    fn is_finite(self) -> bool {
+        self.valid
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type P = Precise<4>;
+
+    #[test]
+    fn a_tenth_is_a_tenth() {
+        let tenth = P::from_decimal(0.1);
+        assert!(tenth != P::from_f64(0.1));
+        assert!((tenth * 10.0 - P::ONE).abs() <= P::EPSILON);
+        for value in [0.0, 1.0, -2.5, 1e22, 6.02e-23, 0.005, 1.0 / 3.0] {
+            assert_eq!(P::from_decimal(value).to_f64(), value);
+        }
+        assert_eq!(P::DIGITS, 76);
+        assert_eq!(P::NEWTON_STEPS, 4);
+    }
+
+    #[test]
+    fn epsilon_is_the_spacing_next_to_one() {
+        let half = P::EPSILON * 0.5;
+        assert!(P::ONE + P::EPSILON > P::ONE);
+        assert!(P::ONE + half * 0.99 == P::ONE);
+    }
+
+    /// To 60 digits, from mpmath.
+    #[test]
+    fn elementary_functions_agree_with_sixty_digits() {
+        let close = |got: P, digits: &str| {
+            // The reference as a fraction of integers, which no parser of ours has touched.
+            let scale = UBig::from(10u8).pow(60);
+            let integer: IBig = digits.parse().expect("digits");
+            let reference = P::from_repr(&Repr::new(integer, 0))
+                / P::from_repr(&Repr::new(IBig::from(scale), 0));
+            assert!((got - reference).abs().to_f64() < 1e-59, "{digits}");
+        };
+        let (sine, cosine) = P::from_decimal(0.7).sin_cos();
+        close(sine, SINE_OF_0_7);
+        close(cosine, COSINE_OF_0_7);
+        close(P::half_pi(), HALF_PI);
+        close(P::from_f64(2.0).sqrt(), ROOT_OF_2);
+        close(P::from_decimal(0.7).versines().0, EVEN_AT_0_7);
+        close(P::from_decimal(0.7).versines().1, ODD_AT_0_7);
+        close(P::from_decimal(1.7).versines().0, EVEN_AT_1_7);
+        close(P::from_decimal(1.7).versines().1, ODD_AT_1_7);
+    }
+
+    #[test]
+    fn what_has_no_value_poisons_and_compares_as_nothing() {
+        let nothing = P::ZERO / P::ZERO;
+        assert!(!nothing.is_finite() && nothing.to_f64().is_nan());
+        assert!(!(P::ONE / P::ZERO).is_finite());
+        assert!(!(-P::ONE).sqrt().is_finite());
+        assert!(!(nothing + 1.0).is_finite() && nothing.partial_cmp(&P::ONE).is_none());
+        assert!(nothing != nothing);
+        assert!(-P::ZERO == P::ZERO);
+    }
+
+    const SINE_OF_0_7: &str = "644217687237691053672614351398720183065813844573689644743963";
+    const COSINE_OF_0_7: &str = "764842187284488426255859990191864909268210550373703356072932";
+    const HALF_PI: &str = "1570796326794896619231321691639751442098584699687552910487472";
+    const ROOT_OF_2: &str = "1414213562373095048801688724209698078569671875376948073176680";
+    const EVEN_AT_0_7: &str = "479913903501044028049265326139051205575080509441421722300138";
+    const ODD_AT_0_7: &str = "113841454616957033321195201227101667212624806992470112767422";
+    const EVEN_AT_1_7: &str = "390603631244126188265620365859817824948664387420485458938333";
+    const ODD_AT_1_7: &str = "245098681504336119257393287665094929963038210668815319956020";
+}

@@ -1,0 +1,115 @@
+//! Kernel compiled twice: for any processor of a family, and for one that fuses a multiply with an add.
+//!
+//! All on its way that takes time is `#[inline(always)]`, and loops stand where a closure would: what is only called is
+//! compiled for the other processors.
+//!
+//! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same. Where a processor has no instruction for it, or
+//! the compiler may not assume one, it is a function, which takes longer than both operations.
+#![cfg_attr(
+    target_arch = "x86_64",
+    expect(
+        unsafe_code,
+        reason = "a function for one kind of processor; see below"
+    )
+)]
+
+use crate::arithmetic::real::Real;
+
+/// Something to do that may be compiled for one kind of processor.
+pub(crate) trait Kernel {
+    /// What it comes to.
+    type Output;
+    /// Does it; `#[inline(always)]`.
+    fn run(self) -> Self::Output;
+}
+
+/// Whether the processor has AVX2 and FMA.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn has_fma() -> bool {
+    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
+}
+
+/// Does it by the best instructions for it.
+#[cfg(target_arch = "x86_64")]
+#[inline]
+pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
+    #[target_feature(enable = "avx2,fma")]
+    fn fused<W: Kernel>(kernel: W) -> W::Output {
+        kernel.run()
+    }
+    if has_fma() {
+        // SAFETY: the processor has AVX2 and FMA, as was just asked.
+        unsafe { fused(kernel) }
+    } else {
+        kernel.run()
+    }
+}
+
+/// The same of work over one arithmetic: twice is compiled only what is fast enough for it to be felt.
+#[inline]
+pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
+    if T::FUSES {
+        dispatch(kernel)
+    } else {
+        kernel.run()
+    }
+}
+
+/// Other families are compiled once: 64-bit Arm always fuses, elsewhere it is a function.
+#[cfg(not(target_arch = "x86_64"))]
+#[inline]
+pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
+    kernel.run()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::case::parameters::Parameters;
+    use crate::motion::simulation::Simulation;
+
+    /// Products whose rounding before the sum shows, and halfway cases that a wider intermediate rounds twice.
+    #[test]
+    fn the_platform_fuses_right() {
+        let (one, e) = (1.0_f64, f64::EPSILON);
+        for (a, b, c, known) in [
+            (one + e, one - e, -one, -e * e),
+            (one + e, one + e, -(one + 2.0 * e), e * e),
+            // 1 + ε/2 is halfway between 1 and its neighbour; a trace more or less decides.
+            (e * 0.5, one + e, one, one + e),
+            (e * 0.5, one - e, one, one),
+            (one + e * 2.0_f64.powi(20), e * 0.5, one + e, one + 2.0 * e),
+        ] {
+            assert_eq!(
+                std::hint::black_box(a).mul_add(b, c),
+                known,
+                "{a:e} {b:e} {c:e}"
+            );
+        }
+    }
+
+    /// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the same bits.
+    #[test]
+    fn both_compilations_give_the_same_bits() {
+        let mut modes = [0; 3];
+        for f_o in [0.1, 0.27, 0.3] {
+            let case = Case::new(Parameters {
+                f_o,
+                t_end: 12.0,
+                stop_when_settled: false,
+                ..Parameters::STANDARD
+            });
+            let mut fused = case.expect("a legal case").simulation();
+            let mut plain = fused.clone();
+            let bits = |simulation: &Simulation| simulation.state().components().map(f64::to_bits);
+            while let Some(step) = fused.step() {
+                modes[step.taut.len()] += 1;
+                assert!(plain.step_here().is_some());
+                assert_eq!(fused.time().to_bits(), plain.time().to_bits());
+                assert_eq!(bits(&fused), bits(&plain));
+            }
+            assert_eq!(fused.stop(), plain.stop());
+        }
+        assert!(modes.iter().all(|steps| *steps > 0), "{modes:?}");
+    }
+}

@@ -1,0 +1,164 @@
+//! The number type that the physics is written over, and its elementary functions.
+//!
+//! The whole motion is generic over [`Real`]: doubles for the ordinary run, [`crate::arithmetic::dual::Dual`] numbers
+//! for its derivatives, [`crate::arithmetic::precise::Precise`] ones for its proof. In a chaotic system a different last bit
+//! is a different picture: no function of a double calls the platform's `libm` (sine and cosine are
+//! those of [`crate::arithmetic::elementary`], plain arithmetic in a fixed order), and a multiply is fused with an add
+//! where `mul_add` says so, on every machine, and nowhere else.
+
+use crate::arithmetic::elementary;
+use std::fmt::Debug;
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+
+/// A real number in some arithmetic.
+pub trait Real:
+    Copy
+    + Debug
+    + Default
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// Spacing of the numbers next to 1.
+    const EPSILON: Self;
+    /// Zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
+    const NEWTON_STEPS: usize;
+    /// Whether its products and sums are those of the processor, so that steps are compiled for kinds of it.
+    const FUSES: bool = false;
+    /// Whether it carries derivatives, which [`Real::detached`] leaves out.
+    const CARRIES_SLOPES: bool = false;
+
+    /// The number of this arithmetic that equals `value`.
+    fn from_f64(value: f64) -> Self;
+    /// The number that is written as `value` is: 0.1 is one tenth in every arithmetic, as far as that can
+    /// hold it, and not the double next to a tenth.
+    fn from_decimal(value: f64) -> Self;
+    /// π/2.
+    fn half_pi() -> Self;
+    /// The nearest double.
+    fn to_f64(self) -> f64;
+    /// self · by + plus; where the arithmetic has it, rounded once.
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        self * by + plus
+    }
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// ( (1 − cos z)/z², (z − sin z)/z² ), without cancellation at small z; (½, 0) at z = 0.
+    ///
+    /// They are the real and imaginary part of φ₂(iz) = (e^{iz} − 1 − iz)/(iz)², and both the drift
+    /// under a sinusoidal force and the versine of a rotation are made of them.
+    fn versines(self) -> (Self, Self);
+
+    /// Absolute value.
+    fn abs(self) -> Self {
+        if self < Self::ZERO { -self } else { self }
+    }
+    /// The larger of two.
+    fn max(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+    /// The smaller of two.
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+    /// Square.
+    fn squared(self) -> Self {
+        self * self
+    }
+    /// The same number as one that depends on nothing: where a search looks is no part of the motion.
+    fn detached(self) -> Self {
+        self
+    }
+    /// Whether it is neither infinite nor NaN.
+    fn is_finite(self) -> bool {
+        self.to_f64().is_finite()
+    }
+}
+
+impl Real for f64 {
+    const EPSILON: Self = f64::EPSILON;
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const NEWTON_STEPS: usize = 2;
+    const FUSES: bool = true;
+
+    #[inline(always)]
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn from_decimal(value: f64) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn half_pi() -> Self {
+        std::f64::consts::FRAC_PI_2
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn mul_add(self, by: Self, plus: Self) -> Self {
+        f64::mul_add(self, by, plus)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // IEEE 754 asks for correct rounding: the same bits on every platform.
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        elementary::sin_cos(self)
+    }
+    #[inline(always)]
+    fn versines(self) -> (Self, Self) {
+        elementary::versines(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reference values of (1 − cos z)/z² and (z − sin z)/z², from mpmath at 40 digits.
+    #[test]
+    fn versines_agree_with_forty_digits() {
+        let known = [
+            (1e-9, 0.5, 1.666_666_666_666_666_8e-10),
+            (0.3, 0.496_261_231_937_710_9, 0.049_775_481_540_671_386),
+            (0.999, 0.459_775_584_832_508_15, 0.158_386_352_461_950_03),
+            (1.001, 0.459_619_736_035_745_9, 0.158_671_631_776_558_17),
+            (-2.5, 0.288_182_978_487_509_4, -0.304_244_456_943_366_96),
+            (40.0, 0.001_041_836_288_532_663_7, 0.024_534_304_274_700_407),
+        ];
+        for (z, even, odd) in known {
+            let (c, s) = f64::versines(z);
+            assert!(
+                (c - even).abs() <= 3e-16 * even.abs(),
+                "z = {z}: {c} {even}"
+            );
+            assert!((s - odd).abs() <= 6e-16 * odd.abs(), "z = {z}: {s} {odd}");
+        }
+        assert_eq!(f64::versines(0.0), (0.5, 0.0));
+    }
+}

@@ -1,0 +1,136 @@
+//! Truncated power series side by side: of several quantities that one pass of sums serves.
+
+use crate::arithmetic::polynomial::ORDER;
+use crate::arithmetic::real::Real;
+use std::ops::{Index, IndexMut};
+
+/// Products are summed so many at a time.
+const BLOCK: usize = 4;
+/// Zeros on either side, so that what is summed can be rounded up to whole blocks.
+const MARGIN: usize = BLOCK - 1;
+
+/// `W` power series up to [`ORDER`], lowest power first, with zeros around them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct VectorSeries<T, const W: usize>([[T; W]; MARGIN + ORDER + 1 + MARGIN]);
+
+impl<T: Real, const W: usize> Default for VectorSeries<T, W> {
+    fn default() -> Self {
+        Self([[T::ZERO; W]; MARGIN + ORDER + 1 + MARGIN])
+    }
+}
+
+impl<T, const W: usize> Index<usize> for VectorSeries<T, W> {
+    type Output = [T; W];
+    #[inline(always)]
+    fn index(&self, power: usize) -> &[T; W] {
+        &self.0[MARGIN + power]
+    }
+}
+
+impl<T, const W: usize> IndexMut<usize> for VectorSeries<T, W> {
+    #[inline(always)]
+    fn index_mut(&mut self, power: usize) -> &mut [T; W] {
+        &mut self.0[MARGIN + power]
+    }
+}
+
+impl<T: Real, const W: usize> VectorSeries<T, W> {
+    /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet is zero, so that
+    /// its products are left out; all have to be finite, as those beyond k meet zeros.
+    #[inline(always)]
+    pub(crate) fn convolve(&self, other: &Self, k: usize) -> [T; W] {
+        let [sums] = convolve([(self, other)], k);
+        sums
+    }
+}
+
+/// The k-th coefficients of several products, in one pass.
+#[inline(always)]
+pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
+    factors: [(&VectorSeries<T, W>, &VectorSeries<T, W>); N],
+    k: usize,
+) -> [[T; W]; N] {
+    let mut products = factors.map(|(a, b)| Products::begin(a, b, k));
+    let length = (k + 1).next_multiple_of(BLOCK);
+    // The newest coefficients come last, at either end: the rest is added up before they are there.
+    let mut from = BLOCK;
+    while from < length {
+        for product in &mut products {
+            product.add(from);
+        }
+        from += BLOCK;
+    }
+    for product in &mut products {
+        product.add(0);
+    }
+    // Seen through, the sums would be made across the lanes, with more shuffling than arithmetic.
+    std::hint::black_box(products.map(|product| product.sum()))
+}
+
+/// A convolution that is being summed: the coefficients of one factor, those of the other, to be taken in reverse, and two
+/// sums that take turns, as a processor can do several at once.
+struct Products<'a, T, const W: usize> {
+    a: &'a [[T; W]],
+    b: &'a [[T; W]],
+    sums: [[T; W]; 2],
+}
+
+impl<'a, T: Real, const W: usize> Products<'a, T, W> {
+    #[inline(always)]
+    fn begin(a: &'a VectorSeries<T, W>, b: &'a VectorSeries<T, W>, k: usize) -> Self {
+        let length = (k + 1).next_multiple_of(BLOCK);
+        Self {
+            a: &a.0[MARGIN..][..length],
+            b: &b.0[..MARGIN + k + 1][MARGIN + k + 1 - length..],
+            sums: [[T::ZERO; W]; 2],
+        }
+    }
+
+    /// Takes in the block that begins there.
+    #[inline(always)]
+    fn add(&mut self, from: usize) {
+        let a = &self.a[from..][..BLOCK];
+        let b = &self.b[self.b.len() - from - BLOCK..][..BLOCK];
+        let [even, odd] = &mut self.sums;
+        add_products(even, &a[3], &b[0]);
+        add_products(odd, &a[2], &b[1]);
+        add_products(even, &a[1], &b[2]);
+        add_products(odd, &a[0], &b[3]);
+    }
+
+    #[inline(always)]
+    fn sum(&self) -> [T; W] {
+        let [even, odd] = &self.sums;
+        std::array::from_fn(|w| even[w] + odd[w])
+    }
+}
+
+#[inline(always)]
+fn add_products<T: Real, const W: usize>(sums: &mut [T; W], a: &[T; W], b: &[T; W]) {
+    for w in 0..W {
+        sums[w] = a[w].mul_add(b[w], sums[w]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1/(1 − s) times 1/(1 − 2s) is Σ (2^{k+1} − 1) s^k, its square Σ (k + 1) s^k. While the k-th coefficients are not
+    /// known, the two products with them are missing: those with 2^k and 1, and with 1 and 1.
+    #[test]
+    fn products_of_geometric_series() {
+        let (mut ones, mut powers) = (VectorSeries::<f64, 2>::default(), VectorSeries::default());
+        for k in 0..=ORDER {
+            let (n, power) = (k as f64, 2.0_f64.powi(k as i32));
+            if k > 0 {
+                let known = [power - 2.0, n - 1.0];
+                assert_eq!(ones.convolve(&powers, k), known, "k = {k}");
+            }
+            (ones[k], powers[k]) = ([1.0, 1.0], [power, 1.0]);
+            let product = [2.0 * power - 1.0, n + 1.0];
+            assert_eq!(ones.convolve(&powers, k), product, "k = {k}");
+            assert_eq!(powers.convolve(&ones, k), product, "k = {k}");
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! A case: parameters that were checked once, at the border, and the system that they describe.
+
+pub(crate) mod error;
+pub(crate) mod named;
+pub(crate) mod parameters;
+pub(crate) mod schema;
+pub(crate) mod value;
+
+use crate::arithmetic::real::Real;
+use crate::case::error::CaseError;
+use crate::case::parameters::{BodyKind, Parameters, natural_inertia};
+use crate::case::schema::SETTLING_HEIGHT;
+use crate::case::value::Value;
+use crate::model::body::{Body, Shape};
+use crate::model::forcing::Harmonic;
+use crate::model::rules::StopRules;
+use crate::model::state::State;
+use crate::model::system::{System, anchor_height};
+use crate::motion::simulation::Simulation;
+use crate::motion::start::StartError;
+use crate::motion::trajectory::Trajectory;
+
+/// A case that was checked and can be run.
+///
+/// ```
+/// use snapload::{Case, Parameters, Stop};
+/// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
+/// let run = case.run();
+/// assert_eq!(run.end().reason, Stop::RotationLimit);
+/// # Ok::<(), snapload::CaseError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Case {
+    parameters: Parameters,
+    simulation: Simulation,
+}
+
+impl Case {
+    /// Checks the values and the start.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key, its value and what is allowed.
+    pub fn new(parameters: Parameters) -> Result<Self, CaseError> {
+        parameters.check()?;
+        let simulation = begin(&parameters).map_err(|error| explain(error, &parameters))?;
+        Ok(Self {
+            parameters,
+            simulation,
+        })
+    }
+
+    /// The values.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The motion at its start.
+    pub fn simulation(&self) -> Simulation {
+        self.simulation.clone()
+    }
+
+    /// The same motion in another arithmetic; `number` is told each number's key. An inertia that is the
+    /// natural one of the size stays so.
+    ///
+    /// # Errors
+    /// [`StartError`] where that arithmetic finds the start illegal, as it may on the very edge.
+    pub fn simulation_over<T: Real>(
+        &self,
+        number: impl FnMut(&'static str, f64) -> T,
+    ) -> Result<Simulation<T>, StartError> {
+        let p = &self.parameters;
+        let mut numbers = p.map(number);
+        if let (Some(inertia), Some(given)) = (p.inertia, numbers.inertia)
+            && p.inertia == natural_inertia(p.a, p.b)
+        {
+            // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
+            let beyond = given - T::from_decimal(inertia);
+            numbers.inertia = natural_inertia(numbers.a, numbers.b).map(|natural| natural + beyond);
+        }
+        begin(&numbers)
+    }
+
+    /// Runs it to its end and keeps all of it.
+    pub fn run(&self) -> Trajectory {
+        Trajectory::record(self.simulation())
+    }
+}
+
+fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
+    Simulation::new(system(p), rules(p), p.v_stick, T::ZERO, start(p))
+}
+
+fn system<T: Real>(p: &Parameters<T>) -> System<T> {
+    let body = match (p.body, p.inertia) {
+        (BodyKind::Rigid, Some(inertia)) => Body::rigid(Shape::of_half_sizes(p.a, p.b), inertia),
+        _ => Body::point(),
+    };
+    let wave = Harmonic::ellipse(p.f_o, p.nu, p.omega);
+    System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
+}
+
+fn rules<T: Real>(p: &Parameters<T>) -> StopRules<T> {
+    let rotates = p.body == BodyKind::Rigid;
+    let settling_height = T::from_decimal(SETTLING_HEIGHT);
+    StopRules {
+        rotation_limit: rotates.then(T::half_pi),
+        upper_bound: Some(anchor_height(p.r, p.a) + p.b),
+        settled_below: p.stop_when_settled.then_some(settling_height),
+        sliding_above: p.stop_when_sliding.then_some(settling_height),
+        t_end: p.t_end,
+        max_impacts: p.max_impacts,
+    }
+}
+
+fn start<T: Real>(p: &Parameters<T>) -> State<T> {
+    State {
+        x: p.x,
+        y: p.y,
+        theta: p.theta,
+        vx: p.vx,
+        vy: p.vy,
+        vtheta: p.vtheta,
+    }
+}
+
+/// An illegal start in the words of the case's keys.
+fn explain(error: StartError, p: &Parameters) -> CaseError {
+    match error {
+        StartError::CableTooShort { cable, gap } => {
+            let over = p.r * ((1.0 + gap / (p.r * p.r)).sqrt() - 1.0);
+            let allowed = format!(
+                "a start within reach of both cables; cable {} would have to be {over:.3} longer \
+                 (its gap is g = {gap:.3e}, and g <= 1e-9 is allowed)",
+                cable + 1
+            );
+            let hint = "raise y, or move x and theta towards 0";
+            CaseError::value("x, y, theta", place(p), allowed).with_hint(hint)
+        }
+        StartError::AboveUpperBound { top, level } => {
+            let allowed = format!(
+                "a body below the upper bound y = {level:.6}; its highest point is at y = {top:.6}"
+            );
+            CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
+        }
+        StartError::BeyondRotationLimit => {
+            let allowed = "-pi/2 <= theta <= pi/2, the rotation limit";
+            CaseError::value("theta", Value::Number(p.theta), allowed)
+        }
+        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
+            CaseError::value("x, y, theta", place(p), "a finite start")
+        }
+    }
+}
+
+fn place(p: &Parameters) -> String {
+    format!("{}, {}, {}", p.x, p.y, p.theta)
+}

@@ -1,0 +1,203 @@
+//! The built-in cases: every code of the chapter's Table 6.1, and its two examples.
+//!
+//! A code such as `1911001000-359` lists r, e, a, b, x, ẋ, y, ẏ, θ, θ̇ - f_o, ν, Ω. The codes are the
+//! authority where the printed table differs from them; the slips are listed beside the test.
+use crate::case::error::CaseError;
+use crate::case::parameters::{Parameters, natural_inertia};
+use crate::case::value::Value;
+
+/// A built-in case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NamedCase {
+    /// What it is called.
+    pub code: &'static str,
+    /// Where it stems from.
+    pub about: &'static str,
+    /// Its values.
+    pub parameters: Parameters,
+}
+
+impl NamedCase {
+    /// The keys and values to start from; the moment of inertia follows from the size, so that a case
+    /// which is changed afterwards (another `a`) gets the inertia of its new size.
+    pub fn entries(&self) -> Vec<(&'static str, Value)> {
+        let stated = self
+            .parameters
+            .entries()
+            .filter(|(key, _)| *key != "inertia");
+        stated
+            .filter_map(|(key, value)| Some((key, value?)))
+            .collect()
+    }
+
+    /// The series of Table 6.1 that the case belongs to, or what else there is to say of it.
+    pub fn origin(&self) -> String {
+        let series: Vec<&str> = series_of(self.code).collect();
+        if series.is_empty() {
+            self.about.to_owned()
+        } else {
+            series.join(", ")
+        }
+    }
+}
+
+const fn row(code: &'static str, r: f64, e: f64, a: f64, b: f64, f_o: f64, omega: f64) -> Row {
+    Row {
+        code,
+        r,
+        e,
+        a,
+        b,
+        f_o,
+        omega,
+        settles: true,
+        about: "",
+    }
+}
+
+struct Row {
+    code: &'static str,
+    r: f64,
+    e: f64,
+    a: f64,
+    b: f64,
+    f_o: f64,
+    omega: f64,
+    settles: bool,
+    about: &'static str,
+}
+
+impl Row {
+    const fn about(mut self, about: &'static str) -> Self {
+        self.about = about;
+        self
+    }
+
+    const fn goes_on(mut self) -> Self {
+        self.settles = false;
+        self
+    }
+}
+
+const SQUARE: &str = "a=b (square), as printed";
+const RECTANGLE: &str = "a>b (rectangle), as printed";
+
+/// All of them start at rest at x = 0, y = 0.1, θ = 0, with ν = 0.5.
+#[rustfmt::skip] // a table
+const ROWS: &[Row] = &[
+    //                       r    e    a    b    f_o  omega
+    row("1910001000-359",   1.5, 0.9, 0.1, 0.0, 0.3, 0.9),
+    row("2910001000-359",   2.5, 0.9, 0.1, 0.0, 0.3, 0.9),
+    row("1911001000-359",   1.5, 0.9, 0.1, 0.1, 0.3, 0.9),
+    row("2911001000-359",   2.5, 0.9, 0.1, 0.1, 0.3, 0.9),
+    row("1921001000-359",   1.5, 0.9, 0.2, 0.1, 0.3, 0.9),
+    row("2921001000-359",   2.5, 0.9, 0.2, 0.1, 0.3, 0.9),
+    row("1510001000-359",   1.5, 0.5, 0.1, 0.0, 0.3, 0.9),
+    row("1710001000-359",   1.5, 0.7, 0.1, 0.0, 0.3, 0.9),
+    row("1110001000-359",   1.5, 1.0, 0.1, 0.0, 0.3, 0.9),
+    row("1920001000-359",   1.5, 0.9, 0.2, 0.0, 0.3, 0.9),
+    row("1930001000-359",   1.5, 0.9, 0.3, 0.0, 0.3, 0.9),
+    row("1922001000-359",   1.5, 0.9, 0.2, 0.2, 0.3, 0.9),
+    row("1933001000-359",   1.5, 0.9, 0.3, 0.3, 0.3, 0.9),
+    row("1931001000-359",   1.5, 0.9, 0.3, 0.1, 0.3, 0.9),
+    row("1910001000-159",   1.5, 0.9, 0.1, 0.0, 0.1, 0.9),
+    row("1910001000-259",   1.5, 0.9, 0.1, 0.0, 0.2, 0.9),
+    row("1910001000-459",   1.5, 0.9, 0.1, 0.0, 0.4, 0.9),
+    row("1910001000-559",   1.5, 0.9, 0.1, 0.0, 0.5, 0.9),
+    row("1910001000-355",   1.5, 0.9, 0.1, 0.0, 0.3, 0.5),
+    row("1910001000-3575",  1.5, 0.9, 0.1, 0.0, 0.3, 0.75),
+    row("1910001000-3515",  1.5, 0.9, 0.1, 0.0, 0.3, 1.5),
+    row("1910001000-3520",  1.5, 0.9, 0.1, 0.0, 0.3, 2.0),
+    row("1911001000-559",   1.5, 0.9, 0.1, 0.1, 0.5, 0.9).about(SQUARE),
+    row("1922001000-559",   1.5, 0.9, 0.2, 0.2, 0.5, 0.9).about(SQUARE),
+    row("1933001000-559",   1.5, 0.9, 0.3, 0.3, 0.5, 0.9).about(SQUARE),
+    row("1921001000-559",   1.5, 0.9, 0.2, 0.1, 0.5, 0.9).about(RECTANGLE),
+    row("1931001000-559",   1.5, 0.9, 0.3, 0.1, 0.5, 0.9).about(RECTANGLE),
+    row("sliding-example",  1.5, 0.9, 0.1, 0.0, 0.27, 0.9)
+        .about("eq. 6.57 (1910001000-2759)").goes_on(),
+    row("rocking-example",  1.5, 0.9, 0.1, 0.0, 0.1, 0.9)
+        .about("eq. 6.69").goes_on(),
+];
+
+/// The rows of Table 6.1 as (series, code), in its order; several codes belong to several series.
+pub const TABLE_6_1: [(&str, &str); 29] = [
+    ("r", "1910001000-359"),
+    ("r", "2910001000-359"),
+    ("r", "1911001000-359"),
+    ("r", "2911001000-359"),
+    ("r", "1921001000-359"),
+    ("r", "2921001000-359"),
+    ("e", "1510001000-359"),
+    ("e", "1710001000-359"),
+    ("e", "1910001000-359"),
+    ("e", "1110001000-359"),
+    ("b=0 (circle)", "1910001000-359"),
+    ("b=0 (circle)", "1920001000-359"),
+    ("b=0 (circle)", "1930001000-359"),
+    ("a=b (square)", "1911001000-359"),
+    ("a=b (square)", "1922001000-359"),
+    ("a=b (square)", "1933001000-359"),
+    ("a>b (rectangle)", "1911001000-359"),
+    ("a>b (rectangle)", "1921001000-359"),
+    ("a>b (rectangle)", "1931001000-359"),
+    ("f_o", "1910001000-159"),
+    ("f_o", "1910001000-259"),
+    ("f_o", "1910001000-359"),
+    ("f_o", "1910001000-459"),
+    ("f_o", "1910001000-559"),
+    ("Ω", "1910001000-355"),
+    ("Ω", "1910001000-3575"),
+    ("Ω", "1910001000-359"),
+    ("Ω", "1910001000-3515"),
+    ("Ω", "1910001000-3520"),
+];
+
+/// The built-in cases, the standard one first.
+pub fn named_cases() -> impl ExactSizeIterator<Item = NamedCase> {
+    ROWS.iter().map(|row| NamedCase {
+        code: row.code,
+        about: row.about,
+        parameters: Parameters {
+            r: row.r,
+            e: row.e,
+            a: row.a,
+            b: row.b,
+            inertia: natural_inertia(row.a, row.b),
+            f_o: row.f_o,
+            omega: row.omega,
+            stop_when_settled: row.settles,
+            ..Parameters::STANDARD
+        },
+    })
+}
+
+/// The series of Table 6.1 to which a code belongs, in its order.
+pub fn series_of(code: &str) -> impl Iterator<Item = &'static str> + '_ {
+    TABLE_6_1
+        .iter()
+        .filter(move |(_, of)| *of == code)
+        .map(|(series, _)| *series)
+}
+
+/// The built-in case of a code, or an error with the nearest codes.
+///
+/// ```
+/// let case = snapload::named_case("1910001000-459")?;
+/// assert_eq!(case.parameters.f_o, 0.4);
+/// let error = snapload::named_case("1910001000-495").unwrap_err();
+/// assert!(error.to_string().contains("1910001000-459"));
+/// # Ok::<(), snapload::CaseError>(())
+/// ```
+pub fn named_case(code: &str) -> Result<NamedCase, CaseError> {
+    named_cases().find(|case| case.code == code).ok_or_else(|| {
+        // The distance is quadratic in the length, and a code is short.
+        let wanted: String = code.chars().take(40).collect();
+        let score = |row: &&Row| match !wanted.is_empty() && row.about.contains(&wanted) {
+            true => 1.0, // the chapter's own code of an example
+            false => strsim::normalized_damerau_levenshtein(&wanted, row.code),
+        };
+        let mut nearest: Vec<&Row> = ROWS.iter().collect();
+        nearest.sort_by(|p, q| score(q).total_cmp(&score(p)));
+        CaseError::unknown_case(code, nearest.iter().take(3).map(|row| row.code).collect())
+    })
+}

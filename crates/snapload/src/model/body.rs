@@ -1,0 +1,150 @@
+//! The body: its inertia and its outline.
+
+use crate::arithmetic::lane::length;
+use crate::arithmetic::real::Real;
+
+/// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape<T = f64> {
+    /// A point.
+    Point,
+    /// A circle about the centre.
+    Circle {
+        /// Its radius \[L\].
+        radius: T,
+    },
+    /// A rectangle about the centre.
+    Rectangle {
+        /// Half its width \[L\].
+        half_width: T,
+        /// Half its height \[L\].
+        half_height: T,
+    },
+}
+
+/// A rigid body of unit mass, or a point mass (docs/model.md section 2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Body<T = f64> {
+    shape: Shape<T>,
+    inverse_inertia: T,
+}
+
+impl<T: Real> Body<T> {
+    /// A rigid body with its moment of inertia about the centre, `inertia` > 0 \[m L²\].
+    pub fn rigid(shape: Shape<T>, inertia: T) -> Self {
+        Self {
+            shape,
+            inverse_inertia: T::ONE / inertia,
+        }
+    }
+
+    /// A point mass. It has no rotation: 1/I = 0, so that no impulse ever turns it.
+    pub fn point() -> Self {
+        Self {
+            shape: Shape::Point,
+            inverse_inertia: T::ZERO,
+        }
+    }
+
+    /// The same body in another arithmetic.
+    pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U) -> Body<U> {
+        let shape = match self.shape {
+            Shape::Point => Shape::Point,
+            Shape::Circle { radius } => Shape::Circle {
+                radius: number(radius),
+            },
+            Shape::Rectangle {
+                half_width,
+                half_height,
+            } => Shape::Rectangle {
+                half_width: number(half_width),
+                half_height: number(half_height),
+            },
+        };
+        Body {
+            shape,
+            inverse_inertia: number(self.inverse_inertia),
+        }
+    }
+
+    /// The outline.
+    pub fn shape(&self) -> Shape<T> {
+        self.shape
+    }
+
+    /// 1/I; 0 for a point mass.
+    pub fn inverse_inertia(&self) -> T {
+        self.inverse_inertia
+    }
+
+    /// I; 0 for a point mass, whose rotation carries no energy.
+    pub fn inertia(&self) -> T {
+        if self.inverse_inertia > T::ZERO {
+            T::ONE / self.inverse_inertia
+        } else {
+            T::ZERO
+        }
+    }
+
+    /// The points of the outline, in the body's frame, one of which is the highest at any rotation,
+    /// and the radius of the disc about each.
+    pub fn outline(&self) -> (Outline<T>, T) {
+        match self.shape {
+            Shape::Point => (Outline::centre(), T::ZERO),
+            Shape::Circle { radius } => (Outline::centre(), radius),
+            Shape::Rectangle {
+                half_width: a,
+                half_height: b,
+            } => (
+                Outline {
+                    points: [[a, b], [-a, b], [-a, -b], [a, -b]],
+                    count: 4,
+                },
+                T::ZERO,
+            ),
+        }
+    }
+
+    /// How far the outline reaches from the centre.
+    pub(crate) fn reach(&self) -> T {
+        let (outline, radius) = self.outline();
+        outline
+            .points()
+            .iter()
+            .fold(T::ZERO, |reach, point| reach.max(length(*point)))
+            + radius
+    }
+
+    /// Height of the highest point above the centre, at the rotation with this sine and cosine.
+    pub fn top(&self, sine: T, cosine: T) -> T {
+        match self.shape {
+            Shape::Point => T::ZERO,
+            Shape::Circle { radius } => radius,
+            Shape::Rectangle {
+                half_width,
+                half_height,
+            } => (half_width * sine).abs() + (half_height * cosine).abs(),
+        }
+    }
+}
+
+/// At most four points of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Outline<T> {
+    points: [[T; 2]; 4],
+    count: usize,
+}
+
+impl<T: Real> Outline<T> {
+    fn centre() -> Self {
+        Self {
+            points: [[T::ZERO; 2]; 4],
+            count: 1,
+        }
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[[T; 2]] {
+        &self.points[..self.count]
+    }
+}

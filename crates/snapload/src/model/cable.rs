@@ -1,0 +1,297 @@
+//! A cable: its gap, its normal and its lever arm.
+
+use crate::arithmetic::lane::{
+    Lane, Turn, combined, cross, dot, length, length_bound, quarter_turn, scaled, select2, sum,
+};
+use crate::arithmetic::real::Real;
+use crate::model::state::State;
+
+/// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
+///
+/// It is kept by its span where the body is at rest, x = y = θ = 0, and its gap there, because a gap
+/// computed as an increment from that place rounds in proportion to how far the body has moved, not
+/// to the square of the cable's length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cable<T = f64> {
+    fairlead: [T; 2],
+    length: T,
+    /// 1/r.
+    per_length: T,
+    rest_span: [T; 2],
+    rest_gap: T,
+    rest_gap_error: T,
+}
+
+/// The direction in which a cable holds the body: the row (n_x, n_y, s) of the constraint matrix G.
+/// The gap changes at ġ = 2 r v_n, with the normal velocity v_n = n·Ṗ = n_x ẋ + n_y ẏ + s θ̇.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Normal<T = f64> {
+    /// Unit normal n = (P − A)/r.
+    pub n: [T; 2],
+    /// Moment arm s = ρ_x n_y − ρ_y n_x \[L\].
+    pub arm: T,
+}
+
+impl<L: Lane> Normal<L> {
+    /// Normal velocity v_n, positive while the gap closes.
+    #[inline(always)]
+    pub fn velocity(&self, state: &State<L>) -> L {
+        self.arm
+            .mul_add(state.vtheta, dot(self.n, [state.vx, state.vy]))
+    }
+
+    /// W_ij = G_i M⁻¹ G_jᵀ; with itself the inverse effective mass w = 1 + s²/I.
+    #[inline(always)]
+    pub fn coupling(&self, other: &Self, inverse_inertia: L) -> L {
+        (self.arm * other.arm).mul_add(inverse_inertia, dot(self.n, other.n))
+    }
+
+    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section 5).
+    #[inline(always)]
+    pub fn apply_impulse(&self, state: &mut State<L>, impulse: L, inverse_inertia: L) {
+        // Not fused, so that the impulses of two cables that mirror each other cancel to the last bit.
+        state.vx = state.vx - impulse * self.n[0];
+        state.vy = state.vy - impulse * self.n[1];
+        state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
+    }
+
+    /// The same for the position: moves the body against the normal by `distance` in the mass metric.
+    #[inline(always)]
+    pub fn displace(&self, state: &mut State<L>, distance: L, inverse_inertia: L) {
+        state.x = state.x - distance * self.n[0];
+        state.y = state.y - distance * self.n[1];
+        state.theta = state.theta - distance * self.arm * inverse_inertia;
+    }
+}
+
+impl<T: Real> Cable<T> {
+    /// A cable from `anchor` A to `fairlead` (in the body's frame), of length r > 0.
+    pub fn new(anchor: [T; 2], fairlead: [T; 2], length: T) -> Self {
+        let rest_span = [0, 1].map(|i| fairlead[i] - anchor[i]);
+        Self {
+            fairlead,
+            length,
+            per_length: T::ONE / length,
+            rest_span,
+            rest_gap: dot(rest_span, rest_span) - length.squared(),
+            rest_gap_error: length.squared() * T::EPSILON * 4.0,
+        }
+    }
+
+    /// A cable that is taut by construction where x = y = θ = 0: `rest_span`, which leads from the
+    /// anchor to the fairlead there, has the length r up to rounding.
+    pub fn taut_at_rest(rest_span: [T; 2], fairlead: [T; 2], length: T) -> Self {
+        Self {
+            fairlead,
+            length,
+            per_length: T::ONE / length,
+            rest_span,
+            rest_gap: T::ZERO,
+            rest_gap_error: T::ZERO,
+        }
+    }
+
+    /// The same cable in another arithmetic.
+    pub(crate) fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Cable<U> {
+        Cable {
+            fairlead: self.fairlead.map(number),
+            length: number(self.length),
+            per_length: U::ONE / number(self.length),
+            rest_span: self.rest_span.map(number),
+            rest_gap: number(self.rest_gap),
+            rest_gap_error: number(self.rest_gap_error),
+        }
+    }
+
+    /// Anchor A \[L\].
+    pub fn anchor(&self) -> [T; 2] {
+        [0, 1].map(|i| self.fairlead[i] - self.rest_span[i])
+    }
+
+    /// Span d = P − A from the anchor to the attachment.
+    #[inline(always)]
+    pub fn span(&self, state: &State<T>) -> [T; 2] {
+        self.span_moved(self.moved(state, &Turn::by(state.theta)))
+    }
+
+    /// Gap g = |P − A|² − r²: negative while slack, zero while taut.
+    #[inline(always)]
+    pub fn gap(&self, state: &State<T>) -> T {
+        self.gap_and_error(state).0
+    }
+
+    /// The gap and a bound on its rounding error.
+    #[inline(always)]
+    pub(crate) fn gap_and_error(&self, state: &State<T>) -> (T, T) {
+        let moved = self.moved(state, &Turn::by(state.theta));
+        let error = self.gap_error(moved, state.theta, length(self.fairlead));
+        (self.gap_moved(moved), error)
+    }
+
+    /// The constraint's direction, and how its entries n_x, n_y and s change with x, y and θ:
+    /// ∂n = (δP)/r, ∂s = δρ × n + ρ × ∂n, as P moves by (δx, δy) and by δθ about the centre.
+    #[inline(always)]
+    pub(crate) fn normal_and_slopes(&self, state: &State<T>) -> (Normal<T>, [[T; 3]; 3]) {
+        let (sine, cosine) = state.theta.sin_cos();
+        let lever = self.lever(sine, cosine);
+        let span = self.span(state);
+        let n = [span[0] / self.length, span[1] / self.length];
+        let normal = Normal {
+            n,
+            arm: cross(lever, n),
+        };
+        let (along, across) = (lever[0] / self.length, lever[1] / self.length);
+        let stretch = T::ONE / self.length;
+        let turning = lever[0] * along + lever[1] * across - dot(n, lever);
+        let slopes = [
+            [stretch, T::ZERO, -across],
+            [T::ZERO, stretch, along],
+            [-across, along, turning],
+        ];
+        (normal, slopes)
+    }
+
+    /// The constraint's direction; meant where the gap is closed, so that n has unit length.
+    #[inline(always)]
+    pub fn normal(&self, state: &State<T>) -> Normal<T> {
+        let turn = Turn::by(state.theta);
+        let span = self.span_moved(self.moved(state, &turn));
+        self.normal_along(span, self.lever(turn.sine, turn.cosine))
+    }
+}
+
+impl<L: Copy> Cable<L> {
+    /// All its numbers.
+    pub(crate) fn numbers(&self) -> [L; 8] {
+        let ([a, b], [u, v]) = (self.fairlead, self.rest_span);
+        let (gap, error) = (self.rest_gap, self.rest_gap_error);
+        [a, b, self.length, self.per_length, u, v, gap, error]
+    }
+
+    /// From its numbers, in the same order.
+    pub(crate) fn from_numbers(
+        [a, b, length, per_length, u, v, rest_gap, rest_gap_error]: [L; 8],
+    ) -> Self {
+        Self {
+            fairlead: [a, b],
+            length,
+            per_length,
+            rest_span: [u, v],
+            rest_gap,
+            rest_gap_error,
+        }
+    }
+}
+
+impl<L: Lane> Cable<L> {
+    /// Length r \[L\].
+    #[inline(always)]
+    pub fn length(&self) -> L {
+        self.length
+    }
+
+    /// 1/r \[1/L\].
+    #[inline(always)]
+    pub(crate) fn per_length(&self) -> L {
+        self.per_length
+    }
+
+    /// Attachment to the body, in the body's frame \[L\].
+    #[inline(always)]
+    pub fn fairlead(&self) -> [L; 2] {
+        self.fairlead
+    }
+
+    /// Lever ρ = R(θ) · fairlead, from the centre to the attachment.
+    #[inline(always)]
+    pub fn lever(&self, sine: L, cosine: L) -> [L; 2] {
+        combined(cosine, self.fairlead, sine, quarter_turn(self.fairlead))
+    }
+
+    /// How far the attachment is from where it is at rest, the body being turned by θ.
+    #[inline(always)]
+    pub(crate) fn moved(&self, state: &State<L>, turn: &Turn<L>) -> [L; 2] {
+        let quarter = quarter_turn(self.fairlead);
+        let swing = combined(turn.sine, quarter, -turn.versine, self.fairlead);
+        sum([state.x, state.y], swing)
+    }
+
+    /// The span of an attachment that has moved so far.
+    #[inline(always)]
+    pub(crate) fn span_moved(&self, moved: [L; 2]) -> [L; 2] {
+        sum(self.rest_span, moved)
+    }
+
+    /// The gap of an attachment that has moved so far.
+    #[inline(always)]
+    pub(crate) fn gap_moved(&self, moved: [L; 2]) -> L {
+        let linear = dot(self.rest_span, moved);
+        self.rest_gap + linear.mul_add(L::from_f64(2.0), dot(moved, moved))
+    }
+
+    /// Bound on the rounding error of [`Cable::gap_moved`]; `reach` is the length of the fairlead.
+    #[inline(always)]
+    pub(crate) fn gap_error(&self, moved: [L; 2], theta: L, reach: L) -> L {
+        let square = dot(moved, moved);
+        let size = theta.abs().mul_add(reach, length_bound(moved)) * self.length;
+        let size = size.mul_add(L::from_f64(2.0), self.rest_gap.abs() + square);
+        size.mul_add(L::EPSILON * 4.0, self.rest_gap_error)
+    }
+
+    /// n = d/r and s = ρ_x n_y − ρ_y n_x.
+    #[inline(always)]
+    pub(crate) fn normal_along(&self, span: [L; 2], lever: [L; 2]) -> Normal<L> {
+        let n = scaled(span, self.per_length);
+        Normal {
+            n,
+            arm: cross(lever, n),
+        }
+    }
+
+    /// One of two cables, lane by lane.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        Self {
+            fairlead: select2(mask, yes.fairlead, no.fairlead),
+            length: L::select(mask, yes.length, no.length),
+            per_length: L::select(mask, yes.per_length, no.per_length),
+            rest_span: select2(mask, yes.rest_span, no.rest_span),
+            rest_gap: L::select(mask, yes.rest_gap, no.rest_gap),
+            rest_gap_error: L::select(mask, yes.rest_gap_error, no.rest_gap_error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gap_is_the_definition() {
+        let cable: Cable = Cable::new([1.0, 1.3], [0.2, 0.1], 1.5);
+        let state = State {
+            x: 0.3,
+            y: -0.2,
+            theta: 0.7,
+            ..State::default()
+        };
+        let (s, c) = 0.7_f64.sin_cos();
+        let p = [0.3 + 0.2 * c - 0.1 * s, -0.2 + 0.2 * s + 0.1 * c];
+        let g = (p[0] - 1.0).powi(2) + (p[1] - 1.3).powi(2) - 2.25;
+        assert!((cable.gap(&state) - g).abs() < 2e-15);
+        assert_eq!(cable.anchor(), [1.0, 1.3]);
+    }
+
+    /// The gap of the standard breakwater 1e-9 away from rest is known to nine digits and more.
+    #[test]
+    fn gap_keeps_its_digits_near_rest() {
+        let h = 1.2_f64;
+        let cable = Cable::taut_at_rest([0.1 - 1.0, -h], [0.1, 0.0], 1.5);
+        let state = State {
+            y: 1e-9,
+            ..State::default()
+        };
+        let exact = -2.0 * h * 1e-9 + 1e-18;
+        assert!((cable.gap(&state) / exact - 1.0).abs() < 1e-15);
+    }
+}

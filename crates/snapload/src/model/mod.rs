@@ -1,0 +1,10 @@
+//! The things that move: a body, its cables, the forces, and the rules that stop a run.
+
+pub(crate) mod body;
+pub(crate) mod cable;
+pub(crate) mod drag;
+pub(crate) mod forcing;
+pub(crate) mod rules;
+pub(crate) mod state;
+pub(crate) mod system;
+pub(crate) mod taut_set;

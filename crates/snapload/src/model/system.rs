@@ -1,0 +1,153 @@
+//! Body, cables, forces and restitution together.
+
+use crate::arithmetic::lane::dot;
+use crate::arithmetic::real::Real;
+use crate::model::body::{Body, Shape};
+use crate::model::cable::{Cable, Normal};
+use crate::model::drag::Drag;
+use crate::model::forcing::{Forcing, Harmonic};
+use crate::model::state::State;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+
+/// A body of unit mass on inextensible cables, under forces that depend on time alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct System<T = f64> {
+    /// The body.
+    pub body: Body<T>,
+    /// The cables, at most [`MAX_CABLES`].
+    pub cables: Vec<Cable<T>>,
+    /// All forces but the cables', the weight among them.
+    pub forcing: Forcing<T>,
+    /// Resistance of the water, if it has any.
+    pub drag: Option<Drag<T>>,
+    /// Coefficient of restitution e, 0 ≤ e ≤ 1.
+    pub restitution: T,
+}
+
+impl<T: Real> System<T> {
+    /// The breakwater of docs/model.md section 2: weight 1, anchors at (±1, h + b), fairleads at
+    /// (±a, b) on the body, cables of length r, forced along an ellipse.
+    ///
+    /// h = sqrt(r² − (1 − a)²), so that both cables are taut at x = y = θ = 0; r > |1 − a|.
+    pub fn moored_breakwater(
+        body: Body<T>,
+        [a, b]: [T; 2],
+        r: T,
+        restitution: T,
+        wave: Harmonic<T>,
+    ) -> Self {
+        let h = anchor_height(r, a);
+        let half_gap = a - 1.0;
+        let cable = |side: T| Cable::taut_at_rest([side * half_gap, -h], [side * a, b], r);
+        Self {
+            body,
+            cables: vec![cable(T::ONE), cable(-T::ONE)],
+            forcing: Forcing {
+                constant: [T::ZERO, -T::ONE],
+                harmonics: vec![wave],
+            },
+            drag: None,
+            restitution,
+        }
+    }
+
+    /// The same system in another arithmetic.
+    pub fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> System<U> {
+        System {
+            body: self.body.map(number),
+            cables: self.cables.iter().map(|cable| cable.map(number)).collect(),
+            forcing: self.forcing.map(number),
+            drag: self.drag.as_ref().map(|drag| drag.map(number)),
+            restitution: number(self.restitution),
+        }
+    }
+
+    /// Whether motion with these taut cables has a closed form: slack, and without drag.
+    pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
+        taut.is_empty() && self.drag.is_none()
+    }
+
+    /// The set of all cables.
+    pub fn all_cables(&self) -> TautSet {
+        (0..self.cables.len().min(MAX_CABLES)).collect()
+    }
+
+    /// Energy: kinetic, and potential in the constant force (docs/model.md section 1: unit F L).
+    pub fn energy(&self, state: &State<T>) -> T {
+        let translation = state.vx.squared() + state.vy.squared();
+        let rotation = self.body.inertia() * state.vtheta.squared();
+        (translation + rotation) * 0.5 - dot(self.forcing.constant, [state.x, state.y])
+    }
+
+    /// y of the highest point of the body.
+    #[inline(always)]
+    pub fn top(&self, state: &State<T>) -> T {
+        let (sine, cosine) = state.theta.sin_cos();
+        state.y + self.body.top(sine, cosine)
+    }
+
+    /// The normals of the cables of a set; the others' entries are zero.
+    #[inline(always)]
+    pub fn normals(&self, state: &State<T>, set: TautSet) -> [Normal<T>; MAX_CABLES] {
+        let mut normals = [Normal::default(); MAX_CABLES];
+        for cable in set.iter() {
+            normals[cable] = self.cables[cable].normal(state);
+        }
+        normals
+    }
+
+    /// (ẍ, ÿ, θ̈) if no cable pulled: the forces and the drag, for unit mass.
+    #[inline(always)]
+    pub fn free_acceleration(&self, t: T, state: &State<T>) -> [T; 3] {
+        let [x, y] = self.forcing.at(t);
+        match &self.drag {
+            None => [x, y, T::ZERO],
+            Some(drag) => {
+                let [u, v, turning] = drag.at(t, state);
+                [x + u, y + v, turning]
+            }
+        }
+    }
+
+    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with (f, θ̈) the free
+    /// acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
+    #[inline(always)]
+    pub fn free_normal_acceleration(
+        &self,
+        cable: usize,
+        state: &State<T>,
+        [x, y, turning]: [T; 3],
+    ) -> T {
+        let tether = &self.cables[cable];
+        let (sine, cosine) = state.theta.sin_cos();
+        let lever = tether.lever(sine, cosine);
+        let normal = tether.normal(state);
+        let velocity = [
+            state.vx - state.vtheta * lever[1],
+            state.vy + state.vtheta * lever[0],
+        ];
+        dot(normal.n, [x, y]) + normal.arm * turning + dot(velocity, velocity) / tether.length()
+            - state.vtheta.squared() * dot(normal.n, lever)
+    }
+}
+
+/// h = sqrt(r² − (1 − a)²), written without cancellation.
+pub fn anchor_height<T: Real>(r: T, a: T) -> T {
+    let half_gap = T::ONE - a;
+    ((r - half_gap) * (r + half_gap)).sqrt()
+}
+
+impl<T: Real> Shape<T> {
+    /// The outline that docs/model.md section 2 gives half-sizes a and b: a circle of radius a where
+    /// b = 0, else a rectangle.
+    pub fn of_half_sizes(a: T, b: T) -> Self {
+        if b > T::ZERO {
+            Shape::Rectangle {
+                half_width: a,
+                half_height: b,
+            }
+        } else {
+            Shape::Circle { radius: a }
+        }
+    }
+}

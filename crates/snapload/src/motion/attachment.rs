@@ -1,0 +1,310 @@
+//! One cable along a slack flight, in closed form.
+
+use crate::arithmetic::lane::{
+    Lane, Turn, added, combined, difference, dot, quarter_turn, select2, sum,
+};
+use crate::model::cable::Cable;
+use crate::model::forcing::{Harmonic, Push};
+use crate::model::state::State;
+
+/// Bounds on derivatives are computed in rounded arithmetic; this much more makes them safe.
+pub(crate) const INFLATION: f64 = 1.0 + 1e-9;
+
+/// One cable's attachment at the start of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attachment<L> {
+    /// d = P − A.
+    pub(crate) span: [L; 2],
+    /// ρ.
+    pub(crate) lever: [L; 2],
+    /// Ṗ.
+    pub(crate) velocity: [L; 2],
+    pub(crate) gap: L,
+    pub(crate) gap_rate: L,
+    pub(crate) gap_error: L,
+    pub(crate) length: L,
+    /// Bound on |Ṗ| at the start, before and after the event there.
+    pub(crate) speed: L,
+    /// Bounds on |P̈|, |P⃛|, |P⁗| over the flight.
+    pub(crate) bounds: [L; 3],
+}
+
+/// What the forces and the rotation have done at one instant of a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instant<L> {
+    pub(crate) push: Push<L>,
+    /// The turn δ = θ̇s since the start.
+    pub(crate) turn: Turn<L>,
+    /// θ̇.
+    pub(crate) spin: L,
+}
+
+/// A gap with its derivatives at one instant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GapJet<L> {
+    pub(crate) value: L,
+    pub(crate) rate: L,
+    pub(crate) accel: L,
+    pub(crate) jerk: L,
+    /// Bound on the rounding error of `value`, the motion taken as exact.
+    pub(crate) noise: L,
+    /// Ṗ.
+    pub(crate) velocity: [L; 2],
+}
+
+impl<L: Lane> Attachment<L> {
+    /// Of a cable whose fairlead is `reach` from the centre, where θ is a `turn` from rest and gap and error are
+    /// known; `force` bounds the force and its derivatives.
+    #[inline(always)]
+    pub(crate) fn new(
+        cable: &Cable<L>,
+        reach: L,
+        state: &State<L>,
+        turn: &Turn<L>,
+        [gap, gap_error]: [L; 2],
+        speed: L,
+        force: [L; 3],
+    ) -> Self {
+        let span = cable.span_moved(cable.moved(state, turn));
+        let lever = cable.lever(turn.sine, turn.cosine);
+        let spin = state.vtheta;
+        let velocity = added([state.vx, state.vy], quarter_turn(lever), spin);
+        let turning = spin.abs();
+        let centripetal = spin * spin * reach;
+        let jerk = centripetal * turning;
+        Self {
+            span,
+            lever,
+            velocity,
+            gap,
+            gap_rate: dot(span, velocity) * 2.0,
+            gap_error,
+            length: cable.length(),
+            speed,
+            bounds: [
+                (force[0] + centripetal) * INFLATION,
+                (force[1] + jerk) * INFLATION,
+                jerk.mul_add(turning, force[2]) * INFLATION,
+            ],
+        }
+    }
+
+    /// g, ġ, g̈, g⃛ a time `s` into the flight.
+    ///
+    /// With P − P₀ = Ṗ₀ s + q, where q is of second order and free of cancellation,
+    /// g = g₀ + ġ₀ s + 2 d₀·q + |P − P₀|²; so a gap that starts closed, and its rate, are known to a few
+    /// roundings *of their own size*, however short the flight.
+    #[inline(always)]
+    pub(crate) fn jet(&self, s: L, now: &Instant<L>) -> GapJet<L> {
+        let (push, turn, spin) = (&now.push, &now.turn, now.spin);
+        let quarter = quarter_turn(self.lever);
+        let bent = combined(turn.versine, self.lever, turn.sine_deficit, quarter);
+        let remainder = difference(push.drift, bent);
+        let moved = added(remainder, self.velocity, s);
+        let span = sum(self.span, moved);
+        // What the lever and its quarter turn have changed by.
+        let turned = combined(turn.sine, quarter, -turn.versine, self.lever);
+        let lever = sum(self.lever, turned);
+        let gain = added(push.gain, quarter_turn(turned), spin);
+        let velocity = sum(self.velocity, gain);
+        let square_spin = spin * spin;
+        let accel = added(push.force, lever, -square_spin);
+        let jerk = added(push.rate, quarter_turn(lever), -(square_spin * spin));
+
+        let two = L::from_f64(2.0);
+        let linear = self.gap_rate * s;
+        let bend = dot(self.span, remainder);
+        let square = dot(moved, moved);
+        let size = self.gap.abs() + linear.abs() + square;
+        let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
+        GapJet {
+            value: self.gap + bend.mul_add(two, linear + square),
+            rate: (dot(moved, self.velocity) + dot(span, gain)).mul_add(two, self.gap_rate),
+            accel: (dot(velocity, velocity) + dot(span, accel)) * 2.0,
+            jerk: dot(velocity, accel).mul_add(L::from_f64(3.0), dot(span, jerk)) * 2.0,
+            noise: noise.mul_add(L::EPSILON, self.gap_error),
+            velocity,
+        }
+    }
+
+    /// What the rounding of the velocities at the flight's start may have changed the gap by, a time `s` into
+    /// it.
+    #[inline(always)]
+    pub(crate) fn blur(&self, s: L) -> L {
+        self.length * self.speed * s * L::EPSILON * 16.0
+    }
+
+    /// |d| within a flight of length `s` on which |Ṗ| ≤ `speed`, as it is at most r at both ends.
+    #[inline(always)]
+    fn span_bound(&self, speed: L, s: L) -> L {
+        speed.mul_add(s * 0.5, self.length)
+    }
+
+    /// |g⃛| ≤ 2 (3 |Ṗ||P̈| + |d||P⃛|) up to `s`, where |Ṗ| grows by at most |P̈|s and |d| by half of what
+    /// that comes to if |d| ≤ r at both ends.
+    #[inline(always)]
+    pub(crate) fn third(&self, s: L) -> L {
+        let [a, j, _] = self.bounds;
+        let speed = a.mul_add(s, self.speed);
+        (self.span_bound(speed, s).mul_add(j, speed * a * 3.0)) * 2.0
+    }
+
+    /// |g⁗| ≤ 2 (3 |P̈|² + 4 |Ṗ||P⃛| + |d||P⁗|), likewise.
+    #[inline(always)]
+    pub(crate) fn fourth(&self, s: L) -> L {
+        let [a, j, k] = self.bounds;
+        let speed = a.mul_add(s, self.speed);
+        let fixed = (speed * 4.0).mul_add(j, a * a * 3.0);
+        self.span_bound(speed, s).mul_add(k, fixed) * 2.0
+    }
+
+    /// g̈ = 2 (|Ṗ|² + d·P̈), g⃛ = 2 (3 Ṗ·P̈ + d·P⃛) and g⁗ = 2 (3 |P̈|² + 4 Ṗ·P⃛ + d·P⁗) at the start, with the force and
+    /// its derivatives there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ, P⁗ = f̈ + θ̇⁴ρ.
+    #[inline(always)]
+    pub(crate) fn bends_at_start(&self, force: [[L; 2]; 3], spin: L) -> [L; 3] {
+        let square = spin * spin;
+        let [force, rate, bend] = force;
+        let three = L::from_f64(3.0);
+        let accel = added(force, self.lever, -square);
+        let jerk = added(rate, quarter_turn(self.lever), -(square * spin));
+        let snap = added(bend, self.lever, square * square);
+        [
+            (dot(self.velocity, self.velocity) + dot(self.span, accel)) * 2.0,
+            dot(self.velocity, accel).mul_add(three, dot(self.span, jerk)) * 2.0,
+            dot(self.velocity, jerk).mul_add(
+                L::from_f64(4.0),
+                dot(accel, accel).mul_add(three, dot(self.span, snap)),
+            ) * 2.0,
+        ]
+    }
+}
+
+impl<L: Lane> Instant<L> {
+    /// The state, from that at the start.
+    #[inline(always)]
+    pub(crate) fn state(&self, start: &State<L>, s: L) -> State<L> {
+        flown(start, s, [self.push.drift, self.push.gain])
+    }
+
+    /// A time `s` into a flight that turns at `spin` under a constant force; harmonics are added.
+    #[inline(always)]
+    pub(crate) fn at(s: L, constant: [L; 2], spin: L) -> Self {
+        Self {
+            push: Push::constant(constant, s),
+            turn: Turn::by(spin * s),
+            spin,
+        }
+    }
+
+    /// With a harmonic that is given relative to the flight's start.
+    #[inline(always)]
+    pub(crate) fn with(self, wave: &Harmonic<L>, s: L) -> Self {
+        Self {
+            push: self.push.with_harmonic(wave, s),
+            ..self
+        }
+    }
+}
+
+/// The state a time `s` after `start`, as forces have drifted the body and made it gain velocity.
+#[inline(always)]
+pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [[L; 2]; 2]) -> State<L> {
+    State {
+        x: start.x + start.vx.mul_add(s, drift[0]),
+        y: start.y + start.vy.mul_add(s, drift[1]),
+        theta: start.vtheta.mul_add(s, start.theta),
+        vx: start.vx + gain[0],
+        vy: start.vy + gain[1],
+        vtheta: start.vtheta,
+    }
+}
+
+impl<L: Lane> GapJet<L> {
+    /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ stays behind.
+    #[inline(always)]
+    pub(crate) fn later(&self, s: L, fourth: L) -> Self {
+        let sixth = self.jerk * L::sixth();
+        let square = s * s;
+        Self {
+            value: self.value + self.rise(s, sixth),
+            rate: (self.jerk * 0.5)
+                .mul_add(s, self.accel)
+                .mul_add(s, self.rate),
+            accel: self.jerk.mul_add(s, self.accel),
+            noise: (fourth * (1.0 / 24.0)).mul_add(square * square, self.noise),
+            ..*self
+        }
+    }
+
+    /// What the cubic gains in a time `s`, given a sixth of the jerk.
+    #[inline(always)]
+    fn rise(&self, s: L, sixth: L) -> L {
+        let bend = sixth.mul_add(s, self.accel * 0.5);
+        bend.mul_add(s, self.rate) * s
+    }
+
+    /// About how much later the cubic is zero, by reversion of its series to the third order, and what it is there.
+    #[inline(always)]
+    pub(crate) fn root(&self) -> (L, L) {
+        let sixth = self.jerk * L::sixth();
+        let per_rate = L::ONE / self.rate;
+        let u = -(self.value * per_rate);
+        let (bend, cubic) = (self.accel * 0.5 * per_rate, sixth * per_rate);
+        let third = (bend * 2.0).mul_add(bend, -cubic);
+        let s = u.mul_add(third, -bend).mul_add(u, L::ONE) * u;
+        let s = (-per_rate).mul_add(self.value + self.rise(s, sixth), s);
+        (s, self.value + self.rise(s, sixth))
+    }
+
+    /// One of two jets, lane by lane.
+    #[inline(always)]
+    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        Self {
+            value: L::select(mask, yes.value, no.value),
+            rate: L::select(mask, yes.rate, no.rate),
+            accel: L::select(mask, yes.accel, no.accel),
+            jerk: L::select(mask, yes.jerk, no.jerk),
+            noise: L::select(mask, yes.noise, no.noise),
+            velocity: select2(mask, yes.velocity, no.velocity),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::precise::Precise;
+    use crate::arithmetic::real::Real;
+
+    /// What moves a flight to its crossing is right to the last digit of any arithmetic: with 1, 2 and 6 as derivatives the
+    /// cubic is g + s + s² + s³, and a force that grows by 6 drifts by s³.
+    #[test]
+    fn cubics_keep_all_digits() {
+        type Digits = Precise<8>;
+        let [g, rate, accel, jerk, s] =
+            [-0.015625, 1.0, 2.0, 6.0, 0.125].map(<Digits as Real>::from_f64);
+        let zero = <Digits as Real>::ZERO;
+        let jet = GapJet {
+            value: g,
+            rate,
+            accel,
+            jerk,
+            noise: zero,
+            velocity: [zero; 2],
+        };
+        let off = |got: Digits, exact: Digits| (got - exact).to_f64().abs();
+        let cubic = |s: Digits| g + s * (rate + s * (rate + s));
+        assert!(off(jet.later(s, zero).value, cubic(s)) < 1e-150);
+        let (root, left) = jet.root();
+        assert!(off(left, cubic(root)) < 1e-150 && left.to_f64().abs() < 1e-7);
+
+        let push = Push {
+            drift: [zero; 2],
+            gain: [zero; 2],
+            force: [zero; 2],
+            rate: [jerk, zero],
+        };
+        let [drift, gain] = push.later(s, [zero, jerk]);
+        assert!(off(drift[0], s * s * s) < 1e-150 && off(gain[1], s * s * s) < 1e-150);
+    }
+}

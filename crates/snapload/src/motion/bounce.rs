@@ -1,0 +1,262 @@
+//! From one impact to the next: a slack flight of a body on two cables under one sinusoid, and one cable
+//! snapping taut at its end. Nearly every step of nearly every run is such a bounce.
+//!
+//! Written over [`Lane`], so that one text is the ordinary motion and that of several cases side by
+//! side. A bounce is found by a guess and proven afterwards:
+//!
+//! 1. *Guess*, from the Taylor polynomial of both gaps at the start, which cable closes first, and when.
+//! 2. *Meet*: look at both gaps there, to the third derivative; the cubic has the crossing once what it leaves out is
+//!    below rounding. Else look again from its root.
+//! 3. *Exclude*: with value, rate and bend known at *both* ends of the flight, and bounds on what is beyond, each
+//!    gap is shown to stay open in between, the early part from the start and the late part from the end.
+//!    The rotation and the height of the body are bounded likewise.
+//! 4. *Law*: one cable, closed by itself and closing; p = (1 + e) v_n/w.
+//!
+//! Whatever does not fit (a bound that is too weak, cables that close together, a cable that may stick, a
+//! stop, a graze) is left to the general loop in [`crate::motion::simulation`]: a step is a bounce or it is not, by
+//! what it is, and never by which lane it is in. So the bits of a run do not depend on lanes.
+
+use crate::arithmetic::lane::{Lane, Turn, length_bound, select2};
+use crate::arithmetic::real::Real;
+use crate::model::cable::Cable;
+use crate::model::forcing::Push;
+use crate::model::state::State;
+use crate::motion::attachment::GapJet;
+use crate::motion::extremes::highest;
+use crate::motion::two_cable_flight::{FlightEnd, TwoCableFlight, speed_bound};
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+
+/// A stop closer than this is left to the general search \[L\], \[rad\].
+const NEAR_STOP: f64 = 1e-9;
+/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
+/// an impulse neither loads nor unloads.
+pub(crate) const UNMOVED: f64 = 64.0;
+
+/// What a bounce came to, in the lanes in which it is one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounce<L: Lane> {
+    /// Whether the flight ends as told here.
+    pub(crate) arrived: L::Mask,
+    /// Whether the highest point of the flight is known, too.
+    pub(crate) topped: L::Mask,
+    /// Whether, besides, the law of one cable is all that happens.
+    pub(crate) plain: L::Mask,
+    /// Which cable: the second instead of the first.
+    pub(crate) second: L::Mask,
+    /// How long the flight was.
+    pub(crate) s: L,
+    pub(crate) before: State<L>,
+    pub(crate) v_n: L,
+    pub(crate) impulse: L,
+    /// After the impact, with the extremes of the flight.
+    pub(crate) next: AfterImpact<L>,
+}
+
+/// The larger of `record` and the highest y of a flight of length `s` that begins at `from`.
+#[inline(always)]
+pub(crate) fn highest_point<T: Real>(
+    two_cables: &TwoCableSystem<T>,
+    from: &AfterImpact<T>,
+    s: T,
+    record: T,
+) -> T {
+    let wave = two_cables.wave.shifted(from.t);
+    let height = |s: T| {
+        let push = Push::constant(two_cables.constant, s).with_harmonic(&wave, s);
+        let y = from.state.y + (from.state.vy * s + push.drift[1]);
+        (y, from.state.vy + push.gain[1])
+    };
+    highest(
+        &height,
+        s,
+        two_cables.upward,
+        two_cables.vertical_acceleration_bound,
+        record,
+    )
+}
+
+/// The bounce that begins at `from`.
+#[inline(always)]
+pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact<L>) -> Bounce<L> {
+    let start = TwoCableFlight::new(two_cables, from);
+    let (second, guess) = start.guess();
+    let horizon = two_cables.t_end - from.t;
+    let (look, found) = start.meet(second, guess, horizon);
+
+    let FlightEnd { s, state, jets } = start.arrival(second, &look, from);
+    let blurs = [start.attachments[0].blur(s), start.attachments[1].blur(s)];
+    let alone = closes_alone(from.t, s, second, &jets, blurs);
+    let end_value = [
+        L::select(second, jets[0].value, L::ZERO),
+        L::select(second, L::ZERO, jets[1].value),
+    ];
+    let open = start.stays_open(0, s, &look, &jets[0], end_value[0])
+        & start.stays_open(1, s, &look, &jets[1], end_value[1]);
+    let arrived =
+        found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, s, &state);
+    let topped = !rises_above(two_cables, from, s, &state);
+    land(
+        two_cables,
+        from,
+        (s, second),
+        &state,
+        &jets,
+        (arrived, topped),
+    )
+}
+
+/// Whether the struck cable is closing, and the other one does not close at the same
+/// instant: no sooner than the errors of both times, and of t + s, allow (see [`crate::motion::events`]).
+#[inline(always)]
+fn closes_alone<L: Lane>(
+    t: L,
+    s: L,
+    second: L::Mask,
+    jets: &[GapJet<L>; 2],
+    blurs: [L; 2],
+) -> L::Mask {
+    let struck = GapJet::select(second, &jets[1], &jets[0]);
+    let other = GapJet::select(second, &jets[0], &jets[1]);
+    let struck_blur = L::select(second, blurs[1], blurs[0]);
+    let other_blur = L::select(second, blurs[0], blurs[1]);
+    // The times' errors, both sides times the rate.
+    let spread =
+        ((t.abs() + s) * L::EPSILON * 4.0).mul_add(struck.rate, struck.noise + struck_blur);
+    let margin = other
+        .rate
+        .positive()
+        .mul_add(spread, (other.noise + other_blur) * struck.rate);
+    L::ZERO.below(struck.rate) & (other.value * struck.rate).below(-(margin * 2.0))
+}
+
+/// Bound on y along a flight: it exceeds its ends by at most |ÿ|s²/8.
+#[inline(always)]
+fn height_bound<L: Lane>(
+    two_cables: &TwoCableSystem<L>,
+    from: &AfterImpact<L>,
+    s: L,
+    state: &State<L>,
+) -> L {
+    let ends = from.state.y.larger(state.y);
+    two_cables
+        .vertical_acceleration_bound
+        .mul_add(s * s * 0.125, ends)
+}
+
+/// Whether no stop is near: the rotation is largest at an end, as it is linear in time, and the height exceeds
+/// its ends by at most |ÿ|s²/8.
+#[inline(always)]
+fn stops_nowhere<L: Lane>(
+    two_cables: &TwoCableSystem<L>,
+    from: &AfterImpact<L>,
+    s: L,
+    state: &State<L>,
+) -> L::Mask {
+    let height = height_bound(two_cables, from, s, state);
+    state
+        .theta
+        .abs()
+        .below(two_cables.rotation_limit - NEAR_STOP)
+        & height.below(two_cables.level - NEAR_STOP)
+}
+
+/// Whether y may have a maximum within the flight that is higher than any before.
+#[inline(always)]
+fn rises_above<L: Lane>(
+    two_cables: &TwoCableSystem<L>,
+    from: &AfterImpact<L>,
+    s: L,
+    state: &State<L>,
+) -> L::Mask {
+    let height = height_bound(two_cables, from, s, state);
+    let change = two_cables.upward.positive() * s;
+    let falls = (from.state.vy + change).at_most(L::ZERO);
+    let climbs = L::ZERO.at_most(state.vy - change);
+    from.y_max.below(height) & !falls & !climbs
+}
+
+/// The impact at the end of a flight, docs/model.md section 5: p = (1 + e) v_n/w.
+///
+/// Before it the body is put back onto the cable, from which it is a rounding away: by a translation, as
+/// the metric does not matter for so little, so that its rotation is known already.
+#[inline(always)]
+fn land<L: Lane>(
+    two_cables: &TwoCableSystem<L>,
+    from: &AfterImpact<L>,
+    (s, second): (L, L::Mask),
+    state: &State<L>,
+    jets: &[GapJet<L>; 2],
+    (arrived, topped): (L::Mask, L::Mask),
+) -> Bounce<L> {
+    let turn = Turn::by(state.theta);
+    let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
+    let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
+    let moved = struck.moved(state, &turn);
+    let lever = struck.lever(turn.sine, turn.cosine);
+    let normal = struck.normal_along(struck.span_moved(moved), lever);
+    let off = struck.gap_moved(moved) * struck.per_length() * -0.5;
+    let before = State {
+        x: off.mul_add(normal.n[0], state.x),
+        y: off.mul_add(normal.n[1], state.y),
+        ..*state
+    };
+    let e = two_cables.restitution;
+    let v_n = normal.velocity(&before);
+    let w = normal.coupling(&normal, two_cables.inverse_inertia);
+    let impulse = e.mul_add(v_n, v_n) / w;
+    let mut after = before;
+    normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
+
+    let first = speed_bound(length_bound([before.vx, before.vy]), before.vtheta, reach);
+    let last = speed_bound(length_bound([after.vx, after.vy]), after.vtheta, reach);
+    let rounding = first.larger(last) * L::EPSILON;
+    let rebounds =
+        two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n) & (rounding * UNMOVED).below(e * v_n);
+    let t = from.t + s;
+    let other = other_gap(two_cables, second, state, &turn, jets);
+    let closed = [L::ZERO; 2];
+    Bounce {
+        arrived,
+        topped,
+        plain: arrived & topped & rebounds & from.t.below(t),
+        second,
+        s,
+        before,
+        v_n,
+        impulse,
+        next: AfterImpact {
+            t,
+            state: after,
+            turn,
+            before: [before.vx, before.vy, before.vtheta],
+            gaps: [
+                select2(second, other, closed),
+                select2(second, closed, other),
+            ],
+            y_max: from.y_max.larger(state.y),
+            theta_max: from.theta_max.larger(state.theta.abs()),
+        },
+    }
+}
+
+/// Value and error of the gap that did not close: carried forward, or evaluated afresh where that is better
+/// known.
+#[inline(always)]
+fn other_gap<L: Lane>(
+    two_cables: &TwoCableSystem<L>,
+    second: L::Mask,
+    state: &State<L>,
+    turn: &Turn<L>,
+    jets: &[GapJet<L>; 2],
+) -> [L; 2] {
+    let cable = Cable::select(second, &two_cables.cables[0], &two_cables.cables[1]);
+    let reach = L::select(second, two_cables.reach[0], two_cables.reach[1]);
+    let moved = cable.moved(state, turn);
+    let error = cable.gap_error(moved, state.theta, reach);
+    let carried = GapJet::select(second, &jets[0], &jets[1]);
+    let better = carried.noise.below(error);
+    [
+        L::select(better, carried.value, cable.gap_moved(moved)),
+        L::select(better, carried.noise, error),
+    ]
+}

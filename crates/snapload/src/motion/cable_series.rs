@@ -1,0 +1,246 @@
+//! Taylor series of the cables' geometry and of what they pull, for two cables side by side.
+
+use crate::arithmetic::lane::cross;
+use crate::arithmetic::real::Real;
+use crate::arithmetic::vector_series::{VectorSeries, convolve};
+use crate::model::cable::Normal;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::complementarity::{Factored, PerCable};
+
+/// x and y of one cable, x and y of the next.
+type Quad<T> = [T; 4];
+
+/// Two cables; where their number is odd, the last is alone.
+#[derive(Clone, Copy, Debug, Default)]
+struct CablePair<T: Real> {
+    /// The fairleads, and they turned by a quarter.
+    fairleads: [Quad<T>; 2],
+    /// 1/r.
+    per_length: Quad<T>,
+    /// n at the start, s = ρ × n and 1/2r; zero of a cable that does not carry.
+    normal: Quad<T>,
+    arm: [T; 2],
+    half_per_length: [T; 2],
+    /// ρ.
+    lever: VectorSeries<T, 4>,
+    /// d = P − A.
+    span: VectorSeries<T, 4>,
+    /// T, once for x and once for y.
+    tension: VectorSeries<T, 4>,
+    /// T n turned back by a quarter, (T n_y, −T n_x): ρ times this adds up to the moment ρ × T n.
+    turned_pull: VectorSeries<T, 4>,
+    /// Of the gaps' latest coefficients what does not depend on the latest of d.
+    bend: [T; 2],
+}
+
+/// All cables of a system.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct CableSeries<T: Real> {
+    pairs: Vec<CablePair<T>>,
+}
+
+impl<T: Real> CableSeries<T> {
+    /// Begins new series.
+    #[inline(always)]
+    pub(crate) fn begin(&mut self, system: &System<T>) {
+        self.pairs
+            .resize(system.cables.len().div_ceil(2), CablePair::default());
+        for (pair, cables) in self.pairs.iter_mut().zip(system.cables.chunks(2)) {
+            for series in [
+                &mut pair.lever,
+                &mut pair.span,
+                &mut pair.tension,
+                &mut pair.turned_pull,
+            ] {
+                *series = VectorSeries::default();
+            }
+            pair.bend = [T::ZERO; 2];
+            for (place, cable) in cables.iter().enumerate() {
+                let [x, y] = cable.fairlead();
+                put(&mut pair.fairleads[0], place, [x, y]);
+                put(&mut pair.fairleads[1], place, [-y, x]);
+                put(&mut pair.per_length, place, [cable.per_length(); 2]);
+            }
+        }
+    }
+
+    /// ρ and d to order k; d but for its constant.
+    #[inline(always)]
+    pub(crate) fn extend(&mut self, k: usize, centre: [T; 2], sine: T, cosine: T) {
+        let centre = [centre[0], centre[1], centre[0], centre[1]];
+        for pair in &mut self.pairs {
+            let lever = pair.turned(sine, cosine);
+            pair.lever[k] = lever;
+            pair.span[k] = std::array::from_fn(|w| centre[w] + lever[w]);
+        }
+    }
+
+    /// Gives d at the start.
+    #[inline(always)]
+    pub(crate) fn set_span(&mut self, cable: usize, span: [T; 2]) {
+        put(&mut self.pairs[cable / 2].span[0], cable % 2, span);
+    }
+
+    /// Says which cables carry, once ρ and d at the start are known. Returns their normals.
+    #[inline(always)]
+    pub(crate) fn set_carrying(&mut self, carrying: TautSet) -> PerCable<Normal<T>> {
+        let mut normals = [Normal::default(); MAX_CABLES];
+        for (cables, pair) in self.pairs.iter_mut().enumerate() {
+            for place in 0..2 {
+                let cable = 2 * cables + place;
+                let carries = carrying.contains(cable);
+                let per_length = pair.per_length[2 * place];
+                if carries {
+                    let (span, lever) = (get(&pair.span[0], place), get(&pair.lever[0], place));
+                    let n = [span[0] * per_length, span[1] * per_length];
+                    let arm = cross(lever, n);
+                    normals[cable] = Normal { n, arm };
+                }
+                let half = if carries { 0.5 } else { 0.0 };
+                pair.half_per_length[place] = per_length * half;
+                put(&mut pair.normal, place, normals[cable].n);
+                pair.arm[place] = normals[cable].arm;
+            }
+        }
+        normals
+    }
+
+    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders give them; keeps each T n,
+    /// to which [`CableSeries::find_tensions`] adds the rest.
+    #[inline(always)]
+    pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
+        let mut sums = [T::ZERO; 3];
+        for pair in &mut self.pairs {
+            let [stretched, known] = convolve(
+                [
+                    (&pair.span, &pair.tension),
+                    (&pair.lever, &pair.turned_pull),
+                ],
+                k,
+            );
+            let pull: Quad<T> = std::array::from_fn(|w| stretched[w] * pair.per_length[w]);
+            let turned = turned_back(&pull);
+            let lever = pair.lever[0];
+            let moment: Quad<T> = std::array::from_fn(|w| lever[w].mul_add(turned[w], known[w]));
+            pair.turned_pull[k] = turned;
+            add(
+                &mut sums,
+                &pull,
+                (moment[0] + moment[1]) + (moment[2] + moment[3]),
+            );
+        }
+        sums
+    }
+
+    /// Finds the k-th coefficients of the tensions, which hold the lengths of the carrying cables; returns Σ T n and Σ s T of
+    /// them. `accel` are those of (ẍ, ÿ, θ̈) but for these tensions, and `turned` those of order k + 2 of sine and cosine but
+    /// for that of θ.
+    #[inline(always)]
+    pub(crate) fn find_tensions(
+        &mut self,
+        k: usize,
+        accel: [T; 3],
+        turned: [T; 2],
+        ready: &Factored<T, impl Fn(usize, usize) -> T>,
+    ) -> [T; 3] {
+        // The usual two are done in registers.
+        if let [pair] = &mut self.pairs[..] {
+            let load = pair.load(k, accel, turned);
+            return pair.take(k, ready.solve_two(load));
+        }
+        let mut loads = [T::ZERO; MAX_CABLES];
+        for (pair, loads) in self.pairs.iter_mut().zip(loads.chunks_exact_mut(2)) {
+            loads.copy_from_slice(&pair.load(k, accel, turned));
+        }
+        let tensions = ready.solve(&loads);
+        let mut sums = [T::ZERO; 3];
+        for (pair, tension) in self.pairs.iter_mut().zip(tensions.chunks_exact(2)) {
+            let more = pair.take(k, [tension[0], tension[1]]);
+            sums = std::array::from_fn(|i| sums[i] + more[i]);
+        }
+        sums
+    }
+
+    /// Coefficients of order k of the tensions of a pair.
+    #[inline(always)]
+    pub(crate) fn tensions(&self, pair: usize, k: usize) -> [T; 2] {
+        let tension = &self.pairs[pair].tension[k];
+        [tension[0], tension[2]]
+    }
+
+    /// Coefficients of order k of the gaps of a pair, |d|² − r², once d is known to that order.
+    #[inline(always)]
+    pub(crate) fn gaps(&self, pair: usize, k: usize) -> [T; 2] {
+        let CablePair { span, bend, .. } = &self.pairs[pair];
+        let (first, last) = (span[0], span[k]);
+        let twice: Quad<T> = std::array::from_fn(|w| first[w] * last[w] * 2.0);
+        [
+            bend[0] + (twice[0] + twice[1]),
+            bend[1] + (twice[2] + twice[3]),
+        ]
+    }
+}
+
+impl<T: Real> CablePair<T> {
+    /// What each carrying cable has to hold back: (k+1)(k+2) times the coefficient of order k + 2 of its constraint, but for
+    /// the tensions of order k.
+    #[inline(always)]
+    fn load(&mut self, k: usize, accel: [T; 3], [sine, cosine]: [T; 2]) -> [T; 2] {
+        let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
+        let square = self.span.convolve(&self.span, k + 2);
+        self.bend = [square[0] + square[1], square[2] + square[3]];
+        let lever = self.turned(sine, cosine);
+        let centre = [accel[0], accel[1], accel[0], accel[1]];
+        let along: Quad<T> =
+            std::array::from_fn(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
+        std::array::from_fn(|place| {
+            let bend = self.bend[place] * self.half_per_length[place];
+            let turning = self.arm[place] * accel[2];
+            bend.mul_add(orders, (along[2 * place] + along[2 * place + 1]) + turning)
+        })
+    }
+
+    /// Takes in the k-th coefficients of the tensions; returns Σ T n and Σ s T of them.
+    #[inline(always)]
+    fn take(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
+        let quad = [tension[0], tension[0], tension[1], tension[1]];
+        let pull: Quad<T> = std::array::from_fn(|w| quad[w] * self.normal[w]);
+        let (known, turned) = (self.turned_pull[k], turned_back(&pull));
+        self.tension[k] = quad;
+        self.turned_pull[k] = std::array::from_fn(|w| known[w] + turned[w]);
+        let moment = self.arm[0] * tension[0] + self.arm[1] * tension[1];
+        [pull[0] + pull[2], pull[1] + pull[3], moment]
+    }
+
+    /// The fairleads, turned.
+    #[inline(always)]
+    fn turned(&self, sine: T, cosine: T) -> Quad<T> {
+        let [along, across] = &self.fairleads;
+        std::array::from_fn(|w| along[w].mul_add(cosine, across[w] * sine))
+    }
+}
+
+/// Turned by a quarter, clockwise.
+#[inline(always)]
+fn turned_back<T: Real>(quad: &Quad<T>) -> Quad<T> {
+    [quad[1], -quad[0], quad[3], -quad[2]]
+}
+
+/// Adds forces and a moment.
+#[inline(always)]
+fn add<T: Real>(sums: &mut [T; 3], forces: &Quad<T>, moment: T) {
+    sums[0] += forces[0] + forces[2];
+    sums[1] += forces[1] + forces[3];
+    sums[2] += moment;
+}
+
+#[inline(always)]
+fn put<T>(quad: &mut Quad<T>, place: usize, [x, y]: [T; 2]) {
+    (quad[2 * place], quad[2 * place + 1]) = (x, y);
+}
+
+#[inline(always)]
+fn get<T: Copy>(quad: &Quad<T>, place: usize) -> [T; 2] {
+    [quad[2 * place], quad[2 * place + 1]]
+}

@@ -1,0 +1,485 @@
+//! The one small solver of both complementarity problems.
+
+use crate::arithmetic::real::Real;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+
+/// One number a cable.
+pub(crate) type PerCable<T> = [T; MAX_CABLES];
+
+/// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
+const DEPENDENT: f64 = 1e-12;
+/// Of a body in the plane: more cables than that depend on each other, whatever rounding says of their pivots.
+const FREEDOMS: usize = 3;
+/// Of so many cables at most every set is tried.
+const MOST_TRIED: usize = 6;
+/// A normal velocity below this part of the largest is the same.
+pub(crate) const SHARED: f64 = 1e-9;
+/// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
+const SLANTED: f64 = 0.1;
+/// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
+const NEARLY_ONE_LINE: f64 = 4.5;
+
+/// W z = q over the cables of a set, W symmetric and positive semidefinite, made ready for several q. A cable whose
+/// constraint depends on those before it gets z = 0.
+///
+/// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
+/// mirror image moves as such to the last bit.
+pub(crate) struct Factored<T, W> {
+    w: W,
+    found: Factors<T>,
+}
+
+/// What is found out of a matrix before it meets a q.
+enum Factors<T> {
+    None,
+    /// A cable and 1/W.
+    One(usize, T),
+    /// Two cables and what their matrix comes to.
+    TwoByTwo([usize; 2], TwoByTwo<T>),
+    /// More are eliminated anew each time.
+    Many(TautSet),
+}
+
+impl<T: Real, W: Fn(usize, usize) -> T> Factored<T, W> {
+    #[inline(always)]
+    pub(crate) fn new(set: TautSet, w: W) -> Self {
+        let mut cables = set.iter();
+        let found = match (cables.next(), cables.next(), cables.next()) {
+            (None, ..) => Factors::None,
+            (Some(i), None, _) => Factors::One(i, T::ONE / w(i, i)),
+            (Some(i), Some(j), None) => {
+                Factors::TwoByTwo([i, j], TwoByTwo::new([w(i, i), w(i, j), w(j, j)]))
+            }
+            _ => Factors::Many(set),
+        };
+        Self { w, found }
+    }
+
+    /// z of the first two cables, where there are no more.
+    #[inline(always)]
+    pub(crate) fn solve_two(&self, q: [T; 2]) -> [T; 2] {
+        match self.found {
+            Factors::One(0, inverse) => [q[0] * inverse, T::ZERO],
+            Factors::One(_, inverse) => [T::ZERO, q[1] * inverse],
+            Factors::TwoByTwo(_, ref matrix) => matrix.solve(q),
+            _ => [T::ZERO; 2],
+        }
+    }
+
+    /// z.
+    #[inline(always)]
+    pub(crate) fn solve(&self, q: &PerCable<T>) -> PerCable<T> {
+        let mut z = [T::ZERO; MAX_CABLES];
+        match self.found {
+            Factors::None => {}
+            Factors::One(i, inverse) => z[i] = q[i] * inverse,
+            Factors::TwoByTwo([i, j], ref matrix) => [z[i], z[j]] = matrix.solve([q[i], q[j]]),
+            Factors::Many(set) => z = eliminate_and_refine(set, &self.w, q),
+        }
+        z
+    }
+}
+
+/// Solves W z = q over the cables of a set ([`Factored`]).
+#[inline(always)]
+pub(crate) fn solve<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> PerCable<T> {
+    Factored::new(set, w).solve(q)
+}
+
+/// Two equations with the matrix \[\[a, b\], \[b, c\]\].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TwoByTwo<T> {
+    matrix: [T; 3],
+    /// 1/(ac − b²); none where the two constraints are one and the same.
+    inverse: Option<T>,
+    /// Whether ac − b² is much smaller than ac.
+    slanted: bool,
+}
+
+impl<T: Real> TwoByTwo<T> {
+    #[inline(always)]
+    fn new(matrix: [T; 3]) -> Self {
+        let [a, b, c] = matrix;
+        let determinant = a * c - b * b;
+        Self {
+            matrix,
+            inverse: (!in_line(matrix)).then(|| T::ONE / determinant),
+            slanted: determinant < a * c * SLANTED,
+        }
+    }
+
+    /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the cables are almost in
+    /// line; there its answer is put in twice for what is left over.
+    #[inline(always)]
+    fn solve(&self, q: [T; 2]) -> [T; 2] {
+        let [a, b, c] = self.matrix;
+        let Some(inverse) = self.inverse else {
+            return [q[0] / a, T::ZERO];
+        };
+        let cramer = |q: [T; 2]| {
+            [
+                (c * q[0] - b * q[1]) * inverse,
+                (a * q[1] - b * q[0]) * inverse,
+            ]
+        };
+        let mut z = cramer(q);
+        if self.slanted {
+            for _ in 0..2 {
+                let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
+                let more = cramer(left);
+                z = [z[0] + more[0], z[1] + more[1]];
+            }
+        }
+        z
+    }
+}
+
+/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to rounding.
+fn in_line<T: Real>([a, b, c]: [T; 3]) -> bool {
+    a * c - b * b <= a * c * (T::EPSILON * NEARLY_ONE_LINE)
+}
+
+/// Three and more equations. What is left over is put in twice: of three cables that are almost dependent the
+/// tensions are large, and their sum has to leave the body where it is.
+fn eliminate_and_refine<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> PerCable<T> {
+    let mut z = eliminate(set, &w, q);
+    for _ in 0..2 {
+        let mut left = [T::ZERO; MAX_CABLES];
+        for i in set.iter() {
+            left[i] = set.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j]);
+        }
+        let more = eliminate(set, &w, &left);
+        for i in set.iter() {
+            z[i] += more[i];
+        }
+    }
+    z
+}
+
+/// By elimination in the order of the cables.
+fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
+    let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
+    let mut z = *q;
+    let mut largest = T::ZERO;
+    for i in set.iter() {
+        for j in set.iter() {
+            rows[i][j] = w(i, j);
+        }
+        largest = largest.max(rows[i][i]);
+    }
+    let mut kept = TautSet::SLACK;
+    for k in set.iter() {
+        if rows[k][k] <= largest * DEPENDENT {
+            continue;
+        }
+        kept = kept.with(k);
+        for i in set.iter().filter(|&i| i > k) {
+            let factor = rows[i][k] / rows[k][k];
+            for j in set.iter().filter(|&j| j >= k) {
+                rows[i][j] -= factor * rows[k][j];
+            }
+            z[i] -= factor * z[k];
+        }
+    }
+    let mut solution = [T::ZERO; MAX_CABLES];
+    for k in (0..MAX_CABLES).rev().filter(|&k| kept.contains(k)) {
+        let mut sum = z[k];
+        for j in kept.iter().filter(|&j| j > k) {
+            sum -= rows[k][j] * solution[j];
+        }
+        solution[k] = sum / rows[k][k];
+    }
+    solution
+}
+
+/// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying which of
+/// them pull (z > 0). Returns z and the set of those that pull.
+///
+/// With W positive definite the solution exists and is unique (Cottle, Pang & Stone, The Linear
+/// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic; rounding
+/// can fail them all by a last bit, so the one that violates least is taken.
+pub(crate) fn complementary<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> (PerCable<T>, TautSet) {
+    let mut best = ([T::ZERO; MAX_CABLES], TautSet::SLACK);
+    let mut least = None;
+    // Three that do not depend on each other can pull in every way that more can (Carathéodory).
+    for pulling in set.subsets().filter(|set| set.len() <= FREEDOMS) {
+        let z = solve(pulling, &w, q);
+        let mut violation = T::ZERO;
+        for i in set.iter() {
+            let short = if pulling.contains(i) {
+                -z[i] * w(i, i)
+            } else {
+                pulling.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j])
+            };
+            violation = violation.max(short);
+        }
+        if least.is_none_or(|least| violation < least) {
+            best = (z, pulling);
+            least = Some(violation);
+            if violation == T::ZERO {
+                break;
+            }
+        }
+    }
+    let (mut z, pulling) = best;
+    for value in &mut z {
+        *value = value.max(T::ZERO);
+    }
+    (z, pulling.iter().filter(|&i| z[i] > T::ZERO).collect())
+}
+
+/// Of all impulses z ≥ 0 that act like `z` on the body, those of the least norm.
+///
+/// Where more cables close at once than the body has freedoms for, W is singular: the motion after the impact is
+/// unique, who carries how much of it is not. [`complementary`] finds a solution with as few cables as will do; here
+/// the load is spread over all `held` cables that the solution leaves without a normal velocity of their own. For
+/// each set S of them the least norm is z = W y with W W y = W z over S, since the rows of G that z may use are
+/// those of W's range; of the sets without a negative impulse the one of least norm is the answer.
+///
+/// Sets without dependent cables are returned as they are. Where one of more than [`MOST_TRIED`] would have to push, not
+/// every set is tried, and the norm may be more than the least.
+pub(crate) fn least_norm<T: Real>(
+    held: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+    z: PerCable<T>,
+) -> PerCable<T> {
+    if held.len() < 2 {
+        return z;
+    }
+    let product =
+        |i: usize, z: &PerCable<T>| held.iter().fold(T::ZERO, |sum, j| sum + w(i, j) * z[j]);
+    let size = held
+        .iter()
+        .fold(T::ZERO, |size, i| size.max(z[i] * w(i, i)));
+    let close = size * T::from_decimal(SHARED);
+    let tight: TautSet = held
+        .iter()
+        .filter(|&i| (product(i, &z) - q[i]).abs() <= close)
+        .collect();
+    if independent(tight, &w) {
+        return z;
+    }
+    let does_the_same = |shared: &PerCable<T>| {
+        held.iter()
+            .all(|i| (product(i, shared) - product(i, &z)).abs() <= close)
+    };
+    let share = |set: TautSet| {
+        let shared = spread(set, &w, &z, &product);
+        let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
+        (pulls && does_the_same(&shared)).then_some(shared)
+    };
+    // No set can do better than all of them, where none of all has to push.
+    if let Some(shared) = share(tight) {
+        return shared;
+    }
+    let norm = |z: &PerCable<T>| tight.iter().fold(T::ZERO, |sum, i| sum + z[i] * z[i]);
+    let shorter = |best: PerCable<T>, shared: PerCable<T>| {
+        if norm(&shared) < norm(&best) {
+            shared
+        } else {
+            best
+        }
+    };
+    if tight.len() <= MOST_TRIED {
+        let sets = tight.subsets().filter(|set| !set.is_empty());
+        return sets.filter_map(share).fold(z, shorter);
+    }
+    // Of more cables the one that would have to push hardest leaves, one after the other.
+    let mut set = tight;
+    while set.len() > 1 {
+        let shared = spread(set, &w, &z, &product);
+        let pushes_hardest = set
+            .iter()
+            .reduce(|a, b| if shared[b] < shared[a] { b } else { a });
+        match pushes_hardest {
+            Some(cable) if shared[cable] < T::ZERO => set = set.without(cable),
+            _ => {
+                return if does_the_same(&shared) {
+                    shorter(z, shared)
+                } else {
+                    z
+                };
+            }
+        }
+    }
+    z
+}
+
+/// The z = W y over a set that acts on it like `z`, with one step of refinement.
+fn spread<T: Real>(
+    set: TautSet,
+    w: &impl Fn(usize, usize) -> T,
+    z: &PerCable<T>,
+    product: &impl Fn(usize, &PerCable<T>) -> T,
+) -> PerCable<T> {
+    let square = |i: usize, j: usize| set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * w(k, j));
+    let mut shared = [T::ZERO; MAX_CABLES];
+    for _ in 0..2 {
+        let mut left = [T::ZERO; MAX_CABLES];
+        for i in set.iter() {
+            left[i] = product(i, z) - product(i, &shared);
+        }
+        let y = solve(set, square, &left);
+        for i in set.iter() {
+            shared[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
+        }
+    }
+    shared
+}
+
+/// Whether no cable's constraint depends on those of the others.
+pub(crate) fn independent<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T) -> bool {
+    let mut cables = set.iter();
+    match (cables.next(), cables.next(), set.len()) {
+        (_, None, _) => return true,
+        (Some(i), Some(j), 2) => return !in_line([w(i, i), w(i, j), w(j, j)]),
+        (.., count) if count > FREEDOMS => return false,
+        _ => {}
+    }
+    let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
+    for i in set.iter() {
+        for j in set.iter() {
+            rows[i][j] = w(i, j);
+        }
+    }
+    let largest = set
+        .iter()
+        .fold(T::ZERO, |largest, i| largest.max(rows[i][i]));
+    for k in set.iter() {
+        if rows[k][k] <= largest * DEPENDENT {
+            return false;
+        }
+        for i in set.iter().filter(|&i| i > k) {
+            let factor = rows[i][k] / rows[k][k];
+            for j in set.iter().filter(|&j| j >= k) {
+                rows[i][j] -= factor * rows[k][j];
+            }
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use proptest::test_runner::RngSeed;
+
+    /// A unit normal and a lever arm.
+    fn row() -> impl Strategy<Value = [f64; 3]> {
+        (0.0..std::f64::consts::TAU, -1.0..1.0)
+            .prop_map(|(angle, arm): (f64, f64)| [angle.cos(), angle.sin(), arm])
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            rng_seed: RngSeed::Fixed(1999),
+            ..ProptestConfig::default()
+        })]
+
+        /// The defining conditions, for random Gram matrices of rank 1 to 3, up to 6 cables, and normal velocities that a
+        /// body can have.
+        #[test]
+        fn conditions_hold(rows in proptest::collection::vec(row(), 1..7),
+                           v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]) {
+            let set: TautSet = (0..rows.len()).collect();
+            let w = |i: usize, j: usize| -> f64 { (0..3).map(|k| rows[i][k] * rows[j][k]).sum() };
+            let mut load = [0.0; MAX_CABLES];
+            for (load, row) in load.iter_mut().zip(&rows) {
+                *load = (0..3).map(|k| row[k] * v[k]).sum();
+            }
+            let (z, pulling) = complementary(set, w, &load);
+            for i in set.iter() {
+                let slackness: f64 = set.iter().map(|j| w(i, j) * z[j]).sum::<f64>() - load[i];
+                prop_assert!(z[i] >= 0.0 && slackness >= -1e-9);
+                prop_assert!((z[i] * slackness).abs() < 1e-6);
+                prop_assert_eq!(pulling.contains(i), z[i] > 0.0);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig {
+            rng_seed: RngSeed::Fixed(1999),
+            ..ProptestConfig::default()
+        })]
+
+        /// Three to six cables of a body with three freedoms: where W⁺q, the least-norm solution by an eigenvalue
+        /// decomposition of another library, has no negative entry, it is ours; and it is never longer than another
+        /// set of impulses that does the same.
+        #[test]
+        fn dependent_cables_share_with_the_least_norm(
+            rows in prop::collection::vec(row(), 3..7),
+            pulls in prop::collection::vec(0.0..1.0f64, 6),
+        ) {
+            let n = rows.len();
+            let set: TautSet = (0..n).collect();
+            let w = |i: usize, j: usize| -> f64 { (0..3).map(|k| rows[i][k] * rows[j][k]).sum() };
+            let mut q = [0.0; MAX_CABLES];
+            for (i, load) in q.iter_mut().enumerate().take(n) {
+                *load = (0..n).map(|j| w(i, j) * pulls[j]).sum();
+            }
+            let matrix = nalgebra::DMatrix::from_fn(n, n, w);
+            let eigen = matrix.clone().symmetric_eigen();
+            let mut values: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
+            values.sort_by(|a, b| b.total_cmp(a));
+            // Nearly dependent cables have no clear answer.
+            prop_assume!(values[2] > 1e-2 * values[0]);
+            let pseudo = matrix.pseudo_inverse(1e-9).unwrap() * nalgebra::DVector::from_fn(n, |i, _| q[i]);
+            let (z, _) = complementary(set, w, &q);
+            let ours = least_norm(set, w, &q, z);
+            let norm = |z: &[f64]| z.iter().map(|z| z * z).sum::<f64>().sqrt();
+            for i in set.iter() {
+                let acts: f64 = (0..n).map(|j| w(i, j) * ours[j]).sum();
+                prop_assert!(ours[i] >= 0.0 && (acts - q[i]).abs() < 1e-8, "{acts} {}", q[i]);
+            }
+            prop_assert!(norm(&ours) <= norm(&pulls[..n]) * (1.0 + 1e-8));
+            if pseudo.iter().all(|z| *z >= 0.0) {
+                for i in set.iter() {
+                    prop_assert!((ours[i] - pseudo[i]).abs() < 1e-7, "{ours:?} {pseudo:?}");
+                }
+            }
+        }
+
+        /// Cables that do not depend on each other keep every bit.
+        #[test]
+        fn independent_cables_keep_their_impulses(
+            rows in prop::collection::vec(row(), 1..4),
+            q in prop::collection::vec(-1.0..1.0f64, 3),
+        ) {
+            let set: TautSet = (0..rows.len()).collect();
+            let w = |i: usize, j: usize| -> f64 { (0..3).map(|k| rows[i][k] * rows[j][k]).sum() };
+            let mut load = [0.0; MAX_CABLES];
+            load[..3].copy_from_slice(&q);
+            let (z, _) = complementary(set, w, &load);
+            if independent(set, w) {
+                prop_assert_eq!(least_norm(set, w, &load, z), z);
+            }
+        }
+    }
+
+    /// Two equal constraints: the pair can hold what one can, each of them half.
+    #[test]
+    fn twins_share_evenly_and_no_load_twice() {
+        let pair = TautSet::only(0).with(1);
+        let mut q = [0.0; MAX_CABLES];
+        (q[0], q[1]) = (3.0, 3.0);
+        let (z, _) = complementary(pair, |_, _| 2.0, &q);
+        assert_eq!(z[0] + z[1], 1.5);
+        let shared = least_norm(pair, |_, _| 2.0, &q, z);
+        assert!((shared[0] - 0.75).abs() < 1e-15 && (shared[1] - 0.75).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,225 @@
+//! Slack flight, in closed form.
+
+use crate::arithmetic::lane::{Turn, length};
+use crate::arithmetic::real::Real;
+use crate::model::forcing::Harmonic;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::TautSet;
+use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant};
+use crate::motion::contact::{Contact, Contacts};
+use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+
+/// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of sinusoids).
+#[derive(Clone, Debug)]
+pub(crate) struct Flight<T> {
+    start: State<T>,
+    sine: T,
+    cosine: T,
+    constant: [T; 2],
+    harmonics: Vec<Harmonic<T>>,
+    attachments: Vec<Attachment<T>>,
+    /// The cables that are known to be closed and at rest at the start.
+    resting: TautSet,
+    rotation_limit: Option<T>,
+    upper_bound: Option<T>,
+    outline: [[T; 2]; 4],
+    outline_count: usize,
+    outline_radius: T,
+    outline_third: T,
+}
+
+impl<T: Real> Flight<T> {
+    /// A flight not yet begun, with room for the forcing of `system`.
+    pub(crate) fn new(
+        system: &System<T>,
+        rotation_limit: Option<T>,
+        upper_bound: Option<T>,
+    ) -> Self {
+        let (points, radius) = system.body.outline();
+        let mut outline = [[T::ZERO; 2]; 4];
+        outline[..points.points().len()].copy_from_slice(points.points());
+        Self {
+            start: State::default(),
+            sine: T::ZERO,
+            cosine: T::ONE,
+            constant: system.forcing.constant,
+            harmonics: system.forcing.harmonics.clone(),
+            attachments: Vec::with_capacity(system.cables.len()),
+            resting: TautSet::SLACK,
+            rotation_limit,
+            upper_bound,
+            outline,
+            outline_count: points.points().len(),
+            outline_radius: radius,
+            outline_third: T::ZERO,
+        }
+    }
+
+    /// Begins the flight at time `t` from `start`, which an event has made of the state `before`.
+    #[inline(always)]
+    pub(crate) fn begin(
+        &mut self,
+        system: &System<T>,
+        t: T,
+        start: &State<T>,
+        before: &State<T>,
+        contacts: &Contacts<T>,
+    ) {
+        self.start = *start;
+        let turn = Turn::by(start.theta);
+        (self.sine, self.cosine) = (turn.sine, turn.cosine);
+        for (local, harmonic) in self.harmonics.iter_mut().zip(&system.forcing.harmonics) {
+            *local = harmonic.shifted(t);
+        }
+        let force = system.forcing.bounds();
+        let speed =
+            |state: &State<T>, reach: T| length([state.vx, state.vy]) + state.vtheta.abs() * reach;
+        self.resting = TautSet::SLACK;
+        self.attachments.clear();
+        for (index, cable) in system.cables.iter().enumerate() {
+            let contact: &Contact<T> = &contacts[index];
+            let reach = length(cable.fairlead());
+            let speed = speed(start, reach).max(speed(before, reach));
+            let known = [contact.gap, contact.error];
+            let mut attachment = Attachment::new(cable, reach, start, &turn, known, speed, force);
+            if contact.resting {
+                attachment.gap_rate = T::ZERO;
+                self.resting = self.resting.with(index);
+            }
+            self.attachments.push(attachment);
+        }
+        let reach = length(self.outline[0]);
+        let spin = start.vtheta.abs();
+        self.outline_third = (force[1] + spin * spin * spin * reach) * INFLATION;
+    }
+
+    #[inline(always)]
+    fn instant(&self, s: T) -> Instant<T> {
+        let mut flight = Instant::at(s, self.constant, self.start.vtheta);
+        for harmonic in &self.harmonics {
+            flight = flight.with(harmonic, s);
+        }
+        flight
+    }
+
+    /// The state a time `s` into the flight.
+    #[inline(always)]
+    pub(crate) fn state(&self, s: T) -> State<T> {
+        self.instant(s).state(&self.start, s)
+    }
+
+    /// The gap of a cable a time `s` into the flight.
+    #[inline(always)]
+    pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
+        let jet = self.attachments[cable].jet(s, &self.instant(s));
+        Contact {
+            gap: jet.value,
+            error: jet.noise,
+            resting: false,
+        }
+    }
+
+    /// g and ġ of a cable a time `s` into the flight.
+    #[inline(always)]
+    pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+        let jet = self.attachments[cable].jet(s, &self.instant(s));
+        (jet.value, jet.rate)
+    }
+
+    /// The gap of a cable at the flight's start.
+    pub(crate) fn gap_at_start(&self, cable: usize) -> T {
+        self.attachments[cable].gap
+    }
+
+    /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.
+    ///
+    /// |P − A| ≤ r holds up to the first crossing, which is all that the bound is used for. |Ṗ| grows
+    /// by at most |P̈| σ.
+    #[inline(always)]
+    fn gap_jet(&self, cable: usize, s: T, jet: &GapJet<T>) -> Jet<T> {
+        let attachment = &self.attachments[cable];
+        let [a, j, _] = attachment.bounds;
+        Jet {
+            third: (length(jet.velocity) * a * 3.0 + attachment.length * j) * 2.0,
+            fourth: a * a * 6.0,
+            noise: jet.noise,
+            blur: attachment.blur(s),
+            ..Jet::new(EventFunction::Gap(cable), jet.value, jet.rate, jet.accel)
+        }
+    }
+
+    /// The jet of a cable known to be closed and at rest, at the start of the flight: with ġ = 0
+    /// exact, g⃛ exact, and |g⁗| ≤ 2 (3 |P̈|² + 4 |Ṗ||P⃛| + r |P⁗|).
+    fn resting_jet(&self, cable: usize, jerk: T, jet: Jet<T>) -> Jet<T> {
+        let attachment = &self.attachments[cable];
+        let [a, j, k] = attachment.bounds;
+        // Over one unit of time; a longer first step is never needed.
+        let speed = length(attachment.velocity) + a;
+        Jet {
+            resting: true,
+            blur: attachment.length.squared() * T::EPSILON * 4.0,
+            jerk,
+            fourth: (a * a * 3.0 + speed * j * 4.0 + attachment.length * k) * 2.0,
+            ..jet
+        }
+    }
+
+    #[inline(always)]
+    fn stop_jets(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
+        let state = now.state(&self.start, s);
+        if let Some(limit) = self.rotation_limit {
+            let side = if state.vtheta < T::ZERO {
+                -T::ONE
+            } else {
+                T::ONE
+            };
+            jets.push(Jet {
+                noise: limit * T::EPSILON,
+                ..Jet::new(
+                    EventFunction::Rotation,
+                    side * state.theta - limit,
+                    side * state.vtheta,
+                    T::ZERO,
+                )
+            });
+        }
+        let Some(level) = self.upper_bound else {
+            return;
+        };
+        let sine = self.sine * now.turn.cosine + self.cosine * now.turn.sine;
+        let cosine = self.cosine * now.turn.cosine - self.sine * now.turn.sine;
+        for [px, py] in &self.outline[..self.outline_count] {
+            let height = *px * sine + *py * cosine;
+            let swing = *px * cosine - *py * sine;
+            jets.push(Jet {
+                third: self.outline_third,
+                noise: (level.abs() + state.y.abs() + height.abs()) * T::EPSILON * 4.0,
+                ..Jet::new(
+                    EventFunction::Top,
+                    state.y + height + self.outline_radius - level,
+                    state.vy + state.vtheta * swing,
+                    now.push.force[1] - state.vtheta.squared() * height,
+                )
+            });
+        }
+    }
+}
+
+impl<T: Real> HasEvents<T> for Flight<T> {
+    #[inline(always)]
+    fn jets_at(&self, s: T, jets: &mut Jets<T>) {
+        let now = self.instant(s);
+        for cable in 0..self.attachments.len() {
+            let seen = self.attachments[cable].jet(s, &now);
+            let jet = self.gap_jet(cable, s, &seen);
+            let at_rest = s == T::ZERO && self.resting.contains(cable);
+            jets.push(if at_rest {
+                self.resting_jet(cable, seen.jerk, jet)
+            } else {
+                jet
+            });
+        }
+        self.stop_jets(s, &now, jets);
+    }
+}

@@ -1,0 +1,255 @@
+//! The law of impact: Newton-Moreau.
+
+use crate::arithmetic::real::Real;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::complementarity::{PerCable, complementary, least_norm};
+
+/// What an impact does: impulses, and normal velocities before and after, by cable.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ImpactResult<T> {
+    pub(crate) impulse: PerCable<T>,
+    pub(crate) pulling: TautSet,
+    pub(crate) v_before: PerCable<T>,
+    pub(crate) v_after: PerCable<T>,
+    pub(crate) after: State<T>,
+}
+
+impl<T: Real> ImpactResult<T> {
+    /// Of one cable.
+    pub(crate) fn of_one(
+        cable: usize,
+        [v_before, v_after]: [T; 2],
+        impulse: T,
+        after: State<T>,
+    ) -> Self {
+        let mut result = Self {
+            impulse: [T::ZERO; MAX_CABLES],
+            pulling: TautSet::only(cable),
+            v_before: [T::ZERO; MAX_CABLES],
+            v_after: [T::ZERO; MAX_CABLES],
+            after,
+        };
+        result.impulse[cable] = impulse;
+        result.v_before[cable] = v_before;
+        result.v_after[cable] = v_after;
+        result
+    }
+}
+
+/// Impact of the closed cables, of which `taut` ones have no normal velocity (docs/model.md section 5):
+///
+/// ```text
+/// 0 ≤ p  ⟂  −(v⁺ + e max(v⁻, 0)) ≥ 0,    v⁺ = v⁻ − W p,    W = G M⁻¹ Gᵀ
+/// ```
+///
+/// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
+/// on it and goes slack when the impulse unloads it.
+///
+/// Where more cables pull than the body has freedoms for, the impulses are those of the least norm that do the same.
+///
+/// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the law
+/// it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is, it then
+/// snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
+/// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
+#[inline(always)]
+pub(crate) fn impact<T: Real>(
+    system: &System<T>,
+    before: &State<T>,
+    closed: TautSet,
+    taut: TautSet,
+) -> ImpactResult<T> {
+    let e = system.restitution;
+    let inverse_inertia = system.body.inverse_inertia();
+    let normals = system.normals(before, closed);
+    let mut v_before = [T::ZERO; MAX_CABLES];
+    let mut load = [T::ZERO; MAX_CABLES];
+    for cable in closed.iter().filter(|&cable| !taut.contains(cable)) {
+        let v = normals[cable].velocity(before);
+        v_before[cable] = v;
+        load[cable] = v + e * v.max(T::ZERO);
+    }
+    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let held: TautSet = closed
+        .iter()
+        .filter(|&cable| v_before[cable] >= T::ZERO)
+        .collect();
+    let (fewest, _) = complementary(held, w, &load);
+    let impulse = least_norm(held, w, &load, fewest);
+    let pulling: TautSet = held
+        .iter()
+        .filter(|&cable| impulse[cable] > T::ZERO)
+        .collect();
+
+    let mut after = *before;
+    let mut v_after = [T::ZERO; MAX_CABLES];
+    for cable in pulling.iter() {
+        normals[cable].apply_impulse(&mut after, impulse[cable], inverse_inertia);
+    }
+    for cable in closed.iter() {
+        v_after[cable] = if pulling.contains(cable) {
+            -e * v_before[cable].max(T::ZERO)
+        } else {
+            pulling
+                .iter()
+                .fold(v_before[cable], |v, j| v - w(cable, j) * impulse[j])
+        };
+    }
+    ImpactResult {
+        impulse,
+        pulling,
+        v_before,
+        v_after,
+        after,
+    }
+}
+
+/// The derivatives of (ẋ, ẏ, θ̇) after the impact of one cable that is closed by itself and closing, by
+/// (x, y, θ, ẋ, ẏ, θ̇) before it: of v⁺ = v − M⁻¹Gᵀ p with p = (1 + e) v_n/w, v_n = G v, w = G M⁻¹Gᵀ,
+///
+/// ```text
+/// δp = (1 + e) (δv_n/w − v_n δw/w²),   δv⁺ = δv − M⁻¹(Gᵀ δp + δGᵀ p)
+/// ```
+#[inline(always)]
+pub(crate) fn slope_of_impact_alone(
+    system: &System,
+    before: &State,
+    cable: usize,
+) -> [[f64; 6]; 3] {
+    let inverse_inertia = system.body.inverse_inertia();
+    let (normal, slopes) = system.cables[cable].normal_and_slopes(before);
+    let g = [normal.n[0], normal.n[1], normal.arm];
+    let inverse_mass = [1.0, 1.0, inverse_inertia];
+    let v_n = normal.velocity(before);
+    let w = normal.coupling(&normal, inverse_inertia);
+    let gain = (1.0 + system.restitution) / w;
+    let velocity = [before.vx, before.vy, before.vtheta];
+    let mut rows = [[0.0; 6]; 3];
+    for k in 0..3 {
+        let dg = slopes.map(|slope| slope[k]);
+        let dv_n: f64 = (0..3).map(|i| dg[i] * velocity[i]).sum();
+        let dw: f64 = (0..3).map(|i| 2.0 * g[i] * inverse_mass[i] * dg[i]).sum();
+        let dp = gain * (dv_n - v_n * dw / w);
+        for i in 0..3 {
+            let kick = gain * v_n;
+            rows[i][k] = -inverse_mass[i] * (g[i] * dp + dg[i] * kick);
+            rows[i][3 + k] = f64::from(i == k) - inverse_mass[i] * g[i] * gain * g[k];
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::dual::Dual;
+    use crate::model::body::{Body, Shape};
+    use crate::model::forcing::Harmonic;
+
+    fn breakwater(e: f64) -> System {
+        let a = 0.1;
+        System::moored_breakwater(
+            Body::rigid(Shape::of_half_sizes(a, 0.0), a * a),
+            [a, 0.0],
+            1.5,
+            e,
+            Harmonic::ellipse(0.0, 0.0, 0.0),
+        )
+    }
+
+    #[test]
+    fn single_impact_reverses_the_normal_velocity_and_loses_what_it_must() {
+        let system = breakwater(0.7);
+        let before = State {
+            vx: 0.3,
+            vy: -0.5,
+            vtheta: 0.2,
+            ..State::default()
+        };
+        let normal = system.cables[1].normal(&before);
+        let v_n = normal.velocity(&before);
+        let w = normal.coupling(&normal, system.body.inverse_inertia());
+        let result = impact(&system, &before, TautSet::only(1), TautSet::SLACK);
+        assert!((result.impulse[1] - 1.7 * v_n / w).abs() < 1e-15);
+        assert!((normal.velocity(&result.after) + 0.7 * v_n).abs() < 1e-15);
+        let lost = system.energy(&before) - system.energy(&result.after);
+        assert!((lost - (1.0 - 0.49) * v_n * v_n / (2.0 * w)).abs() < 1e-15);
+        assert!((lost - result.impulse[1] * (v_n - 0.7 * v_n) / 2.0).abs() < 1e-15);
+    }
+
+    /// The law over dual numbers, against its derivatives written out.
+    #[test]
+    fn slopes_of_a_single_impact_are_those_of_the_law() {
+        let system = breakwater(0.7);
+        let before = State {
+            x: 0.05,
+            y: -0.02,
+            theta: 0.4,
+            vx: 0.3,
+            vy: -0.5,
+            vtheta: 0.2,
+        };
+        let over = system.map(Dual::<f64, 6>::constant);
+        let mut i = 0;
+        let variables = before.components().map(|component| {
+            i += 1;
+            Dual::variable(component, i - 1)
+        });
+        let variables = State::from_components(variables);
+        let mut closing = 0;
+        for cable in [0, 1] {
+            let after = impact(&over, &variables, TautSet::only(cable), TautSet::SLACK).after;
+            let written = slope_of_impact_alone(&system, &before, cable);
+            if after == variables {
+                continue;
+            }
+            closing += 1;
+            for (row, velocity) in written.iter().zip([after.vx, after.vy, after.vtheta]) {
+                for (ours, law) in row.iter().zip(velocity.slope) {
+                    assert!((ours - law).abs() < 1e-14, "{ours} {law}");
+                }
+            }
+        }
+        assert!(closing > 0);
+    }
+
+    #[test]
+    fn symmetric_double_impact_rebounds_vertically() {
+        let system = breakwater(0.5);
+        let before = State {
+            vy: -0.4,
+            ..State::default()
+        };
+        let both = TautSet::only(0).with(1);
+        let result = impact(&system, &before, both, TautSet::SLACK);
+        assert_eq!((result.after.vx, result.after.vtheta), (0.0, 0.0));
+        assert!((result.after.vy - 0.2).abs() < 1e-15);
+        assert_eq!(result.impulse[0], result.impulse[1]);
+    }
+
+    #[test]
+    fn a_taut_cable_stays_taut_or_goes_slack_as_the_impulse_tells() {
+        // At x = y = θ = 0 the coupling W_12 of the standard body decides for all impacts there.
+        let system = breakwater(0.9);
+        let at = State::default();
+        let normals = system.normals(&at, system.all_cables());
+        let coupling = normals[0].coupling(&normals[1], system.body.inverse_inertia());
+        let along = State {
+            vx: normals[1].n[1],
+            vy: -normals[1].n[0],
+            ..at
+        };
+        let closing = normals[0].velocity(&along);
+        let sign = closing.signum();
+        let before = State {
+            vx: sign * along.vx,
+            vy: sign * along.vy,
+            ..at
+        };
+        let result = impact(&system, &before, system.all_cables(), TautSet::only(1));
+        assert!(result.impulse[0] > 0.0);
+        assert_eq!(result.pulling.contains(1), coupling < 0.0);
+        assert!(normals[1].velocity(&result.after) <= 1e-15);
+    }
+}

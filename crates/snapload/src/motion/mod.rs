@@ -1,0 +1,21 @@
+//! How they move: slack flight, taut motion, events, the law of contact, and the loop around them.
+
+pub(crate) mod active_set;
+pub(crate) mod attachment;
+pub(crate) mod bounce;
+pub(crate) mod cable_series;
+pub(crate) mod complementarity;
+pub(crate) mod contact;
+pub(crate) mod events;
+pub(crate) mod extremes;
+pub(crate) mod flight;
+pub(crate) mod impact;
+pub(crate) mod outcome;
+pub(crate) mod playback;
+pub(crate) mod simulation;
+pub(crate) mod start;
+pub(crate) mod tangent;
+pub(crate) mod taut_series;
+pub(crate) mod trajectory;
+pub(crate) mod two_cable_flight;
+pub(crate) mod two_cables;

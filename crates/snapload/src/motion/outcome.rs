@@ -1,0 +1,164 @@
+//! What a run comes to, without keeping the run.
+
+use crate::case::Case;
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::trajectory::{End, Norms};
+use std::ops::ControlFlow;
+
+/// The cables of a case.
+pub(crate) const CABLES: usize = 2;
+
+/// A run in a few numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// How it ended.
+    pub end: End,
+    /// The norms.
+    pub norms: Norms,
+    /// How many impacts each cable had, impulses passed into it while taut not among them.
+    pub impacts: [u64; CABLES],
+    /// The first of them.
+    pub first: Option<FirstImpact>,
+    /// Time with one taut cable \[T\].
+    pub sliding: f64,
+    /// Time with both \[T\].
+    pub rocking: f64,
+}
+
+/// The first snap of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstImpact {
+    /// When \[T\].
+    pub t: f64,
+    /// The cable, by index from 0.
+    pub cable: usize,
+    /// Normal velocity just before \[L/T\].
+    pub v_n: f64,
+}
+
+impl Outcome {
+    /// Of a case.
+    pub fn of(case: &Case) -> Self {
+        Self::after(case.simulation())
+    }
+
+    /// Of a simulation that is run to its end.
+    pub fn after(simulation: Simulation) -> Self {
+        Self::watched(simulation, |_, _| {})
+    }
+
+    /// The same; `watch` sees every step.
+    pub fn watched(mut simulation: Simulation, mut watch: impl FnMut(&Simulation, &Step)) -> Self {
+        let mut outcome = Self::begun(&simulation);
+        while let Some(step) = simulation.step() {
+            outcome.take(&step);
+            watch(&simulation, &step);
+        }
+        outcome.ended(&simulation)
+    }
+
+    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on; none where it
+    /// did not let it come to its end.
+    pub fn of_while(
+        case: &Case,
+        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let mut simulation = case.simulation();
+        let mut outcome = Self::begun(&simulation);
+        while let Some(step) = simulation.step() {
+            outcome.take(&step);
+            if watch(&simulation).is_break() {
+                return None;
+            }
+        }
+        Some(outcome.ended(&simulation))
+    }
+
+    /// Of a motion that has just begun.
+    pub(crate) fn begun(simulation: &Simulation) -> Self {
+        Self {
+            end: End::of(simulation),
+            norms: Norms::default(),
+            impacts: [0; CABLES],
+            first: None,
+            sliding: 0.0,
+            rocking: 0.0,
+        }
+    }
+
+    pub(crate) fn take(&mut self, step: &Step) {
+        match step.taut.len() {
+            0 => {}
+            1 => self.sliding += step.t_end - step.t_start,
+            _ => self.rocking += step.t_end - step.t_start,
+        }
+        for impact in step.impacts() {
+            self.norms.take(&impact);
+            if impact.v_n > 0.0 {
+                if let Some(count) = self.impacts.get_mut(impact.cable) {
+                    *count += 1;
+                }
+                self.first.get_or_insert(FirstImpact {
+                    t: impact.t,
+                    cable: impact.cable,
+                    v_n: impact.v_n,
+                });
+            }
+        }
+    }
+
+    /// Once the motion has stopped.
+    pub(crate) fn ended(mut self, simulation: &Simulation) -> Self {
+        self.end = End::of(simulation);
+        self.norms.y_max = simulation.y_max();
+        self.norms.theta_max = simulation.theta_max();
+        self
+    }
+
+    /// How many impacts there were, of all cables.
+    pub fn snaps(&self) -> u64 {
+        self.impacts.iter().sum()
+    }
+
+    /// Time without a taut cable \[T\].
+    pub fn slack(&self) -> f64 {
+        self.end.t - self.sliding - self.rocking
+    }
+
+    /// Whether it stopped at the rotation limit or the upper bound.
+    pub fn exceeds(&self) -> bool {
+        self.end.reason.exceeds()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::error::CaseError;
+    use crate::case::named::named_case;
+
+    /// Every number is that of the kept run.
+    #[test]
+    fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
+        for code in ["sliding-example", "rocking-example", "1910001000-359"] {
+            let case = Case::new(named_case(code)?.parameters)?;
+            let (outcome, run) = (Outcome::of(&case), case.run());
+            assert_eq!((outcome.end, outcome.norms), (*run.end(), *run.norms()));
+            let snaps: Vec<_> = run.impacts().iter().filter(|i| i.v_n > 0.0).collect();
+            let by_cable = [0, 1].map(|k| snaps.iter().filter(|i| i.cable == k).count() as u64);
+            assert_eq!(outcome.impacts, by_cable);
+            let first = snaps.first().map(|i| (i.t, i.cable, i.v_n));
+            assert_eq!(outcome.first.map(|f| (f.t, f.cable, f.v_n)), first);
+            for (mode, time) in [
+                ("slack", outcome.slack()),
+                ("sliding", outcome.sliding),
+                ("rocking", outcome.rocking),
+            ] {
+                let of_mode = run.modes().iter().filter(|i| i.taut.mode() == mode);
+                let sum: f64 = of_mode.map(|i| i.t_end - i.t_start).sum();
+                assert!((sum - time).abs() < 1e-9, "{code}: {mode} {sum} {time}");
+            }
+        }
+        Ok(())
+    }
+}

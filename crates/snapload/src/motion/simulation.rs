@@ -1,0 +1,367 @@
+//! The one loop: fly to the earliest event, apply its law, choose the next taut set.
+
+use crate::arithmetic::processor::{Kernel, dispatch_over};
+use crate::arithmetic::real::Real;
+use crate::model::rules::StopRules;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::TautSet;
+use crate::motion::active_set::{ActiveSet, project_position, project_velocity};
+use crate::motion::contact::{Contact, Contacts};
+use crate::motion::events::{Crossing, Reached, first_crossing};
+use crate::motion::extremes::Extremes;
+use crate::motion::flight::Flight;
+use crate::motion::impact::ImpactResult;
+use crate::motion::start;
+use crate::motion::start::StartError;
+use crate::motion::taut_series::Series;
+use crate::motion::trajectory::{Impact, Stop};
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+
+mod bounces;
+mod event_laws;
+mod within;
+
+use within::StateAt;
+
+/// So many instants of impact in a row on the same cables count as a converging series.
+const CONVERGING: u32 = 5;
+
+/// A motion in progress.
+///
+/// It allocates when it is made and at its first stretch without a closed form, and no other step does; it has no
+/// randomness and reads no clock: the same system, rules and start give the same bits.
+#[derive(Clone, Debug)]
+pub struct Simulation<T: Real = f64> {
+    system: System<T>,
+    rules: StopRules<T>,
+    v_stick: T,
+    t: T,
+    state: State<T>,
+    /// The state before the latest event.
+    before: State<T>,
+    active: ActiveSet,
+    contacts: Contacts<T>,
+    /// The system as [`crate::motion::bounce`] takes it; none where it has not two cables and one harmonic.
+    two_cables: Option<TwoCableSystem<T>>,
+    /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
+    bounce_start: Option<AfterImpact<T>>,
+    flight: Flight<T>,
+    /// Made for the first stretch without a closed form: it is large, and most runs have none.
+    series: Option<Box<Series<T>>>,
+    extremes: Extremes<T>,
+    impacts: u64,
+    /// Steps of no length since time last moved on.
+    standstill: u64,
+    /// Snaps in a row that were slower than `v_stick`, and their cables.
+    slow_snaps: u32,
+    slow_cables: TautSet,
+    /// When the latest stretch began.
+    begun: T,
+    last: LastImpacts<T>,
+    stop: Option<Stop>,
+    t_limit: Option<T>,
+}
+
+/// The latest instants of impact, as far as the limit of a converging series asks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LastImpacts<T> {
+    pub(crate) cables: TautSet,
+    pub(crate) v_n: T,
+    pub(crate) repeats: u32,
+}
+
+/// The impacts so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Progress<T> {
+    pub(crate) impacts: u64,
+    pub(crate) last: LastImpacts<T>,
+}
+
+/// What one step did: a stretch of motion with one taut set, and the event at its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<T: Real = f64> {
+    /// When the stretch began.
+    pub t_start: T,
+    /// The state then.
+    pub start: State<T>,
+    /// The taut cables along it.
+    pub taut: TautSet,
+    /// When it ended.
+    pub t_end: T,
+    /// The state at the end, after the event there.
+    pub after: State<T>,
+    /// The taut cables after it.
+    pub taut_after: TautSet,
+    /// Why the motion stops here, if it does.
+    pub stop: Option<Stop>,
+    /// The state at the end, before the event there.
+    pub before: State<T>,
+    /// Of the taut cables those that make up the motion.
+    pub(crate) carrying: TautSet,
+    pub(crate) event: Event,
+    result: Option<ImpactResult<T>>,
+}
+
+/// What there was at the end of a stretch, before the law was applied.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Event {
+    /// What was reached.
+    pub(crate) reached: Reached,
+    /// The cables whose gap is zero, known and not evaluated.
+    pub(crate) closed: TautSet,
+    /// Those of them without normal velocity.
+    pub(crate) still: TautSet,
+}
+
+/// A step to be made, by the best instructions for it.
+struct NextStep<'a, T: Real>(&'a mut Simulation<T>);
+
+impl<T: Real> Kernel for NextStep<'_, T> {
+    type Output = Option<Step<T>>;
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        self.0.step_here()
+    }
+}
+
+impl<T: Real> Step<T> {
+    /// The impacts at the end of the stretch: one for each cable with an impulse.
+    pub fn impacts(&self) -> impl Iterator<Item = Impact<T>> + '_ {
+        self.result.iter().flat_map(|result| {
+            result.pulling.iter().map(|cable| {
+                let (v_before, v_after) = (result.v_before[cable], result.v_after[cable]);
+                Impact {
+                    t: self.t_end,
+                    cable,
+                    v_n: v_before.max(T::ZERO),
+                    impulse: result.impulse[cable],
+                    energy_lost: result.impulse[cable] * (v_before + v_after) * 0.5,
+                    before: self.before,
+                    after: result.after,
+                }
+            })
+        })
+    }
+}
+
+impl<T: Real> Simulation<T> {
+    /// A motion of `system` from `state` at time `t`, projected onto the cables that count as closed.
+    ///
+    /// An impact slower than `v_stick` lets its cable stick, if the cable would then carry tension.
+    ///
+    /// # Errors
+    /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
+    pub fn new(
+        system: System<T>,
+        rules: StopRules<T>,
+        v_stick: T,
+        t: T,
+        state: State<T>,
+    ) -> Result<Self, StartError> {
+        let start = start::prepare(&system, &rules, t, &state)?;
+        Ok(Self {
+            flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
+            series: None,
+            extremes: Extremes::at(&start.state),
+            two_cables: TwoCableSystem::of(&system, &rules, v_stick),
+            bounce_start: None,
+            system,
+            rules,
+            v_stick,
+            t,
+            state: start.state,
+            before: start.state,
+            active: start.active,
+            contacts: start.contacts,
+            impacts: 0,
+            standstill: 0,
+            slow_snaps: 0,
+            slow_cables: TautSet::SLACK,
+            begun: t,
+            last: LastImpacts {
+                cables: TautSet::SLACK,
+                v_n: T::ZERO,
+                repeats: 0,
+            },
+            stop: start.stop,
+            t_limit: None,
+        })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System<T> {
+        &self.system
+    }
+
+    /// The stop rules.
+    pub fn rules(&self) -> &StopRules<T> {
+        &self.rules
+    }
+
+    /// The time reached.
+    pub fn time(&self) -> T {
+        self.t
+    }
+
+    /// The state reached.
+    pub fn state(&self) -> &State<T> {
+        &self.state
+    }
+
+    /// The taut cables.
+    pub fn taut(&self) -> TautSet {
+        self.active.taut
+    }
+
+    /// Why the motion has stopped, if it has.
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+
+    /// Where the impacts that end the run converge (see [`crate::motion::trajectory::End::t_limit`]).
+    pub fn t_limit(&self) -> Option<T> {
+        self.t_limit
+    }
+
+    /// The highest y so far.
+    pub fn y_max(&self) -> T {
+        self.extremes.y_max
+    }
+
+    /// The largest |θ| so far.
+    pub fn theta_max(&self) -> T {
+        self.extremes.theta_max
+    }
+
+    /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
+    /// the motion has stopped.
+    pub fn step(&mut self) -> Option<Step<T>> {
+        dispatch_over::<T, _>(NextStep(self))
+    }
+
+    #[inline(always)]
+    pub(crate) fn step_here(&mut self) -> Option<Step<T>> {
+        if self.stop.is_some() {
+            return None;
+        }
+        let (t_start, start, mut active) = (self.t, self.state, self.active);
+        let (event, result) = match self.next_bounce() {
+            Some(bounce) => self.take(&bounce),
+            None => {
+                let crossing = self.next_crossing();
+                active = self.active;
+                self.advance(&crossing);
+                self.before = self.state;
+                let event = self.event(crossing.reached);
+                (event, self.apply_law(&event))
+            }
+        };
+        self.check_progress(t_start);
+        Some(Step {
+            t_start,
+            start,
+            taut: active.taut,
+            carrying: active.carrying,
+            t_end: self.t,
+            after: self.state,
+            taut_after: self.active.taut,
+            stop: self.stop,
+            before: self.before,
+            event,
+            result,
+        })
+    }
+
+    fn event(&self, reached: Reached) -> Event {
+        Event {
+            reached,
+            closed: self.closed(),
+            still: self.resting(),
+        }
+    }
+
+    /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
+    #[inline(always)]
+    fn next_crossing(&mut self) -> Crossing<T> {
+        self.begun = self.t;
+        let mut horizon = self.rules.t_end - self.t;
+        let crossing = if self.system.flies_freely(self.active.taut) {
+            self.flight.begin(
+                &self.system,
+                self.t,
+                &self.state,
+                &self.before,
+                &self.contacts,
+            );
+            first_crossing(&self.flight, self.t, horizon)
+        } else {
+            let series = self
+                .series
+                .get_or_insert_with(|| Box::new(Series::new(self.rules.rotation_limit)));
+            series.begin(
+                &self.system,
+                self.t,
+                &self.state,
+                &self.contacts,
+                self.active,
+                self.rules.upper_bound,
+            );
+            self.active = series.active();
+            horizon = horizon.min(series.step());
+            first_crossing(&**series, self.t, horizon)
+        };
+        crossing.unwrap_or(Crossing {
+            s: horizon,
+            reached: Reached::default(),
+        })
+    }
+
+    /// Moves state, time and contacts to the crossing. Positions there lie on the closed cables and
+    /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
+    #[inline(always)]
+    fn advance(&mut self, crossing: &Crossing<T>) {
+        let s = crossing.s;
+        let motion = self.motion(self.active.taut);
+        let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
+        let state = motion.state(s);
+        let mut extremes = self.extremes;
+        let bends = motion.bends(&self.system);
+        let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
+        extremes.cover(within, s, [&self.state, &state], bends);
+        let mut contacts = self.contacts;
+        for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
+            if self.active.taut.contains(cable) {
+                *contact = Contact::RESTING;
+            } else if crossing.reached.gaps.contains(cable) {
+                *contact = Contact::CLOSED;
+            } else if s > T::ZERO {
+                let carried = motion.contact(cable, s);
+                *contact = carried.carried(&self.system, cable, &state);
+            }
+        }
+        self.t = if reached_end {
+            self.rules.t_end
+        } else {
+            self.t + s
+        };
+        (self.state, self.extremes, self.contacts) = (state, extremes, contacts);
+        let closed = self.closed();
+        project_position(&self.system, &mut self.state, closed);
+        project_velocity(&self.system, &mut self.state, self.active.taut);
+    }
+
+    /// The cables whose gap is zero, known and not evaluated.
+    pub(crate) fn closed(&self) -> TautSet {
+        let known = |&cable: &usize| {
+            self.contacts[cable].gap == T::ZERO && self.contacts[cable].error == T::ZERO
+        };
+        (0..self.system.cables.len()).filter(known).collect()
+    }
+
+    /// The closed cables without normal velocity.
+    pub(crate) fn resting(&self) -> TautSet {
+        let still = |&cable: &usize| self.contacts[cable].resting;
+        self.closed().iter().filter(still).collect()
+    }
+}

@@ -1,0 +1,195 @@
+//! The steps of a motion that are bounces, made here or in a lane.
+
+use crate::arithmetic::lane::Turn;
+use crate::arithmetic::real::Real;
+use crate::model::state::State;
+use crate::model::taut_set::TautSet;
+use crate::motion::bounce::{Bounce, bounce, highest_point};
+use crate::motion::contact::Contact;
+use crate::motion::events::Reached;
+use crate::motion::extremes::Extremes;
+use crate::motion::impact::ImpactResult;
+use crate::motion::simulation::{Event, Progress, Simulation};
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+
+impl<T: Real> Simulation<T> {
+    /// The bounce that the motion makes next, if it is one. The same number that comes here by itself comes to
+    /// [`bounce`] in a lane, so it is one in both or in neither.
+    #[inline(always)]
+    pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
+        self.bounce_start = None;
+        let from = self.after_impact()?;
+        let bounce = bounce(self.two_cables.as_ref()?, &from);
+        if bounce.arrived {
+            self.bounce_start = Some(from);
+        }
+        bounce.arrived.then_some(bounce)
+    }
+
+    /// The motion as [`bounce`] takes it; none if a cable is taut or at rest.
+    #[inline(always)]
+    pub(crate) fn after_impact(&self) -> Option<AfterImpact<T>> {
+        let [first, second, ..] = &self.contacts;
+        if !self.active.taut.is_empty() || first.resting || second.resting {
+            return None;
+        }
+        Some(AfterImpact {
+            t: self.t,
+            state: self.state,
+            turn: Turn::by(self.state.theta),
+            before: [self.before.vx, self.before.vy, self.before.vtheta],
+            gaps: [[first.gap, first.error], [second.gap, second.error]],
+            y_max: self.extremes.y_max,
+            theta_max: self.extremes.theta_max,
+        })
+    }
+
+    /// What a lane needs to carry the motion on; none if it does not fly freely now.
+    pub(crate) fn lane_start(&self) -> Option<(TwoCableSystem<T>, AfterImpact<T>)> {
+        Some((self.two_cables?, self.after_impact()?))
+    }
+
+    /// The impacts so far.
+    pub(crate) fn progress(&self) -> Progress<T> {
+        Progress {
+            impacts: self.impacts,
+            last: self.last,
+        }
+    }
+
+    /// Goes on from where bounces made elsewhere have led.
+    pub(crate) fn resume(&mut self, after_impact: &AfterImpact<T>, progress: Progress<T>) {
+        if after_impact.t > self.t {
+            self.standstill = 0;
+        }
+        self.t = after_impact.t;
+        self.state = after_impact.state;
+        let [vx, vy, vtheta] = after_impact.before;
+        self.before = State {
+            vx,
+            vy,
+            vtheta,
+            ..after_impact.state
+        };
+        self.know(&after_impact.gaps);
+        self.extremes = Extremes {
+            y_max: after_impact.y_max,
+            theta_max: after_impact.theta_max,
+        };
+        if progress.impacts > self.impacts {
+            self.end_slow_row();
+        }
+        self.impacts = progress.impacts;
+        self.last = progress.last;
+    }
+
+    fn know(&mut self, gaps: &[[T; 2]; 2]) {
+        for (contact, [gap, error]) in self.contacts.iter_mut().zip(*gaps) {
+            *contact = Contact {
+                gap,
+                error,
+                resting: false,
+            };
+        }
+    }
+
+    /// Makes a bounce: moves to its end, and applies the law there if that is not done yet.
+    #[inline(always)]
+    pub(super) fn take(&mut self, bounce: &Bounce<T>) -> (Event, Option<ImpactResult<T>>) {
+        let next = &bounce.next;
+        self.cover(bounce);
+        self.t = next.t;
+        self.before = bounce.before;
+        let struck = usize::from(bounce.second);
+        self.know(&next.gaps);
+        let closed = TautSet::only(struck);
+        let reached = Reached {
+            gaps: closed,
+            ..Reached::default()
+        };
+        let event = Event {
+            reached,
+            closed,
+            still: TautSet::SLACK,
+        };
+        if !bounce.plain {
+            self.state = bounce.before;
+            return (event, Some(self.snap(&event)));
+        }
+        self.state = next.state;
+        self.end_slow_row();
+        let e = self.system.restitution;
+        let result = ImpactResult::of_one(
+            struck,
+            [bounce.v_n, -e * bounce.v_n],
+            bounce.impulse,
+            next.state,
+        );
+        self.count(&result, closed);
+        self.check_rules(TautSet::SLACK);
+        (event, Some(result))
+    }
+
+    /// Takes the flight of a bounce into the extremes.
+    fn cover(&mut self, bounce: &Bounce<T>) {
+        let next = &bounce.next;
+        if let (false, Some(two_cables), Some(from)) =
+            (bounce.topped, &self.two_cables, &self.bounce_start)
+        {
+            let record = self.extremes.y_max;
+            self.extremes.y_max = highest_point(two_cables, from, bounce.s, record);
+        }
+        self.extremes.y_max = self.extremes.y_max.max(next.y_max);
+        self.extremes.theta_max = self.extremes.theta_max.max(next.theta_max);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::case::parameters::Parameters;
+
+    /// The general loop, which knows no bounces, finds the same impacts. It locates them by other steps,
+    /// so they differ by roundings, which are compared until they have grown.
+    #[test]
+    fn bounces_are_what_the_general_search_finds() {
+        let mut compared = 0;
+        for k in 0..400 {
+            let k = f64::from(k);
+            let parameters = Parameters {
+                f_o: 0.001 * k,
+                e: 1.0 - 0.3 * (k * 0.1).sin().abs(),
+                a: 0.3 * (k * 0.7).cos().abs(),
+                b: 0.2 * (k * 0.3).sin().max(0.0),
+                inertia: Some(0.01 + 0.02 * (k * 0.9).sin().abs()),
+                omega: 0.01 * k,
+                vx: 0.3 * k.sin(),
+                vtheta: 0.5 * k.cos(),
+                y: 0.4,
+                ..Parameters::STANDARD
+            };
+            let Ok(case) = Case::new(parameters) else {
+                continue;
+            };
+            let mut bounces = case.simulation();
+            let mut general = case.simulation();
+            general.two_cables = None;
+            let mut error = 1e-15;
+            while let (Some(ours), Some(theirs)) = (bounces.step(), general.step()) {
+                let (ours, theirs) = (ours.impacts().next(), theirs.impacts().next());
+                let (Some(ours), Some(theirs)) = (ours, theirs) else {
+                    break;
+                };
+                error *= 1.0 + 4.0 * (1.0 + ours.before.vtheta.abs()) / ours.v_n.min(1.0);
+                if error > 1e-6 {
+                    break;
+                }
+                assert_eq!(ours.cable, theirs.cable, "{parameters:?} at t = {}", ours.t);
+                assert!((ours.t - theirs.t).abs() < error, "{parameters:?}");
+                assert!((ours.v_n - theirs.v_n).abs() < error, "{parameters:?}");
+                compared += 1;
+            }
+        }
+        assert!(compared > 1000, "{compared}");
+    }
+}

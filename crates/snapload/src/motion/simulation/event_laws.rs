@@ -1,0 +1,227 @@
+//! What happens at the end of a step: the law that is applied, the next taut set, and the rules that stop a run.
+
+use crate::arithmetic::lane::length;
+use crate::arithmetic::real::Real;
+use crate::model::state::State;
+use crate::model::taut_set::TautSet;
+use crate::motion::active_set::{ActiveSet, normal_acceleration, project_velocity, taut_next};
+use crate::motion::bounce::UNMOVED;
+use crate::motion::contact::Contact;
+use crate::motion::impact::{ImpactResult, impact};
+use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
+use crate::motion::trajectory::Stop;
+
+/// A tension below this is one that pushes, far beyond what counts as the same \[F\].
+const PUSHES: f64 = -1e-7;
+/// So many halvings of a step from its middle to the first instant that is looked at after a tension was lost.
+const LATER: i32 = 28;
+
+impl<T: Real> Simulation<T> {
+    /// Applies the law of what was reached.
+    #[inline(always)]
+    pub(super) fn apply_law(&mut self, event: &Event) -> Option<ImpactResult<T>> {
+        let reached = event.reached;
+        if reached.rotation {
+            self.stop = Some(Stop::RotationLimit);
+        } else if reached.top {
+            self.stop = Some(Stop::UpperBound);
+        } else if !reached.gaps.is_empty() {
+            return Some(self.snap(event));
+        } else if !reached.tensions.is_empty() {
+            self.release(reached.tensions);
+        } else if self.t >= self.rules.t_end {
+            self.stop = Some(Stop::EndTime);
+        }
+        None
+    }
+
+    /// Cables snap taut: impact, then sticking, then the choice of the taut set.
+    #[inline(always)]
+    pub(super) fn snap(&mut self, event: &Event) -> ImpactResult<T> {
+        let Event { closed, still, .. } = *event;
+        let struck = event.reached.gaps;
+        let result = impact(&self.system, &self.state, closed, still);
+        self.state = result.after;
+        let hit: TautSet = struck.intersection(result.pulling);
+        self.count(&result, hit);
+
+        let slow: TautSet = struck
+            .iter()
+            .filter(|&cable| result.v_before[cable] < self.v_stick)
+            .collect();
+        let at_rest: TautSet = closed
+            .iter()
+            .filter(|&cable| self.unmoved(&result, cable, struck))
+            .collect();
+        if slow == struck {
+            self.slow_snaps += 1;
+            self.slow_cables = self.slow_cables.union(struck);
+        } else {
+            self.end_slow_row();
+        }
+        let caught = self.caught(&result, closed);
+        let candidates = slow.union(at_rest).union(caught);
+        let mut halted = result.after;
+        project_velocity(&self.system, &mut halted, candidates);
+        self.active = taut_next(&self.system, self.t, &halted, candidates);
+        let at_rest = if caught.is_empty() {
+            project_velocity(&self.system, &mut self.state, self.active.taut);
+            at_rest
+        } else {
+            self.state = halted;
+            candidates
+        };
+
+        for cable in closed.iter() {
+            let resting = self.active.taut.contains(cable) || at_rest.contains(cable);
+            self.contacts[cable] = if resting {
+                Contact::RESTING
+            } else {
+                Contact::CLOSED
+            };
+        }
+        self.check_rules(struck.intersection(self.active.taut));
+        result
+    }
+
+    /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
+    /// ones that leave by less: those snaps accumulate, and all of them come to rest at once.
+    #[inline(always)]
+    fn caught(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
+        if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
+            return TautSet::SLACK;
+        }
+        let slow = |&cable: &usize| result.v_after[cable].abs() < self.v_stick;
+        closed.iter().filter(slow).collect()
+    }
+
+    /// Another event has come between slow snaps.
+    pub(super) fn end_slow_row(&mut self) {
+        self.slow_snaps = 0;
+        self.slow_cables = TautSet::SLACK;
+    }
+
+    /// Whether a closed cable has no normal velocity after the result. A struck one was closing; if its
+    /// normal velocity is not positive all the same, it is zero but for rounding.
+    #[inline(always)]
+    fn unmoved(&self, result: &ImpactResult<T>, cable: usize, struck: TautSet) -> bool {
+        if struck.contains(cable) && result.v_before[cable] <= T::ZERO {
+            return true;
+        }
+        let reach = length(self.system.cables[cable].fairlead());
+        let speed = |s: &State<T>| length([s.vx, s.vy]) + s.vtheta.abs() * reach;
+        let rounding = speed(&self.state).max(speed(&self.before)) * T::EPSILON;
+        result.v_after[cable].abs() <= rounding * UNMOVED
+    }
+
+    /// Takes in an instant of impact.
+    pub(super) fn count(&mut self, result: &ImpactResult<T>, hit: TautSet) {
+        self.impacts += hit.len() as u64;
+        if hit.is_empty() {
+            return;
+        }
+        let repeats = if hit == self.last.cables {
+            self.last.repeats + 1
+        } else {
+            1
+        };
+        self.last = LastImpacts {
+            cables: hit,
+            v_n: hit
+                .iter()
+                .fold(T::ZERO, |v, cable| v.max(result.v_before[cable])),
+            repeats,
+        };
+    }
+
+    /// Time need not move on from one bounce to the next where they accumulate; steps of no length count
+    /// like impacts, so that every run has an end.
+    pub(super) fn check_progress(&mut self, t_start: T) {
+        self.standstill = if self.t > t_start {
+            0
+        } else {
+            self.standstill + 1
+        };
+        if self.stop.is_none() && self.standstill > self.rules.max_impacts {
+            self.stop = Some(Stop::ImpactLimit);
+        }
+    }
+
+    /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
+    ///
+    /// Where others hold closed as well, a carrying cable without tension may hand its load over to one of them. Which,
+    /// the instant itself does not say, so it is decided a little later on the same motion, when the tension would be
+    /// negative: there the problem on accelerations tells who goes on carrying, and who leaves.
+    fn release(&mut self, released: TautSet) {
+        self.end_slow_row();
+        let ActiveSet { taut, carrying } = self.active;
+        self.active = if let (Some(series), true) = (&self.series, taut != carrying) {
+            let since = self.t - self.begun;
+            let clear = |&later: &T| {
+                let tension = |cable| series.tension(cable, since + later);
+                released
+                    .iter()
+                    .any(|cable| tension(cable) < T::from_decimal(PUSHES))
+            };
+            let steps = (0..LATER).map(|k| series.step() * 0.5_f64.powi(LATER - k));
+            let last = series.step() * 0.5;
+            let later = steps.into_iter().find(clear).unwrap_or(last);
+            let state = series.state(since + later);
+            taut_next(&self.system, self.t + later, &state, taut)
+        } else {
+            let kept = released.iter().fold(taut, TautSet::without);
+            taut_next(&self.system, self.t, &self.state, kept)
+        };
+        self.check_rules(TautSet::SLACK);
+    }
+
+    /// The rules that are looked at at events; `stuck` are the cables that just stuck.
+    #[inline(always)]
+    pub(super) fn check_rules(&mut self, stuck: TautSet) {
+        let y = self.state.y;
+        let low = self.rules.settled_below.is_some_and(|height| y < height);
+        let high = self.rules.sliding_above.is_some_and(|height| y >= height);
+        if low && (!stuck.is_empty() || self.active.taut.len() >= 2) {
+            self.stop = Some(Stop::Settled);
+        } else if high && !stuck.is_empty() {
+            self.stop = Some(Stop::SlidingStart);
+        } else if self.impacts > self.rules.max_impacts {
+            self.stop = Some(Stop::ImpactLimit);
+        }
+        if matches!(self.stop, Some(Stop::Settled | Stop::SlidingStart)) {
+            self.t_limit = self.limit_of_impacts(stuck);
+        }
+    }
+
+    /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began with
+    /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
+    #[inline(always)]
+    fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
+        let e = self.system.restitution;
+        let LastImpacts {
+            cables,
+            v_n,
+            repeats,
+        } = self.last;
+        let converging = repeats >= CONVERGING
+            && e < T::ONE
+            && !stuck.is_empty()
+            && (cables.len() == 1 || cables == self.system.all_cables());
+        if !converging {
+            return None;
+        }
+        let mut others = self.active.taut;
+        for cable in cables.iter() {
+            others = others.without(cable);
+        }
+        let mut limit = None;
+        for cable in cables.iter() {
+            let alpha = normal_acceleration(&self.system, self.t, &self.state, cable, others);
+            if alpha > T::ZERO {
+                let at = self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha);
+                limit = Some(limit.map_or(at, |limit: T| limit.max(at)));
+            }
+        }
+        limit
+    }
+}

@@ -1,0 +1,258 @@
+//! What the latest step of a motion was like within.
+
+use crate::arithmetic::lane::length;
+use crate::arithmetic::processor::{Kernel, dispatch_over};
+use crate::arithmetic::real::Real;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::active_set::tensions;
+use crate::motion::contact::Contact;
+use crate::motion::extremes::rises_above_zero;
+use crate::motion::flight::Flight;
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::taut_series::Series;
+use std::borrow::Cow;
+
+/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
+const LOOKS: usize = 64;
+
+/// The motion along a stretch.
+pub(super) enum Stretch<'a, T: Real> {
+    /// In closed form.
+    Closed(Cow<'a, Flight<T>>),
+    /// By a series, as cables are taut or the water resists.
+    Expanded(&'a Series<T>),
+}
+
+/// A gap to be looked at, by the best instructions for it.
+struct GapAndRate<'a, T: Real>(&'a Stretch<'a, T>, usize, T);
+
+impl<T: Real> Kernel for GapAndRate<'_, T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        self.0.gap_and_rate(self.1, self.2)
+    }
+}
+
+/// A state to be looked at, likewise.
+pub(super) struct StateAt<'a, T: Real>(pub(super) &'a Stretch<'a, T>, pub(super) T);
+
+impl<T: Real> Kernel for StateAt<'_, T> {
+    type Output = State<T>;
+    #[inline(always)]
+    fn run(self) -> State<T> {
+        self.0.state(self.1)
+    }
+}
+
+impl<T: Real> Stretch<'_, T> {
+    /// The state a time `s` into it.
+    #[inline(always)]
+    pub(super) fn state(&self, s: T) -> State<T> {
+        match self {
+            Self::Closed(flight) => flight.state(s),
+            Self::Expanded(series) => series.state(s),
+        }
+    }
+
+    /// What is known of the gap of a slack cable then.
+    #[inline(always)]
+    pub(super) fn contact(&self, cable: usize, s: T) -> Contact<T> {
+        match self {
+            Self::Closed(flight) => flight.contact(cable, s),
+            Self::Expanded(series) => series.contact(cable, s),
+        }
+    }
+
+    /// g and ġ of a slack cable then.
+    #[inline(always)]
+    fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+        match self {
+            Self::Closed(flight) => flight.gap_and_rate(cable, s),
+            Self::Expanded(series) => series.gap_and_rate(cable, s),
+        }
+    }
+
+    /// Bounds on ÿ, |ÿ| and |θ̈| along it.
+    #[inline(always)]
+    pub(super) fn bends(&self, system: &System<T>) -> [T; 3] {
+        let forcing = &system.forcing;
+        match self {
+            Self::Closed(_) => [
+                forcing.upward_acceleration_bound(),
+                forcing.vertical_acceleration_bound(),
+                T::ZERO,
+            ],
+            Self::Expanded(series) => {
+                let [y, theta] = series.acceleration_bounds();
+                [y, y, theta]
+            }
+        }
+    }
+}
+
+impl<T: Real> Simulation<T> {
+    /// The state a time `s` into the stretch that the latest step made.
+    pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
+        self.motion(step.taut).state(s)
+    }
+
+    /// The motion of the latest stretch.
+    #[inline(always)]
+    pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
+        match self.expanded(taut) {
+            Some(series) => Stretch::Expanded(series),
+            None => Stretch::Closed(self.flown()),
+        }
+    }
+
+    /// The series of the latest stretch, which there is if that was no free flight.
+    #[inline(always)]
+    fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
+        let series = self.series.as_deref();
+        series.filter(|_| !self.system.flies_freely(taut))
+    }
+
+    /// The flight of the latest step.
+    #[inline(always)]
+    fn flown(&self) -> Cow<'_, Flight<T>> {
+        let Some(from) = &self.bounce_start else {
+            return Cow::Borrowed(&self.flight);
+        };
+        let mut flight = self.flight.clone();
+        let [vx, vy, vtheta] = from.before;
+        let before = State {
+            vx,
+            vy,
+            vtheta,
+            ..from.state
+        };
+        let mut contacts = self.contacts;
+        for (contact, [gap, error]) in contacts.iter_mut().zip(from.gaps) {
+            *contact = Contact {
+                gap,
+                error,
+                resting: false,
+            };
+        }
+        flight.begin(&self.system, from.t, &from.state, &before, &contacts);
+        Cow::Owned(flight)
+    }
+
+    /// The gap of a cable at the time reached.
+    pub(crate) fn gap(&self, cable: usize) -> T {
+        self.contacts[cable].gap
+    }
+
+    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
+    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
+    /// grows from nothing.
+    #[inline(always)]
+    pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
+        let s = step.t_end - step.t_start;
+        if s <= T::ZERO {
+            return false;
+        }
+        let series = self.expanded(step.taut);
+        let (bend, first) = match (series, &self.bounce_start) {
+            (Some(series), _) => (
+                series.gap_bend(cable),
+                series.gap_and_rate(cable, T::ZERO).0,
+            ),
+            (None, Some(from)) => (self.gap_bend(step, cable), from.gaps[cable][0]),
+            (None, None) => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+        };
+        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
+            return false;
+        }
+        let (offset, slope) = if first < T::ZERO {
+            (margin, T::ZERO)
+        } else {
+            (T::ZERO, margin / s)
+        };
+        let motion = self.motion(step.taut);
+        let nearness = |s: T| {
+            let (gap, rate) = dispatch_over::<T, _>(GapAndRate(&motion, cable, s));
+            (gap + offset + slope * s, rate + slope)
+        };
+        rises_above_zero(&nearness, s, bend)
+    }
+
+    /// Bound on |g̈| = 2 |Ṗ² + d·P̈| along a flight.
+    #[inline(always)]
+    fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
+        let tether = &self.system.cables[cable];
+        let (start, reach) = (&step.start, length(tether.fairlead()));
+        let spin = start.vtheta.abs();
+        let accel = self.system.forcing.bounds()[0] + spin * spin * reach;
+        let s = step.t_end - step.t_start;
+        let speed = length([start.vx, start.vy]) + spin * reach + accel * s;
+        (speed * speed + tether.length() * accel) * 2.0
+    }
+
+    /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
+    #[inline(always)]
+    pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
+        let s = step.t_end - step.t_start;
+        let [y_bend, theta_bend] = match self.expanded(step.taut) {
+            Some(series) => series.acceleration_bounds(),
+            None => [self.system.forcing.vertical_acceleration_bound(), T::ZERO],
+        };
+        let reach = self.system.body.reach();
+        let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
+        if rough < floor {
+            return rough;
+        }
+        let width = s / LOOKS as f64;
+        let spin = step.start.vtheta.abs() + theta_bend * s;
+        let bend = y_bend + (spin * spin + theta_bend) * reach;
+        let motion = self.motion(step.taut);
+        (0..=LOOKS)
+            .map(|k| self.system.top(&motion.state(width * k as f64)))
+            .fold(step.start.y, T::max)
+            + bend * width * width * 0.125
+    }
+
+    /// The largest tension of each cable along the latest step, as it is at seventeen instants evenly spaced \[F\].
+    pub fn largest_tensions(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+        let s = step.t_end - step.t_start;
+        let mut largest = [T::ZERO; MAX_CABLES];
+        if step.taut.is_empty() {
+            return largest;
+        }
+        for k in 0..=16 {
+            let now = self.tensions_within(step, s * (f64::from(k) / 16.0));
+            for cable in step.taut.iter() {
+                largest[cable] = largest[cable].max(now[cable]);
+            }
+        }
+        largest
+    }
+
+    /// The tension of each cable at the end of the latest step, before the event there \[F\].
+    pub fn tensions_at_end(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+        self.tensions_within(step, step.t_end - step.t_start)
+    }
+
+    fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
+        let mut now = [T::ZERO; MAX_CABLES];
+        let Some(series) = self.expanded(step.taut) else {
+            return now;
+        };
+        if step.taut != step.carrying {
+            let t = step.t_start + s;
+            return tensions(&self.system, t, &series.state(s), step.taut);
+        }
+        for cable in step.taut.iter() {
+            now[cable] = series.tension(cable, s);
+        }
+        now
+    }
+
+    /// How far the latest expansion of taut motion may be used.
+    pub(crate) fn expansion(&self) -> T {
+        self.series.as_ref().map_or(T::ZERO, |series| series.step())
+    }
+}

@@ -1,0 +1,158 @@
+//! Where a motion may begin.
+
+use crate::arithmetic::real::Real;
+use crate::model::cable::Cable;
+use crate::model::rules::StopRules;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::active_set::{ActiveSet, project_position, project_velocity, taut_next};
+use crate::motion::contact::{Contact, Contacts};
+use crate::motion::trajectory::Stop;
+
+/// A start's gap counts as closed within this of zero, and its normal velocity as zero
+/// (docs/model.md section 5).
+pub const START_TOLERANCE: f64 = 1e-9;
+
+/// Why a start is not legal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StartError {
+    /// A cable would have to be longer than it is: its gap g = |P − A|² − r² is positive.
+    CableTooShort {
+        /// The cable, by index from 0.
+        cable: usize,
+        /// The gap \[L²\].
+        gap: f64,
+    },
+    /// |θ| is beyond the rotation limit.
+    BeyondRotationLimit,
+    /// The highest point of the body is above the upper bound.
+    AboveUpperBound {
+        /// Its y \[L\].
+        top: f64,
+        /// The bound \[L\].
+        level: f64,
+    },
+    /// A number of the start, or of what decides the run, is not finite.
+    NotFinite,
+    /// The coefficient of restitution is not between 0 and 1.
+    Restitution,
+    /// The system has more cables than [`MAX_CABLES`].
+    TooManyCables,
+}
+
+/// A legal start.
+pub(crate) struct Start<T> {
+    pub(crate) state: State<T>,
+    pub(crate) active: ActiveSet,
+    pub(crate) contacts: Contacts<T>,
+    pub(crate) stop: Option<Stop>,
+}
+
+/// Checks a start and projects it onto the cables that count as closed: in position, and in velocity
+/// where that counts as zero. The problem on accelerations decides which of those at rest are taut.
+pub(crate) fn prepare<T: Real>(
+    system: &System<T>,
+    rules: &StopRules<T>,
+    t: T,
+    state: &State<T>,
+) -> Result<Start<T>, StartError> {
+    if system.cables.len() > MAX_CABLES {
+        return Err(StartError::TooManyCables);
+    }
+    let numbers = [
+        t,
+        rules.t_end,
+        system.restitution,
+        state.x,
+        state.y,
+        state.theta,
+        state.vx,
+        state.vy,
+        state.vtheta,
+    ];
+    let lengths = system.cables.iter().map(Cable::length);
+    if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
+        return Err(StartError::NotFinite);
+    }
+    if system.restitution < T::ZERO || system.restitution > T::ONE {
+        return Err(StartError::Restitution);
+    }
+    let stop = stop_at_start(system, rules, t, state)?;
+    let tolerance = T::from_decimal(START_TOLERANCE);
+    let mut closed = TautSet::SLACK;
+    for (cable, tether) in system.cables.iter().enumerate() {
+        let gap = tether.gap(state);
+        if gap > tolerance {
+            return Err(StartError::CableTooShort {
+                cable,
+                gap: gap.to_f64(),
+            });
+        }
+        if gap >= -tolerance {
+            closed = closed.with(cable);
+        }
+    }
+    let mut state = *state;
+    project_position(system, &mut state, closed);
+    let velocity =
+        |state: &State<T>, cable: usize| system.cables[cable].normal(state).velocity(state);
+    let resting: TautSet = closed
+        .iter()
+        .filter(|&cable| velocity(&state, cable).abs() <= tolerance)
+        .collect();
+    project_velocity(system, &mut state, resting);
+
+    let mut contacts = [Contact::RESTING; MAX_CABLES];
+    for cable in system.all_cables().iter() {
+        contacts[cable] = if resting.contains(cable) {
+            Contact::RESTING
+        } else if closed.contains(cable) {
+            Contact::CLOSED
+        } else {
+            Contact::evaluated(system, cable, &state)
+        };
+    }
+    let active = taut_next(system, t, &state, resting);
+    let snaps = closed
+        .iter()
+        .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);
+    let low = rules.settled_below.is_some_and(|height| state.y < height);
+    let settled = (low && active.taut.len() >= 2 && !snaps).then_some(Stop::Settled);
+    Ok(Start {
+        state,
+        active,
+        contacts,
+        stop: stop.or(settled),
+    })
+}
+
+/// A start on a limit stops at once; one beyond it is an error.
+fn stop_at_start<T: Real>(
+    system: &System<T>,
+    rules: &StopRules<T>,
+    t: T,
+    state: &State<T>,
+) -> Result<Option<Stop>, StartError> {
+    if let Some(limit) = rules.rotation_limit {
+        if state.theta.abs() > limit {
+            return Err(StartError::BeyondRotationLimit);
+        }
+        if state.theta.abs() == limit {
+            return Ok(Some(Stop::RotationLimit));
+        }
+    }
+    if let Some(level) = rules.upper_bound {
+        let top = system.top(state);
+        if top > level {
+            return Err(StartError::AboveUpperBound {
+                top: top.to_f64(),
+                level: level.to_f64(),
+            });
+        }
+        if top == level {
+            return Ok(Some(Stop::UpperBound));
+        }
+    }
+    Ok((rules.t_end <= t).then_some(Stop::EndTime))
+}

@@ -1,0 +1,497 @@
+//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its Taylor series.
+//!
+//! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
+//!
+//! ```text
+//! (ẍ, ÿ) = f(t) − Σ T_i n_i,   θ̈ = −Σ T_i s_i / I,   g̈_i = 0 for the taut cables i
+//! ```
+//!
+//! All of it is polynomial in x, y, θ, sin θ, cos θ and the tensions, so the coefficients of their Taylor
+//! series follow one after the other. With the motion known to order k + 1 and the tensions to k − 1,
+//!
+//! ```text
+//! (k+1)(k+2) (x, y)_{k+2} = f_k − Σ q_{i,k},   (k+1)(k+2) θ_{k+2} = −Σ (ρ_i × q_i)_k / I,   q_i = T_i n_i
+//! ```
+//!
+//! are linear in the T_{i,k}, and so is the coefficient of order k + 2 of |P_i − A_i|² = r_i², the constraint:
+//!
+//! ```text
+//! Σ_j W_ij T_{j,k} = n_i·a + s_i α + (k+1)(k+2) b_i,   W_ij = n_i·n_j + s_i s_j / I
+//! ```
+//!
+//! with W, n and s at the start, a and α the accelerations but for T_k, and b_i what bends the path whatever the
+//! accelerations are: n_i·ρ_i of the orders of θ below k + 2, and Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0
+//! this is the centripetal term, b_i = |Ṗ_i|²/2r_i − θ̇² n_i·ρ_i/2. One text serves every taut set, parallel
+//! cables and b ≠ 0 among them; the gaps of the slack cables and the tensions come out as
+//! polynomials on the step, in which [`crate::motion::events`] finds events with the guarantee it has in flight.
+//!
+//! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
+//! their step control raises to powers with the platform's libm, and they allocate their output as
+//! they go), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff systems).
+//! None gives dense output near rounding, which the guarantee needs. A Taylor method of fixed order is
+//! some hundred lines of plain arithmetic, gives the same bits everywhere, and does not allocate.
+//! Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
+
+use crate::arithmetic::lane::dot;
+use crate::arithmetic::polynomial::{ORDER, Polynomial};
+use crate::arithmetic::real::Real;
+use crate::arithmetic::vector_series::VectorSeries;
+use crate::model::drag::DragSeries;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::MAX_CABLES;
+use crate::motion::active_set::ActiveSet;
+use crate::motion::cable_series::CableSeries;
+use crate::motion::complementarity::{Factored, PerCable};
+use crate::motion::contact::{Contact, Contacts};
+use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+
+/// A motion by less than this along a step counts as rest: its terms need not converge among
+/// themselves, only stay below rounding of this \[L\], \[rad\].
+const STILL: f64 = 1e-12;
+
+/// A tension below this along a whole step is none \[F\].
+const NOTHING: f64 = 1e-7;
+/// A taut cable that carries nothing may be off its length by so many times what a resting one may.
+const HELD: f64 = 64.0;
+
+/// The gap of a cable, and its tension where it carries.
+#[derive(Clone, Copy, Debug, Default)]
+struct Line<T: Real> {
+    gap: Polynomial<T>,
+    tension: Polynomial<T>,
+}
+
+/// The Taylor expansion of a motion with a fixed set of taut cables.
+#[derive(Clone, Debug)]
+pub(crate) struct Series<T: Real> {
+    active: ActiveSet,
+    x: Polynomial<T>,
+    y: Polynomial<T>,
+    theta: Polynomial<T>,
+    /// cos θ and sin θ.
+    circle: VectorSeries<T, 2>,
+    /// k θ_k, twice.
+    spin: VectorSeries<T, 2>,
+    /// The forces, drag included.
+    force: [Polynomial<T>; 2],
+    /// θ̈ by drag.
+    turning: Polynomial<T>,
+    drag: DragSeries<T>,
+    pairs: CableSeries<T>,
+    lines: Vec<Line<T>>,
+    contacts: Contacts<T>,
+    /// A gap below this counts as zero while its cable rests.
+    touch: PerCable<T>,
+    tops: [Polynomial<T>; 4],
+    tops_count: usize,
+    rotation_limit: Option<T>,
+    step: T,
+    /// What may be reached within the step: event functions, as far as they are not the gaps of `lines`.
+    watched: Vec<(EventFunction, Polynomial<T>, usize)>,
+}
+
+impl<T: Real> Series<T> {
+    /// An expansion not yet made. Room for the cables comes with the first that is, as most runs make none.
+    pub(crate) fn new(rotation_limit: Option<T>) -> Self {
+        Self {
+            active: ActiveSet::default(),
+            x: Polynomial::default(),
+            y: Polynomial::default(),
+            theta: Polynomial::default(),
+            circle: VectorSeries::default(),
+            spin: VectorSeries::default(),
+            force: [Polynomial::default(); 2],
+            turning: Polynomial::default(),
+            drag: DragSeries::default(),
+            pairs: CableSeries::default(),
+            lines: Vec::new(),
+            contacts: [Contact::CLOSED; MAX_CABLES],
+            touch: [T::ZERO; MAX_CABLES],
+            tops: [Polynomial::default(); 4],
+            tops_count: 0,
+            rotation_limit,
+            step: T::ZERO,
+            watched: Vec::new(),
+        }
+    }
+
+    /// Expands the motion about time `t`, and chooses how far the expansion is used.
+    #[inline(always)]
+    pub(crate) fn begin(
+        &mut self,
+        system: &System<T>,
+        t: T,
+        start: &State<T>,
+        contacts: &Contacts<T>,
+        active: ActiveSet,
+        upper_bound: Option<T>,
+    ) {
+        self.active = active;
+        self.contacts = *contacts;
+        self.lines.resize(system.cables.len(), Line::default());
+        for (cable, tether) in system.cables.iter().enumerate() {
+            self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
+        }
+        self.expand_force(system, t);
+        (self.x[0], self.x[1]) = (start.x, start.vx);
+        (self.y[0], self.y[1]) = (start.y, start.vy);
+        self.circle = VectorSeries::default();
+        self.spin = VectorSeries::default();
+        self.turn(0, start.theta);
+        self.turn(1, start.vtheta);
+        let (sine, cosine) = start.theta.sin_cos();
+        self.circle[0] = [cosine, sine];
+        let (sine, cosine) = self.rotation(1);
+        self.circle[1] = [cosine, sine];
+        self.pairs.begin(system);
+        for k in 0..2 {
+            self.extend_pairs(k);
+        }
+        for (cable, tether) in system.cables.iter().enumerate() {
+            self.pairs.set_span(cable, tether.span(start));
+        }
+        self.extend_motions(system);
+        self.know_gaps();
+        self.expand_tops(system, upper_bound);
+        self.step = self.choose_step(system);
+        self.active.taut = active
+            .taut
+            .iter()
+            .filter(|&cable| self.holds(cable))
+            .collect();
+        self.choose_watched();
+    }
+
+    /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
+    #[inline(always)]
+    fn holds(&self, cable: usize) -> bool {
+        let gap = &self.lines[cable].gap;
+        self.active.carrying.contains(cable)
+            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * HELD
+    }
+
+    /// Leaves out what provably is not reached within the step.
+    #[inline(always)]
+    fn choose_watched(&mut self) {
+        let step = self.step;
+        self.watched.clear();
+        let ActiveSet { taut, carrying } = self.active;
+        let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
+        for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
+            let line = &self.lines[cable];
+            let (watch, function, order) = if carrying.contains(cable) {
+                (
+                    EventFunction::Tension(cable),
+                    line.tension.negated(),
+                    ORDER - 2,
+                )
+            } else {
+                (EventFunction::Gap(cable), line.gap, ORDER)
+            };
+            // A cable that carries nothing among others that could is no event.
+            let nothing = taut != carrying
+                && carrying.contains(cable)
+                && function.derivative_bound(0, step, order) <= T::from_decimal(NOTHING);
+            if !nothing && !function.stays_negative(step, order) {
+                self.watched.push((watch, function, order));
+            }
+        }
+        for mut theta in [self.theta, self.theta.negated()] {
+            let Some(limit) = self.rotation_limit else {
+                break;
+            };
+            theta[0] -= limit;
+            if !theta.stays_negative(step, ORDER) {
+                self.watched.push((EventFunction::Rotation, theta, ORDER));
+            }
+        }
+        for top in &self.tops[..self.tops_count] {
+            if !top.stays_negative(step, ORDER) {
+                self.watched.push((EventFunction::Top, *top, ORDER));
+            }
+        }
+    }
+
+    /// f(t0 + s) as a power series.
+    #[inline(always)]
+    fn expand_force(&mut self, system: &System<T>, t: T) {
+        self.force = [Polynomial::default(); 2];
+        for i in 0..2 {
+            self.force[i][0] = system.forcing.constant[i];
+        }
+        for harmonic in &system.forcing.harmonics {
+            harmonic.expand(t, &mut self.force);
+        }
+        if let Some(drag) = &system.drag {
+            self.drag.begin(drag, t);
+        }
+    }
+
+    /// Adds the k-th coefficients of the drag, which those of the velocities give.
+    #[inline(always)]
+    fn extend_drag(&mut self, system: &System<T>, k: usize) {
+        let Some(drag) = &system.drag else { return };
+        let velocity = [&self.x, &self.y].map(|p| p[k + 1] * (k + 1) as f64);
+        let found = self.drag.extend(drag, velocity, k);
+        for (force, drag) in self.force.iter_mut().zip(found) {
+            force[k] += drag;
+        }
+        self.turning[k] = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
+    }
+
+    /// Gives the k-th coefficient of θ.
+    #[inline(always)]
+    fn turn(&mut self, k: usize, theta: T) {
+        self.theta[k] = theta;
+        self.spin[k] = [theta * k as f64; 2];
+    }
+
+    /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
+    #[inline(always)]
+    fn rotation(&self, k: usize) -> (T, T) {
+        let [sine, cosine] = self.spin.convolve(&self.circle, k);
+        let share = T::ONE / k as f64;
+        (sine * share, -(cosine * share))
+    }
+
+    /// ρ and d of every cable to order k; d but for its constant.
+    #[inline(always)]
+    fn extend_pairs(&mut self, k: usize) {
+        let [cosine, sine] = self.circle[k];
+        self.pairs.extend(k, [self.x[k], self.y[k]], sine, cosine);
+    }
+
+    /// All coefficients, order by order.
+    #[inline(always)]
+    fn extend_motions(&mut self, system: &System<T>) {
+        let inverse_inertia = system.body.inverse_inertia();
+        let normals = self.pairs.set_carrying(self.active.carrying);
+        let coupling = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let ready = Factored::new(self.active.carrying, coupling);
+        self.keep_gaps(1);
+        for k in 0..ORDER - 1 {
+            self.extend_drag(system, k);
+            self.extend_motion(k, inverse_inertia, &ready);
+            self.extend_pairs(k + 2);
+            self.keep_gaps(k + 2);
+            self.keep_tensions(k);
+        }
+    }
+
+    /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
+    #[inline(always)]
+    fn extend_motion(
+        &mut self,
+        k: usize,
+        inverse_inertia: T,
+        ready: &Factored<T, impl Fn(usize, usize) -> T>,
+    ) {
+        // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
+        self.turn(k + 2, T::ZERO);
+        let (sine, cosine) = self.rotation(k + 2);
+        let share = T::ONE / ((k + 1) * (k + 2)) as f64;
+
+        let [x, y, moment] = self.pairs.known_pulls(k);
+        let known = [
+            self.force[0][k] - x,
+            self.force[1][k] - y,
+            self.turning[k] - moment * inverse_inertia,
+        ];
+        let [x, y, moment] = self.pairs.find_tensions(k, known, [sine, cosine], ready);
+        self.x[k + 2] = (known[0] - x) * share;
+        self.y[k + 2] = (known[1] - y) * share;
+        let theta = (known[2] - moment * inverse_inertia) * share;
+        self.turn(k + 2, theta);
+        let [cosine_0, sine_0] = self.circle[0];
+        self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
+    }
+
+    /// The gap of every cable to order k, once d is known to that; where all carry, there is none.
+    #[inline(always)]
+    fn keep_gaps(&mut self, k: usize) {
+        if self.active.carrying.len() == self.lines.len() {
+            return;
+        }
+        for (pair, lines) in self.lines.chunks_mut(2).enumerate() {
+            for (line, gap) in lines.iter_mut().zip(self.pairs.gaps(pair, k)) {
+                line.gap[k] = gap;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn keep_tensions(&mut self, k: usize) {
+        for (pair, lines) in self.lines.chunks_mut(2).enumerate() {
+            for (line, tension) in lines.iter_mut().zip(self.pairs.tensions(pair, k)) {
+                line.tension[k] = tension;
+            }
+        }
+    }
+
+    /// The first coefficients of the gaps, as they are known.
+    #[inline(always)]
+    fn know_gaps(&mut self) {
+        for (line, contact) in self.lines.iter_mut().zip(&self.contacts) {
+            line.gap[0] = contact.gap;
+            if contact.resting {
+                line.gap[1] = T::ZERO;
+            }
+        }
+    }
+
+    /// Height over the upper bound of each point of the outline.
+    #[inline(always)]
+    fn expand_tops(&mut self, system: &System<T>, upper_bound: Option<T>) {
+        self.tops_count = 0;
+        let Some(level) = upper_bound else { return };
+        let (outline, radius) = system.body.outline();
+        for [px, py] in outline.points() {
+            let top = &mut self.tops[self.tops_count];
+            for k in 0..=ORDER {
+                let [cosine, sine] = self.circle[k];
+                top[k] = self.y[k] + *px * sine + *py * cosine;
+            }
+            top[0] = top[0] + radius - level;
+            self.tops_count += 1;
+        }
+    }
+
+    /// The longest step, up to one unit of time, on which the last terms of the motion and of the
+    /// tensions are below rounding.
+    ///
+    /// A rounding of the tension turns a body of small inertia by ε T (ρ/I) h²/2, which moves the
+    /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
+    #[inline(always)]
+    fn choose_step(&self, system: &System<T>) -> T {
+        let mut light = T::ONE;
+        for cable in self.active.carrying.iter() {
+            let fairlead = system.cables[cable].fairlead();
+            light = light.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia());
+        }
+        let still = T::from_f64(STILL);
+        let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
+        let mut step = longest;
+        for motion in [&self.x, &self.y, &self.theta] {
+            step = motion.converged_within(step, ORDER, still);
+        }
+        for cable in self.active.carrying.iter() {
+            let tension = &self.lines[cable].tension;
+            let scale = (tension[0].abs() + 1.0) * 20.0;
+            step = tension.converged_within(step, ORDER - 2, scale);
+        }
+        step
+    }
+
+    /// The cables that are taut within the step, and those of them that carry.
+    pub(crate) fn active(&self) -> ActiveSet {
+        self.active
+    }
+
+    /// How far the expansion may be used.
+    pub(crate) fn step(&self) -> T {
+        self.step
+    }
+
+    /// The state a time `s` after the start.
+    #[inline(always)]
+    pub(crate) fn state(&self, s: T) -> State<T> {
+        let (x, y, theta) = (
+            self.x.jet(s, ORDER),
+            self.y.jet(s, ORDER),
+            self.theta.jet(s, ORDER),
+        );
+        State {
+            x: x[0],
+            y: y[0],
+            theta: theta[0],
+            vx: x[1],
+            vy: y[1],
+            vtheta: theta[1],
+        }
+    }
+
+    /// The gap of a slack cable a time `s` after the start.
+    #[inline(always)]
+    pub(crate) fn contact(&self, cable: usize, s: T) -> Contact<T> {
+        let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER);
+        Contact {
+            gap: value,
+            error: self.contacts[cable].error + noise,
+            resting: false,
+        }
+    }
+
+    /// The tension of a taut cable a time `s` after the start.
+    pub(crate) fn tension(&self, cable: usize, s: T) -> T {
+        let [tension, ..] = self.lines[cable].tension.jet(s, ORDER - 2);
+        tension
+    }
+
+    /// g and ġ of a slack cable a time `s` after the start.
+    pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
+        let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER);
+        (gap, rate)
+    }
+
+    /// Bound on |g̈| of a slack cable over the step.
+    pub(crate) fn gap_bend(&self, cable: usize) -> T {
+        self.lines[cable].gap.derivative_bound(2, self.step, ORDER)
+    }
+
+    /// Bounds on |ÿ| and |θ̈| over the step.
+    #[inline(always)]
+    pub(crate) fn acceleration_bounds(&self) -> [T; 2] {
+        [
+            self.y.derivative_bound(2, self.step, ORDER),
+            self.theta.derivative_bound(2, self.step, ORDER),
+        ]
+    }
+
+    #[inline(always)]
+    fn jet(&self, watch: EventFunction, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
+        let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
+        Jet {
+            third: polynomial.derivative_bound(3, self.step, order),
+            noise,
+            ..Jet::new(watch, value, rate, accel)
+        }
+    }
+
+    #[inline(always)]
+    fn gap_jet(&self, cable: usize, s: T) -> Jet<T> {
+        let gap = &self.lines[cable].gap;
+        let contact = &self.contacts[cable];
+        let jet = self.jet(EventFunction::Gap(cable), gap, ORDER, s);
+        if s > T::ZERO {
+            return Jet {
+                noise: jet.noise + contact.error,
+                ..jet
+            };
+        }
+        Jet {
+            noise: contact.error,
+            blur: self.touch[cable],
+            resting: contact.resting,
+            jerk: gap[3] * 6.0,
+            fourth: if contact.resting {
+                gap.derivative_bound(4, self.step, ORDER)
+            } else {
+                T::ZERO
+            },
+            ..jet
+        }
+    }
+}
+
+impl<T: Real> HasEvents<T> for Series<T> {
+    #[inline(always)]
+    fn jets_at(&self, s: T, jets: &mut Jets<T>) {
+        for (watch, polynomial, order) in &self.watched {
+            jets.push(match *watch {
+                EventFunction::Gap(cable) => self.gap_jet(cable, s),
+                other => self.jet(other, polynomial, *order, s),
+            });
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! What a run leaves behind.
+
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::TautSet;
+use crate::motion::playback::{Motion, Playback};
+use crate::motion::simulation::{Simulation, Step};
+use std::ops::ControlFlow;
+
+/// A cable snapping taut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<T = f64> {
+    /// Time \[T\].
+    pub t: T,
+    /// The cable, by index from 0.
+    pub cable: usize,
+    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse on.
+    pub v_n: T,
+    /// Impulse in the cable \[m L/T\].
+    pub impulse: T,
+    /// Energy lost \[F L\].
+    pub energy_lost: T,
+    /// State just before.
+    pub before: State<T>,
+    /// State just after.
+    pub after: State<T>,
+}
+
+/// A stretch of time with one set of taut cables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeInterval {
+    /// The taut cables.
+    pub taut: TautSet,
+    /// From \[T\].
+    pub t_start: f64,
+    /// To \[T\].
+    pub t_end: f64,
+}
+
+/// Why a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stop {
+    /// A cable stuck, or two are taut, below the settling height.
+    Settled,
+    /// |θ| reached π/2.
+    RotationLimit,
+    /// The highest point of the body reached the anchors' level.
+    UpperBound,
+    /// A cable stuck at or above the settling height.
+    SlidingStart,
+    /// The end of the time asked for.
+    EndTime,
+    /// More impacts than allowed.
+    ImpactLimit,
+}
+
+impl Stop {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Settled,
+        Self::RotationLimit,
+        Self::UpperBound,
+        Self::SlidingStart,
+        Self::EndTime,
+        Self::ImpactLimit,
+    ];
+
+    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
+    /// rotation limit or the upper bound (chapter 6.4.2).
+    pub fn exceeds(self) -> bool {
+        matches!(self, Self::RotationLimit | Self::UpperBound)
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End {
+    /// Why.
+    pub reason: Stop,
+    /// When \[T\].
+    pub t: f64,
+    /// Where the series of impacts converges, if the run ends by one \[T\].
+    pub t_limit: Option<f64>,
+    /// The last state.
+    pub state: State,
+}
+
+/// Norms of a run, after the chapter's eqs 6.2-6.4.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Norms {
+    /// ρ1 = max v_n⁻.
+    pub rho1: f64,
+    /// ρ2 = Σ v_n⁻ over t ≤ 10.
+    pub rho2: f64,
+    /// ρ3 = Σ v_n⁻.
+    pub rho3: f64,
+    /// The highest y of the centre.
+    pub y_max: f64,
+    /// The largest |θ|.
+    pub theta_max: f64,
+}
+
+/// A stretch of motion with one taut set, from which the state at any time in it is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment {
+    pub(crate) t: f64,
+    pub(crate) start: State,
+    pub(crate) taut: TautSet,
+    /// Of the taut cables those that make up the motion.
+    pub(crate) carrying: TautSet,
+}
+
+/// A finished run.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    system: System,
+    segments: Vec<Segment>,
+    impacts: Vec<Impact>,
+    modes: Vec<ModeInterval>,
+    end: End,
+    norms: Norms,
+}
+
+/// ρ2 sums up to this time, included (chapter eq. 6.3).
+pub(crate) const RHO2_UNTIL: f64 = 10.0;
+
+impl Trajectory {
+    /// Runs a simulation to its end and keeps all of it.
+    pub fn record(simulation: Simulation) -> Self {
+        Self::record_watched(simulation, |_, _| {})
+    }
+
+    /// The same; `watch` is shown the simulation after every step, and the step.
+    pub fn record_watched(
+        simulation: Simulation,
+        mut watch: impl FnMut(&Simulation, &Step),
+    ) -> Self {
+        let watch = |simulation: &Simulation, step: &Step| {
+            watch(simulation, step);
+            ControlFlow::Continue(())
+        };
+        Self::record_until(simulation, watch).0
+    }
+
+    /// The same, as long as `watch` lets it go on; none where it did not let it come to its end.
+    pub fn record_while(
+        simulation: Simulation,
+        watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        match Self::record_until(simulation, watch) {
+            (run, ControlFlow::Continue(())) => Some(run),
+            (_, ControlFlow::Break(())) => None,
+        }
+    }
+
+    fn record_until(
+        mut simulation: Simulation,
+        mut watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
+    ) -> (Self, ControlFlow<()>) {
+        let mut run = Self {
+            system: simulation.system().clone(),
+            segments: Vec::new(),
+            impacts: Vec::new(),
+            modes: Vec::new(),
+            end: End::of(&simulation),
+            norms: Norms::default(),
+        };
+        while let Some(step) = simulation.step() {
+            run.take(&step);
+            if watch(&simulation, &step).is_break() {
+                return (run, ControlFlow::Break(()));
+            }
+        }
+        run.end = End::of(&simulation);
+        run.segments.push(Segment {
+            t: run.end.t,
+            start: run.end.state,
+            taut: simulation.taut(),
+            carrying: simulation.taut(),
+        });
+        run.norms.y_max = simulation.y_max();
+        run.norms.theta_max = simulation.theta_max();
+        (run, ControlFlow::Continue(()))
+    }
+
+    fn take(&mut self, step: &Step) {
+        if step.t_end > step.t_start {
+            self.segments.push(Segment {
+                t: step.t_start,
+                start: step.start,
+                taut: step.taut,
+                carrying: step.carrying,
+            });
+            match self.modes.last_mut() {
+                Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,
+                _ => self.modes.push(ModeInterval {
+                    taut: step.taut,
+                    t_start: step.t_start,
+                    t_end: step.t_end,
+                }),
+            }
+        }
+        for impact in step.impacts() {
+            self.norms.take(&impact);
+            self.impacts.push(impact);
+        }
+    }
+
+    /// The system that moved.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// The impacts in order of time; the rows of one instant in order of their cables.
+    pub fn impacts(&self) -> &[Impact] {
+        &self.impacts
+    }
+
+    /// Mode intervals, without gap or overlap from the start to the end.
+    pub fn modes(&self) -> &[ModeInterval] {
+        &self.modes
+    }
+
+    /// How it ended.
+    pub fn end(&self) -> &End {
+        &self.end
+    }
+
+    /// The norms.
+    pub fn norms(&self) -> &Norms {
+        &self.norms
+    }
+
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// State, taut set, tensions and energy at time t, held to the run's span; at an event's instant
+    /// those after it. For many times ask [`Playback`].
+    pub fn at(&self, t: f64) -> Motion {
+        Playback::new(self).at(t)
+    }
+}
+
+impl End {
+    /// Of a simulation that has stopped.
+    pub(crate) fn of(simulation: &Simulation) -> Self {
+        Self {
+            reason: simulation.stop().unwrap_or(Stop::EndTime),
+            t: simulation.time(),
+            t_limit: simulation.t_limit(),
+            state: *simulation.state(),
+        }
+    }
+}
+
+impl Norms {
+    pub(crate) fn take(&mut self, impact: &Impact) {
+        self.rho1 = self.rho1.max(impact.v_n);
+        self.rho3 += impact.v_n;
+        if impact.t <= RHO2_UNTIL {
+            self.rho2 += impact.v_n;
+        }
+    }
+}
