@@ -143,7 +143,7 @@ impl Run {
             }
             taut.append(true);
         }
-        let names = modes.iter().map(|mode| mode.taut.mode());
+        let names = modes.iter().map(|mode| mode.taut.mode().name());
         let starts = modes.iter().map(|mode| mode.t_start);
         let ends = modes.iter().map(|mode| mode.t_end);
         table(vec![

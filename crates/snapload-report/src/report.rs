@@ -160,7 +160,7 @@ struct ModeRow {
 impl ModeRow {
     fn new(interval: &ModeInterval) -> Self {
         Self {
-            mode: interval.taut.mode(),
+            mode: interval.taut.mode().name(),
             taut: interval.taut.iter().map(|cable| cable + 1).collect(),
             t_start: interval.t_start,
             t_end: interval.t_end,

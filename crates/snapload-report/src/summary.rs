@@ -163,7 +163,7 @@ fn modes(lines: &mut Lines, trajectory: &Trajectory) {
     let sums: Vec<String> = ["slack", "sliding", "rocking"]
         .iter()
         .filter_map(|name| {
-            let of_mode = intervals.iter().filter(|i| i.taut.mode() == *name);
+            let of_mode = intervals.iter().filter(|i| i.taut.mode().name() == *name);
             let (count, time) =
                 of_mode.fold((0, 0.0), |(n, sum), i| (n + 1, sum + i.t_end - i.t_start));
             let plural = if count == 1 { "" } else { "s" };
@@ -186,7 +186,7 @@ fn modes(lines: &mut Lines, trajectory: &Trajectory) {
             let (from, to) = (digits(interval.t_start), digits(interval.t_end));
             lines.add(
                 "",
-                &format!("  {from} to {to}: {}{cables}", interval.taut.mode()),
+                &format!("  {from} to {to}: {}{cables}", interval.taut.mode().name()),
             );
         }
     }

@@ -67,7 +67,7 @@ pub fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
     let rows = trajectory.modes().iter().map(|interval| {
         let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
         (
-            interval.taut.mode(),
+            interval.taut.mode().name(),
             taut.join(" "),
             interval.t_start,
             interval.t_end,

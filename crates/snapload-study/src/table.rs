@@ -45,7 +45,7 @@ impl Column {
     /// The words it may hold, where it holds words.
     pub fn words(&self) -> Vec<&'static str> {
         match self.take {
-            Take::Word(_) => REASONS.map(reason).to_vec(),
+            Take::Word(_) => Stop::ALL.map(Stop::name).to_vec(),
             Take::Flag(_) => vec!["true", "false"],
             Take::Number(_) | Take::Count(_) => Vec::new(),
         }
@@ -79,7 +79,7 @@ fn horizon<T>(run: &Run, of: fn(Horizon) -> T) -> Option<T> {
 /// The columns beside the row's number, the keys and the error, in their order.
 #[rustfmt::skip] // one row a column
 static COLUMNS: [Column; 18] = [
-    column("end", "end", "", Take::Word(|a| reason(a.outcome.end.reason)),
+    column("end", "end", "", Take::Word(|a| a.outcome.end.reason.name()),
         "why the run ended, in the words of run --json"),
     column("t", "t", "T", Take::Number(|a| Some(a.outcome.end.t)), "when"),
     column("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.outcome.impacts[0])),
@@ -115,26 +115,9 @@ pub fn columns() -> &'static [Column] {
     &COLUMNS
 }
 
-/// Every reason to stop.
-const REASONS: [Stop; 6] = [
-    Stop::Settled,
-    Stop::RotationLimit,
-    Stop::UpperBound,
-    Stop::SlidingStart,
-    Stop::EndTime,
-    Stop::ImpactLimit,
-];
-
 /// The name of a reason to stop.
 pub fn reason(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Settled => "settled",
-        Stop::RotationLimit => "rotation_limit",
-        Stop::UpperBound => "upper_bound",
-        Stop::SlidingStart => "sliding_start",
-        Stop::EndTime => "end_time",
-        Stop::ImpactLimit => "impact_limit",
-    }
+    stop.name()
 }
 
 /// Names and types: `row`, the keys, what the runs come to, `error`.

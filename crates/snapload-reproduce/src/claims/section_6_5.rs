@@ -57,7 +57,7 @@ fn shapes(study: &Study) -> Result<Vec<Trajectory>, CaseError> {
 }
 
 fn kind(mode: &ModeInterval) -> &'static str {
-    mode.taut.mode()
+    mode.taut.mode().name()
 }
 
 /// How often some kinds of motion follow each other.

@@ -6,8 +6,8 @@ use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::parameters::Parameters;
 use crate::case::value::Value;
+use crate::model::rules::Stop;
 use crate::motion::outcome::Outcome;
-use crate::motion::trajectory::Stop;
 
 /// The force amplitudes that are tried: f_o = step, 2 step, … up to `max`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,9 +6,11 @@ use crate::arithmetic::real::Real;
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
+use crate::model::rules::Stop;
 use crate::model::state::State;
+use crate::motion::impact::Impact;
 use crate::motion::simulation::Simulation;
-use crate::motion::trajectory::{Impact, Stop, Trajectory};
+use crate::motion::trajectory::Trajectory;
 
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;

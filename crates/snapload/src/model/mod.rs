@@ -4,6 +4,7 @@ pub(crate) mod body;
 pub(crate) mod cable;
 pub(crate) mod drag;
 pub(crate) mod forcing;
+pub(crate) mod quantity;
 pub(crate) mod rules;
 pub(crate) mod state;
 pub(crate) mod system;

@@ -1,4 +1,4 @@
-//! When a run stops.
+//! When a run stops, and why it did.
 
 use crate::arithmetic::real::Real;
 
@@ -30,5 +30,76 @@ impl<T: Real> StopRules<T> {
             t_end,
             max_impacts: u64::MAX,
         }
+    }
+}
+
+/// Why a run stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stop {
+    /// A cable stuck, or two are taut, below the settling height.
+    Settled,
+    /// |θ| reached the rotation limit.
+    RotationLimit,
+    /// The highest point of the body reached the upper bound.
+    UpperBound,
+    /// A cable stuck at or above the settling height.
+    SlidingStart,
+    /// The end of the time asked for.
+    EndTime,
+    /// More impacts than allowed.
+    ImpactLimit,
+}
+
+impl Stop {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Settled,
+        Self::RotationLimit,
+        Self::UpperBound,
+        Self::SlidingStart,
+        Self::EndTime,
+        Self::ImpactLimit,
+    ];
+
+    /// Its name in files and in programs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Settled => "settled",
+            Self::RotationLimit => "rotation_limit",
+            Self::UpperBound => "upper_bound",
+            Self::SlidingStart => "sliding_start",
+            Self::EndTime => "end_time",
+            Self::ImpactLimit => "impact_limit",
+        }
+    }
+
+    /// The same for people to read.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Settled => "settled",
+            Self::RotationLimit => "rotation limit",
+            Self::UpperBound => "upper bound",
+            Self::SlidingStart => "sliding start",
+            Self::EndTime => "end time",
+            Self::ImpactLimit => "impact limit",
+        }
+    }
+
+    /// What ended the run, as a sentence's end: "the run stopped because ...".
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Settled => "a cable stuck, or two were taut, below the settling height",
+            Self::RotationLimit => "the rotation reached its limit",
+            Self::UpperBound => "the highest point of the body reached the upper bound",
+            Self::SlidingStart => "a cable stuck at or above the settling height",
+            Self::EndTime => "the time asked for was over",
+            Self::ImpactLimit => "there were more impacts than allowed",
+        }
+    }
+
+    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
+    /// rotation limit or the upper bound (chapter 6.4.2).
+    pub fn exceeds(self) -> bool {
+        matches!(self, Self::RotationLimit | Self::UpperBound)
     }
 }

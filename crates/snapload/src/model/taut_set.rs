@@ -8,6 +8,31 @@ pub const MAX_CABLES: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub struct TautSet(u16);
 
+/// The mode of motion, told by how many cables are taut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// No cable is taut: the body flies freely.
+    Slack,
+    /// One is: the body slides along a circle about its anchor.
+    Sliding,
+    /// Two or more are: the body rocks.
+    Rocking,
+}
+
+impl Mode {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Slack, Self::Sliding, Self::Rocking];
+
+    /// Its name, in files and for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Slack => "slack",
+            Self::Sliding => "sliding",
+            Self::Rocking => "rocking",
+        }
+    }
+}
+
 /// The bit of a cable; none for one that no system can have.
 const fn bit(cable: usize) -> u16 {
     if cable < MAX_CABLES { 1 << cable } else { 0 }
@@ -92,12 +117,12 @@ impl TautSet {
         })
     }
 
-    /// The mode's name: `slack`, `sliding` (one taut cable) or `rocking` (two or more).
-    pub fn mode(self) -> &'static str {
+    /// The mode of motion that it is.
+    pub fn mode(self) -> Mode {
         match self.len() {
-            0 => "slack",
-            1 => "sliding",
-            _ => "rocking",
+            0 => Mode::Slack,
+            1 => Mode::Sliding,
+            _ => Mode::Rocking,
         }
     }
 }

@@ -6,6 +6,25 @@ use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::complementarity::{PerCable, complementary, least_norm};
 
+/// A cable snapping taut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<T = f64> {
+    /// Time \[T\].
+    pub t: T,
+    /// The cable, by index from 0.
+    pub cable: usize,
+    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse on.
+    pub v_n: T,
+    /// Impulse in the cable \[m L/T\].
+    pub impulse: T,
+    /// Energy lost \[F L\].
+    pub energy_lost: T,
+    /// State just before.
+    pub before: State<T>,
+    /// State just after.
+    pub after: State<T>,
+}
+
 /// What an impact does: impulses, and normal velocities before and after, by cable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ImpactResult<T> {

@@ -154,7 +154,7 @@ mod tests {
                 ("sliding", outcome.sliding),
                 ("rocking", outcome.rocking),
             ] {
-                let of_mode = run.modes().iter().filter(|i| i.taut.mode() == mode);
+                let of_mode = run.modes().iter().filter(|i| i.taut.mode().name() == mode);
                 let sum: f64 = of_mode.map(|i| i.t_end - i.t_start).sum();
                 assert!((sum - time).abs() < 1e-9, "{code}: {mode} {sum} {time}");
             }

@@ -2,6 +2,7 @@
 
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
+use crate::model::rules::Stop;
 use crate::model::rules::StopRules;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -11,11 +12,11 @@ use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{Crossing, Reached, first_crossing};
 use crate::motion::extremes::Extremes;
 use crate::motion::flight::Flight;
+use crate::motion::impact::Impact;
 use crate::motion::impact::ImpactResult;
 use crate::motion::start;
 use crate::motion::start::StartError;
 use crate::motion::taut_series::Series;
-use crate::motion::trajectory::{Impact, Stop};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 mod bounces;

@@ -2,13 +2,13 @@
 
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
+use crate::model::rules::Stop;
 use crate::model::rules::StopRules;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, project_position, project_velocity, taut_next};
 use crate::motion::contact::{Contact, Contacts};
-use crate::motion::trajectory::Stop;
 
 /// A start's gap counts as closed within this of zero, and its normal velocity as zero
 /// (docs/model.md section 5).

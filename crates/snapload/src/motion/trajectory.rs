@@ -1,30 +1,13 @@
 //! What a run leaves behind.
 
+use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
+use crate::motion::impact::Impact;
 use crate::motion::playback::{Motion, Playback};
 use crate::motion::simulation::{Simulation, Step};
 use std::ops::ControlFlow;
-
-/// A cable snapping taut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impact<T = f64> {
-    /// Time \[T\].
-    pub t: T,
-    /// The cable, by index from 0.
-    pub cable: usize,
-    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse on.
-    pub v_n: T,
-    /// Impulse in the cable \[m L/T\].
-    pub impulse: T,
-    /// Energy lost \[F L\].
-    pub energy_lost: T,
-    /// State just before.
-    pub before: State<T>,
-    /// State just after.
-    pub after: State<T>,
-}
 
 /// A stretch of time with one set of taut cables.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,41 +18,6 @@ pub struct ModeInterval {
     pub t_start: f64,
     /// To \[T\].
     pub t_end: f64,
-}
-
-/// Why a run stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stop {
-    /// A cable stuck, or two are taut, below the settling height.
-    Settled,
-    /// |θ| reached π/2.
-    RotationLimit,
-    /// The highest point of the body reached the anchors' level.
-    UpperBound,
-    /// A cable stuck at or above the settling height.
-    SlidingStart,
-    /// The end of the time asked for.
-    EndTime,
-    /// More impacts than allowed.
-    ImpactLimit,
-}
-
-impl Stop {
-    /// All of them.
-    pub const ALL: [Self; 6] = [
-        Self::Settled,
-        Self::RotationLimit,
-        Self::UpperBound,
-        Self::SlidingStart,
-        Self::EndTime,
-        Self::ImpactLimit,
-    ];
-
-    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
-    /// rotation limit or the upper bound (chapter 6.4.2).
-    pub fn exceeds(self) -> bool {
-        matches!(self, Self::RotationLimit | Self::UpperBound)
-    }
 }
 
 /// How a run ended.

@@ -3,11 +3,11 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
+use crate::model::rules::Stop;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
 use crate::motion::tangent::StepMap;
-use crate::motion::trajectory::Stop;
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;

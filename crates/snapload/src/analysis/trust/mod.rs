@@ -114,6 +114,20 @@ pub enum HorizonCause {
     StopRule,
 }
 
+impl HorizonCause {
+    /// Its name in files and in programs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Tolerance => "tolerance",
+            Self::Graze { .. } => "graze",
+            Self::NearMiss { .. } => "near_miss",
+            Self::Simultaneous => "simultaneous",
+            Self::Start { .. } => "start",
+            Self::StopRule => "stop_rule",
+        }
+    }
+}
+
 /// Where trust ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Horizon {

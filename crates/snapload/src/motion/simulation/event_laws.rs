@@ -2,6 +2,7 @@
 
 use crate::arithmetic::lane::length;
 use crate::arithmetic::real::Real;
+use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{ActiveSet, normal_acceleration, project_velocity, taut_next};
@@ -9,7 +10,6 @@ use crate::motion::bounce::UNMOVED;
 use crate::motion::contact::Contact;
 use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
-use crate::motion::trajectory::Stop;
 
 /// A tension below this is one that pushes, far beyond what counts as the same \[F\].
 const PUSHES: f64 = -1e-7;
