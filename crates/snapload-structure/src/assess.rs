@@ -13,8 +13,6 @@ use snapload::{
     CaseError, Impact, Playback, Simulation, StartError, State, Step, Stop, Trajectory,
 };
 
-/// An impact slower than this lets its line stay taut, in the engine's units (docs/model.md section 6).
-const V_STICK: f64 = 1e-6;
 /// A state is known while its standard deviation is below this, in the engine's units.
 const TOLERANCE: f64 = 1e-3;
 /// Neighbours are so far from the run, in parts of the waves' height.
@@ -135,7 +133,7 @@ impl Prepared {
             harmonic.cosine = harmonic.cosine.map(|force| force * height);
             harmonic.sine = harmonic.sine.map(|force| force * height);
         }
-        Simulation::new(system, self.model.rules, V_STICK, 0.0, self.start)
+        Simulation::new(system, self.model.rules, 0.0, self.start)
     }
 
     /// The state in which it begins, in the engine's units.
@@ -153,7 +151,10 @@ impl Prepared {
                     cable + 1
                 )
             }
-            StartError::AboveUpperBound { .. } => "a body above the floor".to_owned(),
+            StartError::BeyondLimit {
+                stop: Stop::UpperBound,
+                ..
+            } => "a body above the floor".to_owned(),
             _ => "a start that can be computed".to_owned(),
         };
         CaseError::value("run.start", shown, allowed)

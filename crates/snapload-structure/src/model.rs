@@ -7,9 +7,11 @@ use crate::equilibrium::Equilibrium;
 use crate::sea::components;
 use crate::structure::{LineSi, Outline, Structure, Water};
 use crate::wave::LinearWave;
-use snapload::{Body, Cable, Drag, Forcing, Harmonic, Shape, State, StopRules, System};
+use snapload::{Body, Cable, Drag, Forcing, Harmonic, Rules, Shape, State, System};
 use std::f64::consts::FRAC_PI_2;
 
+/// An impact slower than this lets its line stay taut, in the engine's units (docs/model.md section 6).
+const V_STICK: f64 = 1e-6;
 /// A body that is turned by less than this at rest is upright: its gaps are then off by rounding only \[rad\].
 const UPRIGHT: f64 = 1e-12;
 
@@ -121,7 +123,7 @@ pub struct Model {
     /// The system.
     pub system: System,
     /// When a run ends.
-    pub rules: StopRules,
+    pub rules: Rules,
     /// The waves, in SI.
     pub waves: Vec<PhasedWave>,
     /// The groups.
@@ -195,11 +197,12 @@ impl Model {
             restitution: structure.restitution,
         };
         let floor = (origin_m[1] + structure.site.depth_m) / l;
-        let rules = StopRules {
+        let rules = Rules {
             rotation_limit: Some(FRAC_PI_2),
             upper_bound: Some(floor),
             max_impacts: structure.max_snaps,
-            ..StopRules::until(structure.duration_s / scales.time_s)
+            v_stick: V_STICK,
+            ..Rules::until(structure.duration_s / scales.time_s)
         };
         Self {
             scales,

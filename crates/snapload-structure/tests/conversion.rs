@@ -56,9 +56,8 @@ fn thesis_in_disguise_is_the_thesis() {
     let start = model.at_rest(structure.start_m.unwrap(), 0.0);
     let mut rules = model.rules;
     rules.settled_below = Some(snapload::SETTLING_HEIGHT);
-    let ours = Trajectory::record(
-        Simulation::new(model.system.clone(), rules, p.v_stick, 0.0, start).unwrap(),
-    );
+    let ours =
+        Trajectory::record(Simulation::new(model.system.clone(), rules, 0.0, start).unwrap());
     let theirs = Case::new(p).unwrap().run();
     let mut compared = 0;
     for (ours, theirs) in ours.impacts().iter().zip(theirs.impacts()) {

@@ -44,7 +44,7 @@ pub use model::cable::{Cable, Normal};
 pub use model::drag::Drag;
 pub use model::forcing::{Forcing, Harmonic};
 pub use model::quantity::{QUANTITIES, Quantity, quantity};
-pub use model::rules::{Stop, StopRules};
+pub use model::rules::{Rules, Stop};
 pub use model::state::State;
 pub use model::system::{System, anchor_height};
 pub use model::taut_set::{MAX_CABLES, Mode, TautSet};

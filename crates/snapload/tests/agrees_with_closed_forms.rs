@@ -3,9 +3,7 @@
 mod common;
 
 use common::{Breakwater, STANDARD};
-use snapload::{
-    Body, Cable, Forcing, Simulation, State, Stop, StopRules, System, TautSet, Trajectory,
-};
+use snapload::{Body, Cable, Forcing, Rules, Simulation, State, Stop, System, TautSet, Trajectory};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A point mass on one cable anchored at the origin.
@@ -23,7 +21,15 @@ fn string(length: f64, weight: f64, restitution: f64) -> System {
 }
 
 fn run(system: System, t_end: f64, v_stick: f64, start: State) -> Trajectory {
-    let simulation = Simulation::new(system, StopRules::until(t_end), v_stick, 0.0, start);
+    let simulation = Simulation::new(
+        system,
+        Rules {
+            v_stick,
+            ..Rules::until(t_end)
+        },
+        0.0,
+        start,
+    );
     Trajectory::record(simulation.expect("a legal start"))
 }
 
@@ -314,7 +320,7 @@ fn starts_on_the_boundary_do_what_the_signs_say() {
     assert_eq!(with(near(3e-10)).modes()[0].taut, TautSet::only(1));
     assert_eq!(with(near(-3e-10)).modes()[0].taut, TautSet::only(1));
     assert_eq!(with(near(-1e-8)).modes()[0].taut, TautSet::SLACK);
-    let too_far = Simulation::new(base.system(), base.rules(), 1e-6, 0.0, near(1e-8));
+    let too_far = Simulation::new(base.system(), base.rules(), 0.0, near(1e-8));
     assert!(too_far.is_err());
 }
 
@@ -323,16 +329,17 @@ fn starts_on_the_boundary_do_what_the_signs_say() {
 fn the_rotation_limit_of_a_free_spin() {
     let mut system = string(5.0, 0.0, 0.5);
     system.body = Body::rigid(snapload::Shape::Circle { radius: 0.1 }, 0.01);
-    let rules = StopRules {
+    let rules = Rules {
         rotation_limit: Some(FRAC_PI_2),
-        ..StopRules::until(100.0)
+        v_stick: 1e-6,
+        ..Rules::until(100.0)
     };
     for spin in [0.3, -2.0, 40.0] {
         let start = State {
             vtheta: spin,
             ..State::default()
         };
-        let simulation = Simulation::new(system.clone(), rules, 1e-6, 0.0, start);
+        let simulation = Simulation::new(system.clone(), rules, 0.0, start);
         let run = Trajectory::record(simulation.expect("a legal start"));
         assert_eq!(run.end().reason, Stop::RotationLimit);
         assert!((run.end().t - FRAC_PI_2 / spin.abs()).abs() < 1e-14 / spin.abs());

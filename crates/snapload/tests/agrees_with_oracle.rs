@@ -3,7 +3,7 @@
 mod common;
 
 use common::{breakwater, distance, number, oracle, state};
-use snapload::{Simulation, Stop, StopRules, Trajectory};
+use snapload::{Rules, Simulation, Stop, Trajectory};
 
 /// How far an ordinary double run may be from the truth at an impact: 1e-9 as long as the oracle's
 /// own double run is within 1e-10, after that a hundred times the largest difference that one has had.
@@ -127,12 +127,12 @@ fn taut_motion_agrees() {
         let id = case["id"].as_str().unwrap_or_default();
         // The oracle stops where the body's *centre* reaches the anchors' level, later than our rule.
         let it = breakwater(&case);
-        let rules = StopRules {
+        let rules = Rules {
             upper_bound: None,
             settled_below: None,
             ..it.rules()
         };
-        let simulation = Simulation::new(it.system(), rules, it.v_stick, 0.0, it.start);
+        let simulation = Simulation::new(it.system(), rules, 0.0, it.start);
         let run = Trajectory::record(simulation.expect("a legal start"));
         let taut: Vec<u64> = case["taut"]
             .as_array()

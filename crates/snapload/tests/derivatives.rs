@@ -4,7 +4,7 @@
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
     Body, BodyKind, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise,
-    Real, Shape, Simulation, State, StopRules, System, Tangent,
+    Real, Rules, Shape, Simulation, State, System, Tangent,
 };
 
 type Digits = Precise<4>;
@@ -233,8 +233,8 @@ fn first_impact<T: Real>(
     start: State<T>,
     number: impl Fn(f64) -> T + Copy,
 ) -> Impact<T> {
-    let rules = StopRules::until(number(1.0));
-    let simulation = Simulation::new(system.map(number), rules, T::ZERO, T::ZERO, start);
+    let rules = Rules::until(number(1.0));
+    let simulation = Simulation::new(system.map(number), rules, T::ZERO, start);
     first_impacts(simulation.expect("a legal start"), 1)[0]
 }
 
@@ -269,8 +269,8 @@ fn derivatives_grow_towards_a_graze() {
             Dual::<f64, 6>::variable(component, j - 1)
         });
         let dual = first_impact(&system, State::from_components(dual), Dual::constant);
-        let rules = StopRules::until(1.0);
-        let simulation = Simulation::new(system.clone(), rules, 0.0, 0.0, start);
+        let rules = Rules::until(1.0);
+        let simulation = Simulation::new(system.clone(), rules, 0.0, start);
         let linearised = by_the_linearised_motion(simulation.expect("a legal start"), 1);
 
         let exact = lifted(0, Digits::ZERO)[0];

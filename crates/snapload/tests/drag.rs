@@ -6,7 +6,7 @@ use common::unending;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
-    Body, Cable, Drag, Forcing, Harmonic, Shape, Simulation, State, StopRules, System, Tangent,
+    Body, Cable, Drag, Forcing, Harmonic, Rules, Shape, Simulation, State, System, Tangent,
     Trajectory,
 };
 
@@ -32,7 +32,15 @@ fn falling(force: [f64; 2], drag: Drag) -> System {
 }
 
 fn run(system: System, t_end: f64, start: State) -> Trajectory {
-    let simulation = Simulation::new(system, StopRules::until(t_end), 1e-6, 0.0, start);
+    let simulation = Simulation::new(
+        system,
+        Rules {
+            v_stick: 1e-6,
+            ..Rules::until(t_end)
+        },
+        0.0,
+        start,
+    );
     Trajectory::record(simulation.expect("a legal start"))
 }
 
@@ -253,8 +261,8 @@ proptest! {
         system.forcing.harmonics.clear();
         system.restitution = e;
         let start = State { x, y: 0.3, vx, vtheta, ..State::default() };
-        let rules = StopRules { max_impacts: 300, ..StopRules::until(8.0) };
-        let Ok(mut simulation) = Simulation::new(system.clone(), rules, 1e-6, 0.0, start) else {
+        let rules = Rules { max_impacts: 300, v_stick: 1e-6, ..Rules::until(8.0) };
+        let Ok(mut simulation) = Simulation::new(system.clone(), rules, 0.0, start) else {
             return Ok(());
         };
         let mut energy = system.energy(&start);

@@ -6,8 +6,8 @@ use common::distance;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
-    Case, Forcing, Harmonic, Parameters, Playback, Simulation, State, Stop, StopRules, System,
-    TautSet, Trajectory, natural_inertia,
+    Case, Forcing, Harmonic, Parameters, Playback, Rules, Simulation, State, Stop, System, TautSet,
+    Trajectory, natural_inertia,
 };
 
 /// A random legal case: any shape, any restitution, any forcing, any start inside the region.
@@ -242,17 +242,18 @@ fn reliable(run: &Trajectory) -> &[snapload::Impact] {
 
 fn shifted(case: &Case, p: &Parameters, t0: f64) -> Trajectory {
     let simulation = case.simulation();
-    let rules = StopRules {
+    let rules = Rules {
         rotation_limit: Some(snapload::ROTATION_LIMIT),
         upper_bound: Some(snapload::anchor_height(p.r, p.a) + p.b),
         settled_below: p.stop_when_settled.then_some(snapload::SETTLING_HEIGHT),
         sliding_above: p.stop_when_sliding.then_some(snapload::SETTLING_HEIGHT),
         t_end: t0 + p.t_end,
         max_impacts: p.max_impacts,
+        v_stick: p.v_stick,
     };
     let start = *simulation.state();
     let system: System = simulation.system().clone();
-    let late = Simulation::new(system, rules, p.v_stick, t0, start).expect("legal");
+    let late = Simulation::new(system, rules, t0, start).expect("legal");
     Trajectory::record(late)
 }
 

@@ -7,8 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::analysis::Frame;
 use snapload::{
-    Body, Cable, Forcing, Harmonic, Matrix, Shape, Simulation, State, Step, StopRules, System,
-    Tangent,
+    Body, Cable, Forcing, Harmonic, Matrix, Rules, Shape, Simulation, State, Step, System, Tangent,
 };
 
 /// A rigid body within the reach of one cable or two, and its start.
@@ -65,9 +64,8 @@ fn follow(
     mut watch: impl FnMut(&Simulation, &Step, &Matrix),
 ) {
     let tangent = Tangent::new(system);
-    let rules = StopRules::until(40.0);
-    let mut simulation =
-        Simulation::new(system.clone(), rules, 0.0, 0.0, state).expect("a legal start");
+    let rules = Rules::until(40.0);
+    let mut simulation = Simulation::new(system.clone(), rules, 0.0, state).expect("a legal start");
     for _ in 0..most {
         let Some(step) = simulation.step() else { break };
         if !step.taut_after.is_empty() || step.impacts().count() > 1 {

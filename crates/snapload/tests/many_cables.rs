@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::analysis::{Uncertainty, trusted_run};
 use snapload::{
-    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Parameters, Playback, Shape,
-    Simulation, State, Stop, StopRules, System, Trajectory, named_case,
+    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Parameters, Playback, Rules, Shape,
+    Simulation, State, Stop, System, Trajectory, named_case,
 };
 
 /// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much longer than their
@@ -42,11 +42,12 @@ fn systems(forced: bool) -> impl Strategy<Value = System> {
 }
 
 fn run(system: System, t_end: f64, start: State) -> Trajectory {
-    let rules = StopRules {
+    let rules = Rules {
         max_impacts: 2000,
-        ..StopRules::until(t_end)
+        v_stick: 1e-6,
+        ..Rules::until(t_end)
     };
-    let simulation = Simulation::new(system, rules, 1e-6, 0.0, start).expect("a legal start");
+    let simulation = Simulation::new(system, rules, 0.0, start).expect("a legal start");
     Trajectory::record(simulation)
 }
 
@@ -186,10 +187,9 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
         let mut twins = simulation.system().clone();
         twins.cables = twins.cables.iter().flat_map(|c| [*c, *c]).collect();
         let rules = *simulation.rules();
-        let v_stick = case.parameters().v_stick;
         let start = *simulation.state();
         let single = Trajectory::record(simulation);
-        let double = Simulation::new(twins, rules, v_stick, 0.0, start).expect("the same start");
+        let double = Simulation::new(twins, rules, 0.0, start).expect("the same start");
         let double = Trajectory::record(double);
 
         // Rounding differs, and grows from impact to impact; what is compared is certain.
@@ -330,13 +330,14 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                     drag: None,
                     restitution: e,
                 };
-                let rules = StopRules {
+                let rules = Rules {
                     max_impacts: 20_000,
                     // Parallel tethers that swing level with their anchors lie on each other.
                     upper_bound: Some(0.9),
-                    ..StopRules::until(40.0)
+                    v_stick: 1e-6,
+                    ..Rules::until(40.0)
                 };
-                let begun = Simulation::new(system, rules, 1e-6, 0.0, State::default());
+                let begun = Simulation::new(system, rules, 0.0, State::default());
                 let run = Trajectory::record(begun.expect("a legal start"));
                 let case = format!("{name} {f_o} {e}");
                 let (reason, t) = (run.end().reason, run.end().t);

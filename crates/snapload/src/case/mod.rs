@@ -13,7 +13,7 @@ use crate::case::schema::SETTLING_HEIGHT;
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
 use crate::model::forcing::Harmonic;
-use crate::model::rules::StopRules;
+use crate::model::rules::{Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::{System, anchor_height};
 use crate::motion::simulation::Simulation;
@@ -87,7 +87,7 @@ impl Case {
 }
 
 fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
-    Simulation::new(system(p), rules(p), p.v_stick, T::ZERO, start(p))
+    Simulation::new(system(p), rules(p), T::ZERO, start(p))
 }
 
 fn system<T: Real>(p: &Parameters<T>) -> System<T> {
@@ -99,16 +99,17 @@ fn system<T: Real>(p: &Parameters<T>) -> System<T> {
     System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
 }
 
-fn rules<T: Real>(p: &Parameters<T>) -> StopRules<T> {
+fn rules<T: Real>(p: &Parameters<T>) -> Rules<T> {
     let rotates = p.body == BodyKind::Rigid;
     let settling_height = T::from_decimal(SETTLING_HEIGHT);
-    StopRules {
+    Rules {
         rotation_limit: rotates.then(T::half_pi),
         upper_bound: Some(anchor_height(p.r, p.a) + p.b),
         settled_below: p.stop_when_settled.then_some(settling_height),
         sliding_above: p.stop_when_sliding.then_some(settling_height),
         t_end: p.t_end,
         max_impacts: p.max_impacts,
+        v_stick: p.v_stick,
     }
 }
 
@@ -136,15 +137,18 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             let hint = "raise y, or move x and theta towards 0";
             CaseError::value("x, y, theta", place(p), allowed).with_hint(hint)
         }
-        StartError::AboveUpperBound { top, level } => {
-            let allowed = format!(
-                "a body below the upper bound y = {level:.6}; its highest point is at y = {top:.6}"
-            );
-            CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
-        }
-        StartError::BeyondRotationLimit => {
+        StartError::BeyondLimit {
+            stop: Stop::RotationLimit,
+            ..
+        } => {
             let allowed = "-pi/2 <= theta <= pi/2, the rotation limit";
             CaseError::value("theta", Value::Number(p.theta), allowed)
+        }
+        StartError::BeyondLimit { value, bound, .. } => {
+            let allowed = format!(
+                "a body below the upper bound y = {bound:.6}; its highest point is at y = {value:.6}"
+            );
+            CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
         }
         StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
             CaseError::value("x, y, theta", place(p), "a finite start")

@@ -2,9 +2,12 @@
 
 use crate::arithmetic::real::Real;
 
-/// The stop rules, each on or off (docs/model.md section 7).
+/// What ends a run, each rule on or off (docs/model.md section 7), and what counts as being at rest.
+///
+/// Whatever has to know all of them takes this apart without `..`, so that a rule which is added is known
+/// everywhere or does not compile.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StopRules<T = f64> {
+pub struct Rules<T = f64> {
     /// Stop when |θ| reaches this angle \[rad\].
     pub rotation_limit: Option<T>,
     /// Stop when the highest point of the body reaches this level \[L\].
@@ -17,10 +20,12 @@ pub struct StopRules<T = f64> {
     pub t_end: T,
     /// Stop after more impacts than this.
     pub max_impacts: u64,
+    /// An impact slower than this lets its cable stick, if the cable would then carry tension \[L/T\].
+    pub v_stick: T,
 }
 
-impl<T: Real> StopRules<T> {
-    /// Every rule off but the end of time.
+impl<T: Real> Rules<T> {
+    /// Every rule off but the end of time; nothing sticks that does not come to rest.
     pub fn until(t_end: T) -> Self {
         Self {
             rotation_limit: None,
@@ -29,6 +34,7 @@ impl<T: Real> StopRules<T> {
             sliding_above: None,
             t_end,
             max_impacts: u64::MAX,
+            v_stick: T::ZERO,
         }
     }
 }
@@ -101,5 +107,67 @@ impl Stop {
     /// rotation limit or the upper bound (chapter 6.4.2).
     pub fn exceeds(self) -> bool {
         matches!(self, Self::RotationLimit | Self::UpperBound)
+    }
+}
+
+/// A limit of the motion, those first that count where several are reached at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Limit {
+    /// |θ| stays below the rotation limit.
+    Rotation,
+    /// The highest point of the body stays below the upper bound.
+    UpperBound,
+}
+
+impl Limit {
+    /// All of them.
+    pub(crate) const ALL: [Self; 2] = [Self::Rotation, Self::UpperBound];
+
+    /// Why a run stops that reaches it.
+    pub(crate) fn stop(self) -> Stop {
+        match self {
+            Self::Rotation => Stop::RotationLimit,
+            Self::UpperBound => Stop::UpperBound,
+        }
+    }
+
+    /// Its bound by the rules of a run; none where they do not ask for it.
+    pub(crate) fn bound<T: Real>(self, rules: &Rules<T>) -> Option<T> {
+        let Rules {
+            rotation_limit,
+            upper_bound,
+            settled_below: _,
+            sliding_above: _,
+            t_end: _,
+            max_impacts: _,
+            v_stick: _,
+        } = rules;
+        match self {
+            Self::Rotation => *rotation_limit,
+            Self::UpperBound => *upper_bound,
+        }
+    }
+}
+
+/// A set of limits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct LimitSet([bool; Limit::ALL.len()]);
+
+impl LimitSet {
+    /// Whether the limit is in it.
+    pub(crate) fn contains(self, limit: Limit) -> bool {
+        self.0[limit as usize]
+    }
+
+    /// Adds a limit.
+    pub(crate) fn insert(&mut self, limit: Limit) {
+        self.0[limit as usize] = true;
+    }
+
+    /// Its members.
+    pub(crate) fn iter(self) -> impl Iterator<Item = Limit> {
+        Limit::ALL
+            .into_iter()
+            .filter(move |limit| self.contains(*limit))
     }
 }

@@ -1,7 +1,7 @@
 //! The earliest crossing, with the bound that excludes an earlier one.
 //!
 //! Every event of a run is a function of time that reaches zero from below: a gap that closes, a
-//! tension that is lost (as −T), the rotation limit, the upper bound. None is ever sampled for
+//! tension that is lost (as −T), a limit that is reached. None is ever sampled for
 //! changes of sign. With f, ḟ, f̈ known at s and |f⃛(s + σ)| ≤ K for 0 ≤ σ ≤ H, Taylor's theorem gives
 //!
 //! ```text
@@ -16,6 +16,7 @@
 //! again at once.
 
 use crate::arithmetic::real::Real;
+use crate::model::rules::{Limit, LimitSet};
 use crate::model::taut_set::MAX_CABLES;
 
 /// An event function.
@@ -25,10 +26,8 @@ pub(crate) enum EventFunction {
     Gap(usize),
     /// Minus the tension of a taut cable.
     Tension(usize),
-    /// |θ| − π/2, on one side.
-    Rotation,
-    /// Height of one point of the outline over the upper bound.
-    Top,
+    /// What a limit bounds, less its bound.
+    Limit(Limit),
 }
 
 /// An event function at one instant of the search.
@@ -124,8 +123,7 @@ pub(crate) struct Crossing<T> {
 pub(crate) struct Reached {
     pub(crate) gaps: crate::model::taut_set::TautSet,
     pub(crate) tensions: crate::model::taut_set::TautSet,
-    pub(crate) rotation: bool,
-    pub(crate) top: bool,
+    pub(crate) limits: LimitSet,
 }
 
 impl Reached {
@@ -133,8 +131,7 @@ impl Reached {
         match function {
             EventFunction::Gap(cable) => self.gaps = self.gaps.with(cable),
             EventFunction::Tension(cable) => self.tensions = self.tensions.with(cable),
-            EventFunction::Rotation => self.rotation = true,
-            EventFunction::Top => self.top = true,
+            EventFunction::Limit(limit) => self.limits.insert(limit),
         }
     }
 }

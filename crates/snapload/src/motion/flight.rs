@@ -3,12 +3,14 @@
 use crate::arithmetic::lane::{Turn, length};
 use crate::arithmetic::real::Real;
 use crate::model::forcing::Harmonic;
+use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
-use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant};
+use crate::motion::attachment::{Attachment, GapJet, Instant};
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+use crate::motion::limits::{Flying, Limits};
 
 /// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of sinusoids).
 #[derive(Clone, Debug)]
@@ -21,24 +23,14 @@ pub(crate) struct Flight<T> {
     attachments: Vec<Attachment<T>>,
     /// The cables that are known to be closed and at rest at the start.
     resting: TautSet,
-    rotation_limit: Option<T>,
-    upper_bound: Option<T>,
-    outline: [[T; 2]; 4],
-    outline_count: usize,
-    outline_radius: T,
-    outline_third: T,
+    limits: Limits<T>,
+    /// A bound on |ḟ|.
+    force_rate: T,
 }
 
 impl<T: Real> Flight<T> {
     /// A flight not yet begun, with room for the forcing of `system`.
-    pub(crate) fn new(
-        system: &System<T>,
-        rotation_limit: Option<T>,
-        upper_bound: Option<T>,
-    ) -> Self {
-        let (points, radius) = system.body.outline();
-        let mut outline = [[T::ZERO; 2]; 4];
-        outline[..points.points().len()].copy_from_slice(points.points());
+    pub(crate) fn new(system: &System<T>, rules: &Rules<T>) -> Self {
         Self {
             start: State::default(),
             sine: T::ZERO,
@@ -47,12 +39,8 @@ impl<T: Real> Flight<T> {
             harmonics: system.forcing.harmonics.clone(),
             attachments: Vec::with_capacity(system.cables.len()),
             resting: TautSet::SLACK,
-            rotation_limit,
-            upper_bound,
-            outline,
-            outline_count: points.points().len(),
-            outline_radius: radius,
-            outline_third: T::ZERO,
+            limits: Limits::of(system, rules),
+            force_rate: T::ZERO,
         }
     }
 
@@ -89,9 +77,7 @@ impl<T: Real> Flight<T> {
             }
             self.attachments.push(attachment);
         }
-        let reach = length(self.outline[0]);
-        let spin = start.vtheta.abs();
-        self.outline_third = (force[1] + spin * spin * spin * reach) * INFLATION;
+        self.force_rate = force[1];
     }
 
     #[inline(always)]
@@ -166,43 +152,18 @@ impl<T: Real> Flight<T> {
     }
 
     #[inline(always)]
-    fn stop_jets(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
-        let state = now.state(&self.start, s);
-        if let Some(limit) = self.rotation_limit {
-            let side = if state.vtheta < T::ZERO {
-                -T::ONE
-            } else {
-                T::ONE
-            };
-            jets.push(Jet {
-                noise: limit * T::EPSILON,
-                ..Jet::new(
-                    EventFunction::Rotation,
-                    side * state.theta - limit,
-                    side * state.vtheta,
-                    T::ZERO,
-                )
-            });
-        }
-        let Some(level) = self.upper_bound else {
-            return;
-        };
-        let sine = self.sine * now.turn.cosine + self.cosine * now.turn.sine;
-        let cosine = self.cosine * now.turn.cosine - self.sine * now.turn.sine;
-        for [px, py] in &self.outline[..self.outline_count] {
-            let height = *px * sine + *py * cosine;
-            let swing = *px * cosine - *py * sine;
-            jets.push(Jet {
-                third: self.outline_third,
-                noise: (level.abs() + state.y.abs() + height.abs()) * T::EPSILON * 4.0,
-                ..Jet::new(
-                    EventFunction::Top,
-                    state.y + height + self.outline_radius - level,
-                    state.vy + state.vtheta * swing,
-                    now.push.force[1] - state.vtheta.squared() * height,
-                )
-            });
-        }
+    fn limit_jets(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
+        let Turn { sine, cosine, .. } = now.turn;
+        self.limits.in_flight(
+            &Flying {
+                state: &now.state(&self.start, s),
+                sine: self.sine * cosine + self.cosine * sine,
+                cosine: self.cosine * cosine - self.sine * sine,
+                force: now.push.force,
+                force_rate: self.force_rate,
+            },
+            jets,
+        );
     }
 }
 
@@ -220,6 +181,6 @@ impl<T: Real> HasEvents<T> for Flight<T> {
                 jet
             });
         }
-        self.stop_jets(s, &now, jets);
+        self.limit_jets(s, &now, jets);
     }
 }

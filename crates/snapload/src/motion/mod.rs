@@ -10,6 +10,7 @@ pub(crate) mod events;
 pub(crate) mod extremes;
 pub(crate) mod flight;
 pub(crate) mod impact;
+pub(crate) mod limits;
 pub(crate) mod outcome;
 pub(crate) mod playback;
 pub(crate) mod simulation;

@@ -1,5 +1,6 @@
 //! The motion between the events of a finished run.
 
+use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, tensions};
@@ -36,11 +37,13 @@ pub struct Playback<'a> {
 impl<'a> Playback<'a> {
     /// Of a run.
     pub fn new(run: &'a Trajectory) -> Self {
+        // Events lie behind.
+        let rules = Rules::until(f64::INFINITY);
         Self {
             run,
             segment: None,
-            flight: Flight::new(run.system(), None, None),
-            series: Series::new(None),
+            flight: Flight::new(run.system(), &rules),
+            series: Series::new(run.system(), &rules),
         }
     }
 
@@ -84,7 +87,7 @@ impl<'a> Playback<'a> {
                 taut: segment.taut,
                 carrying: segment.carrying,
             };
-            self.series.begin(system, t, start, &contacts, active, None);
+            self.series.begin(system, t, start, &contacts, active);
         }
         self.segment = Some(index);
     }

@@ -2,8 +2,8 @@
 
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
+use crate::model::rules::Rules;
 use crate::model::rules::Stop;
-use crate::model::rules::StopRules;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
@@ -35,8 +35,7 @@ const CONVERGING: u32 = 5;
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
     system: System<T>,
-    rules: StopRules<T>,
-    v_stick: T,
+    rules: Rules<T>,
     t: T,
     state: State<T>,
     /// The state before the latest event.
@@ -149,27 +148,23 @@ impl<T: Real> Step<T> {
 impl<T: Real> Simulation<T> {
     /// A motion of `system` from `state` at time `t`, projected onto the cables that count as closed.
     ///
-    /// An impact slower than `v_stick` lets its cable stick, if the cable would then carry tension.
-    ///
     /// # Errors
     /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
     pub fn new(
         system: System<T>,
-        rules: StopRules<T>,
-        v_stick: T,
+        rules: Rules<T>,
         t: T,
         state: State<T>,
     ) -> Result<Self, StartError> {
         let start = start::prepare(&system, &rules, t, &state)?;
         Ok(Self {
-            flight: Flight::new(&system, rules.rotation_limit, rules.upper_bound),
+            flight: Flight::new(&system, &rules),
             series: None,
             extremes: Extremes::at(&start.state),
-            two_cables: TwoCableSystem::of(&system, &rules, v_stick),
+            two_cables: TwoCableSystem::of(&system, &rules),
             bounce_start: None,
             system,
             rules,
-            v_stick,
             t,
             state: start.state,
             before: start.state,
@@ -196,7 +191,7 @@ impl<T: Real> Simulation<T> {
     }
 
     /// The stop rules.
-    pub fn rules(&self) -> &StopRules<T> {
+    pub fn rules(&self) -> &Rules<T> {
         &self.rules
     }
 
@@ -299,14 +294,13 @@ impl<T: Real> Simulation<T> {
         } else {
             let series = self
                 .series
-                .get_or_insert_with(|| Box::new(Series::new(self.rules.rotation_limit)));
+                .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
             series.begin(
                 &self.system,
                 self.t,
                 &self.state,
                 &self.contacts,
                 self.active,
-                self.rules.upper_bound,
             );
             self.active = series.active();
             horizon = horizon.min(series.step());

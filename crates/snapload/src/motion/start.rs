@@ -2,8 +2,7 @@
 
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
-use crate::model::rules::Stop;
-use crate::model::rules::StopRules;
+use crate::model::rules::{Limit, Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
@@ -24,14 +23,14 @@ pub enum StartError {
         /// The gap \[L²\].
         gap: f64,
     },
-    /// |θ| is beyond the rotation limit.
-    BeyondRotationLimit,
-    /// The highest point of the body is above the upper bound.
-    AboveUpperBound {
-        /// Its y \[L\].
-        top: f64,
-        /// The bound \[L\].
-        level: f64,
+    /// What a limit bounds is beyond its bound.
+    BeyondLimit {
+        /// How a run ends that reaches this limit.
+        stop: Stop,
+        /// |θ|, or y of the highest point of the body.
+        value: f64,
+        /// Its bound.
+        bound: f64,
     },
     /// A number of the start, or of what decides the run, is not finite.
     NotFinite,
@@ -53,7 +52,7 @@ pub(crate) struct Start<T> {
 /// where that counts as zero. The problem on accelerations decides which of those at rest are taut.
 pub(crate) fn prepare<T: Real>(
     system: &System<T>,
-    rules: &StopRules<T>,
+    rules: &Rules<T>,
     t: T,
     state: &State<T>,
 ) -> Result<Start<T>, StartError> {
@@ -130,28 +129,24 @@ pub(crate) fn prepare<T: Real>(
 /// A start on a limit stops at once; one beyond it is an error.
 fn stop_at_start<T: Real>(
     system: &System<T>,
-    rules: &StopRules<T>,
+    rules: &Rules<T>,
     t: T,
     state: &State<T>,
 ) -> Result<Option<Stop>, StartError> {
-    if let Some(limit) = rules.rotation_limit {
-        if state.theta.abs() > limit {
-            return Err(StartError::BeyondRotationLimit);
-        }
-        if state.theta.abs() == limit {
-            return Ok(Some(Stop::RotationLimit));
-        }
-    }
-    if let Some(level) = rules.upper_bound {
-        let top = system.top(state);
-        if top > level {
-            return Err(StartError::AboveUpperBound {
-                top: top.to_f64(),
-                level: level.to_f64(),
+    for limit in Limit::ALL {
+        let Some(bound) = limit.bound(rules) else {
+            continue;
+        };
+        let value = limit.quantity(system, state);
+        if value > bound {
+            return Err(StartError::BeyondLimit {
+                stop: limit.stop(),
+                value: value.to_f64(),
+                bound: bound.to_f64(),
             });
         }
-        if top == level {
-            return Ok(Some(Stop::UpperBound));
+        if value == bound {
+            return Ok(Some(limit.stop()));
         }
     }
     Ok((rules.t_end <= t).then_some(Stop::EndTime))

@@ -230,7 +230,7 @@ impl Tangent {
                 -1.0,
             ),
             rate: last,
-            delay: self.delay(system, step),
+            delay: self.delay(system, step, &last),
             law: if step.event.reached.gaps.is_empty() {
                 None
             } else {
@@ -272,25 +272,26 @@ impl Tangent {
         phi
     }
 
-    /// −∇h/ḣ of what was reached: a gap, the rotation limit or the upper bound. A tension that is lost changes
+    /// −∇h/ḣ of what was reached: a gap, or what a limit bounds. A tension that is lost changes
     /// no velocity and hardly an acceleration, so its time does not matter.
     #[inline(always)]
-    fn delay(&self, system: &System, step: &Step) -> [f64; 6] {
+    fn delay(&self, system: &System, step: &Step, rate: &[f64; 6]) -> [f64; 6] {
         let (before, reached) = (&step.before, step.event.reached);
         if let Some(cable) = reached.gaps.iter().next() {
             let normal = system.cables[cable].normal(before);
             let v_n = normal.velocity(before);
             return [normal.n[0], normal.n[1], normal.arm, 0.0, 0.0, 0.0].map(|n| -n / v_n);
         }
-        if reached.rotation {
-            return [0.0, 0.0, -1.0 / before.vtheta, 0.0, 0.0, 0.0];
-        }
-        if reached.top {
-            let slope = self.system.top(&variables(before)).slope;
-            let climb = slope[0] * before.vx + slope[1] * before.vy + slope[2] * before.vtheta;
-            return slope.map(|slope| -slope / climb);
-        }
-        [0.0; 6]
+        let Some(limit) = reached.limits.iter().next() else {
+            return [0.0; 6];
+        };
+        let slope = limit.quantity(&self.system, &variables(before)).slope;
+        let climb: f64 = slope
+            .iter()
+            .zip(rate)
+            .map(|(slope, rate)| slope * rate)
+            .sum();
+        slope.map(|slope| -slope / climb)
     }
 
     /// R' of an impact, and of the sticking that may follow.

@@ -37,6 +37,7 @@ use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
 use crate::model::drag::DragSeries;
+use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::MAX_CABLES;
@@ -45,6 +46,7 @@ use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::{Factored, PerCable};
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+use crate::motion::limits::Limits;
 
 /// A motion by less than this along a step counts as rest: its terms need not converge among
 /// themselves, only stay below rounding of this \[L\], \[rad\].
@@ -83,9 +85,7 @@ pub(crate) struct Series<T: Real> {
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
-    tops: [Polynomial<T>; 4],
-    tops_count: usize,
-    rotation_limit: Option<T>,
+    limits: Limits<T>,
     step: T,
     /// What may be reached within the step: event functions, as far as they are not the gaps of `lines`.
     watched: Vec<(EventFunction, Polynomial<T>, usize)>,
@@ -93,7 +93,7 @@ pub(crate) struct Series<T: Real> {
 
 impl<T: Real> Series<T> {
     /// An expansion not yet made. Room for the cables comes with the first that is, as most runs make none.
-    pub(crate) fn new(rotation_limit: Option<T>) -> Self {
+    pub(crate) fn new(system: &System<T>, rules: &Rules<T>) -> Self {
         Self {
             active: ActiveSet::default(),
             x: Polynomial::default(),
@@ -108,9 +108,7 @@ impl<T: Real> Series<T> {
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
-            tops: [Polynomial::default(); 4],
-            tops_count: 0,
-            rotation_limit,
+            limits: Limits::of(system, rules),
             step: T::ZERO,
             watched: Vec::new(),
         }
@@ -125,7 +123,6 @@ impl<T: Real> Series<T> {
         start: &State<T>,
         contacts: &Contacts<T>,
         active: ActiveSet,
-        upper_bound: Option<T>,
     ) {
         self.active = active;
         self.contacts = *contacts;
@@ -153,7 +150,6 @@ impl<T: Real> Series<T> {
         }
         self.extend_motions(system);
         self.know_gaps();
-        self.expand_tops(system, upper_bound);
         self.step = self.choose_step(system);
         self.active.taut = active
             .taut
@@ -197,20 +193,13 @@ impl<T: Real> Series<T> {
                 self.watched.push((watch, function, order));
             }
         }
-        for mut theta in [self.theta, self.theta.negated()] {
-            let Some(limit) = self.rotation_limit else {
-                break;
-            };
-            theta[0] -= limit;
-            if !theta.stays_negative(step, ORDER) {
-                self.watched.push((EventFunction::Rotation, theta, ORDER));
-            }
-        }
-        for top in &self.tops[..self.tops_count] {
-            if !top.stays_negative(step, ORDER) {
-                self.watched.push((EventFunction::Top, *top, ORDER));
-            }
-        }
+        let watched = &mut self.watched;
+        self.limits
+            .in_series(&self.y, &self.theta, &self.circle, |function, series| {
+                if !series.stays_negative(step, ORDER) {
+                    watched.push((function, *series, ORDER));
+                }
+            });
     }
 
     /// f(t0 + s) as a power series.
@@ -337,23 +326,6 @@ impl<T: Real> Series<T> {
             if contact.resting {
                 line.gap[1] = T::ZERO;
             }
-        }
-    }
-
-    /// Height over the upper bound of each point of the outline.
-    #[inline(always)]
-    fn expand_tops(&mut self, system: &System<T>, upper_bound: Option<T>) {
-        self.tops_count = 0;
-        let Some(level) = upper_bound else { return };
-        let (outline, radius) = system.body.outline();
-        for [px, py] in outline.points() {
-            let top = &mut self.tops[self.tops_count];
-            for k in 0..=ORDER {
-                let [cosine, sine] = self.circle[k];
-                top[k] = self.y[k] + *px * sine + *py * cosine;
-            }
-            top[0] = top[0] + radius - level;
-            self.tops_count += 1;
         }
     }
 

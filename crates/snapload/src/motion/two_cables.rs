@@ -4,7 +4,7 @@ use crate::arithmetic::lane::{Lane, Turn, length};
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
 use crate::model::forcing::Harmonic;
-use crate::model::rules::StopRules;
+use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
 
@@ -225,7 +225,7 @@ impl<L: Copy> TwoCableSystem<L> {
 
 impl<T: Real> TwoCableSystem<T> {
     /// Of a system with two cables and one harmonic, without drag; others are left to the general loop.
-    pub(crate) fn of(system: &System<T>, rules: &StopRules<T>, v_stick: T) -> Option<Self> {
+    pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Option<Self> {
         let ([first, second], [wave], None) = (
             &system.cables[..],
             &system.forcing.harmonics[..],
@@ -233,6 +233,18 @@ impl<T: Real> TwoCableSystem<T> {
         ) else {
             return None;
         };
+        // A rule that is added has to be answered for here: a bounce on its own ends no other way than by a limit,
+        // by the end of time, or by too many impacts, which the lanes count; what else ends a run needs a cable
+        // that sticks, and that is no such bounce.
+        let Rules {
+            rotation_limit,
+            upper_bound,
+            settled_below: _,
+            sliding_above: _,
+            t_end,
+            max_impacts: _,
+            v_stick,
+        } = *rules;
         let never = T::from_f64(NEVER);
         let upward = system.forcing.upward_acceleration_bound();
         Some(Self {
@@ -245,9 +257,9 @@ impl<T: Real> TwoCableSystem<T> {
             force: system.forcing.bounds(),
             upward,
             vertical_acceleration_bound: system.forcing.vertical_acceleration_bound(),
-            rotation_limit: rules.rotation_limit.unwrap_or(never),
-            level: rules.upper_bound.unwrap_or(never) - system.body.reach(),
-            t_end: rules.t_end,
+            rotation_limit: rotation_limit.unwrap_or(never),
+            level: upper_bound.unwrap_or(never) - system.body.reach(),
+            t_end,
             v_stick,
         })
     }

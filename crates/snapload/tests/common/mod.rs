@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 use snapload::{
-    Body, Harmonic, Matrix, Shape, Simulation, State, StepMap, StopRules, System, Trajectory,
+    Body, Harmonic, Matrix, Rules, Shape, Simulation, State, StepMap, System, Trajectory,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -69,20 +69,20 @@ impl Breakwater {
         )
     }
 
-    pub fn rules(&self) -> StopRules {
-        StopRules {
+    pub fn rules(&self) -> Rules {
+        Rules {
             rotation_limit: Some(FRAC_PI_2),
             upper_bound: Some(self.h() + self.b),
             settled_below: self.settle.then_some(0.05),
             sliding_above: self.stop_when_sliding.then_some(0.05),
             t_end: self.t_end,
             max_impacts: 1_000_000,
+            v_stick: self.v_stick,
         }
     }
 
     pub fn simulation(&self) -> Simulation {
-        Simulation::new(self.system(), self.rules(), self.v_stick, 0.0, self.start)
-            .expect("a legal start")
+        Simulation::new(self.system(), self.rules(), 0.0, self.start).expect("a legal start")
     }
 
     pub fn run(&self) -> Trajectory {
@@ -198,7 +198,7 @@ pub fn determinant(a: &Square) -> f64 {
 
 /// A motion that goes on until long after every test, in which no cable sticks by its speed.
 pub fn unending(system: System, t: f64, start: State) -> Simulation {
-    Simulation::new(system, StopRules::until(t + 1e6), 0.0, t, start).expect("a legal start")
+    Simulation::new(system, Rules::until(t + 1e6), t, start).expect("a legal start")
 }
 
 /// The keys of a case of the oracle's files.

@@ -3,7 +3,7 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
-use crate::model::rules::Stop;
+use crate::model::rules::{Limit, Stop};
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
@@ -144,19 +144,23 @@ fn may_stop(simulation: &Simulation, step: &Step, covariance: &CovarianceFactor)
     let rules = simulation.rules();
     let (before, reached) = (&step.before, step.event.reached);
     let reach = |i: usize| REACH * covariance.of_component(i);
-    let turns = rules
-        .rotation_limit
-        .is_some_and(|limit| !reached.rotation && before.theta.abs() + reach(2) >= limit);
-    let rises = rules.upper_bound.is_some_and(|level| {
-        let margin = reach(1) + reach(2) * simulation.system().body.reach();
-        !reached.top && simulation.highest_within(step, level - margin) + margin >= level
+    let exceeds = Limit::ALL.into_iter().any(|limit| {
+        limit.bound(rules).is_some_and(|bound| {
+            let slopes = limit.slope_bounds(simulation.system());
+            let margin: f64 = (0..6)
+                .filter(|&i| slopes[i] > 0.0)
+                .map(|i| slopes[i] * reach(i))
+                .sum();
+            !reached.limits.contains(limit)
+                && simulation.largest_within(step, limit, bound - margin) + margin >= bound
+        })
     });
     let sticks = step.taut_after.len() > step.taut.len();
     let settles = [rules.settled_below, rules.sliding_above]
         .into_iter()
         .flatten()
         .any(|height| sticks && (before.y - height).abs() <= reach(1));
-    turns || rises || settles
+    exceeds || settles
 }
 
 /// Whether neighbours may turn round just before a limit that the run still reaches: as for a graze, where
@@ -169,15 +173,12 @@ fn may_fall_short(
     covariance: &CovarianceFactor,
 ) -> bool {
     let (before, reached) = (&step.before, step.event.reached);
-    if !(reached.rotation || reached.top) {
+    let Some(limit) = reached.limits.iter().next() else {
         return false;
-    }
+    };
     let delay = map.delay();
     let [.., x, y, theta] = *map.rate();
     let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
-    if !reached.rotation {
-        let height = simulation.system().top(before) - before.y;
-        slowing -= delay[1] * height * before.vtheta * before.vtheta;
-    }
+    slowing += delay[1] * limit.centripetal(simulation.system(), before);
     REACH * covariance.along(delay) * 2.0 * slowing >= 1.0
 }

@@ -228,7 +228,7 @@ mod tests {
             let mut rules = *usual.rules();
             rules.t_end = t + 1.0;
             let (system, start) = (usual.system().clone(), *usual.state());
-            let mut simulation = Simulation::new(system, rules, 1e-6, t, start).expect("legal");
+            let mut simulation = Simulation::new(system, rules, t, start).expect("legal");
             let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
             while let Some(step) = simulation.step() {
                 monitor.follow(&simulation, &step);

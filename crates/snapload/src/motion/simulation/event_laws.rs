@@ -21,10 +21,8 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(super) fn apply_law(&mut self, event: &Event) -> Option<ImpactResult<T>> {
         let reached = event.reached;
-        if reached.rotation {
-            self.stop = Some(Stop::RotationLimit);
-        } else if reached.top {
-            self.stop = Some(Stop::UpperBound);
+        if let Some(limit) = reached.limits.iter().next() {
+            self.stop = Some(limit.stop());
         } else if !reached.gaps.is_empty() {
             return Some(self.snap(event));
         } else if !reached.tensions.is_empty() {
@@ -47,7 +45,7 @@ impl<T: Real> Simulation<T> {
 
         let slow: TautSet = struck
             .iter()
-            .filter(|&cable| result.v_before[cable] < self.v_stick)
+            .filter(|&cable| result.v_before[cable] < self.rules.v_stick)
             .collect();
         let at_rest: TautSet = closed
             .iter()
@@ -91,7 +89,7 @@ impl<T: Real> Simulation<T> {
         if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
             return TautSet::SLACK;
         }
-        let slow = |&cable: &usize| result.v_after[cable].abs() < self.v_stick;
+        let slow = |&cable: &usize| result.v_after[cable].abs() < self.rules.v_stick;
         closed.iter().filter(slow).collect()
     }
 

@@ -3,6 +3,7 @@
 use crate::arithmetic::lane::length;
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
+use crate::model::rules::Limit;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
@@ -192,9 +193,19 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
+    /// A bound on what a limit bounds along the latest step, close where it is above `floor`. The rotation is the
+    /// largest at an end of a flight.
+    #[inline(always)]
+    pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
+        match limit {
+            Limit::Rotation => step.before.theta.abs(),
+            Limit::UpperBound => self.highest_within(step, floor),
+        }
+    }
+
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
     #[inline(always)]
-    pub(crate) fn highest_within(&self, step: &Step<T>, floor: T) -> T {
+    fn highest_within(&self, step: &Step<T>, floor: T) -> T {
         let s = step.t_end - step.t_start;
         let [y_bend, theta_bend] = match self.expanded(step.taut) {
             Some(series) => series.acceleration_bounds(),
