@@ -2,6 +2,7 @@
 
 pub(crate) mod body;
 pub(crate) mod cable;
+pub(crate) mod contact_law;
 pub(crate) mod drag;
 pub(crate) mod forcing;
 pub(crate) mod quantity;

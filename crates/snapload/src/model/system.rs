@@ -4,6 +4,7 @@ use crate::arithmetic::lane::dot;
 use crate::arithmetic::real::Real;
 use crate::model::body::{Body, Shape};
 use crate::model::cable::{Cable, Normal};
+use crate::model::contact_law::ContactLaw;
 use crate::model::drag::Drag;
 use crate::model::forcing::{Forcing, Harmonic};
 use crate::model::state::State;
@@ -59,6 +60,14 @@ impl<T: Real> System<T> {
             forcing: self.forcing.map(number),
             drag: self.drag.as_ref().map(|drag| drag.map(number)),
             restitution: number(self.restitution),
+        }
+    }
+
+    /// The law of contact of its cables.
+    #[inline(always)]
+    pub(crate) fn contact_law(&self) -> ContactLaw<T> {
+        ContactLaw {
+            restitution: self.restitution,
         }
     }
 

@@ -19,6 +19,7 @@
 use crate::arithmetic::lane::{Lane, Turn, length_bound, select2};
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
+use crate::model::contact_law::{ContactLaw, Snap};
 use crate::model::forcing::Push;
 use crate::model::state::State;
 use crate::motion::attachment::GapJet;
@@ -48,6 +49,8 @@ pub(crate) struct Bounce<L: Lane> {
     pub(crate) before: State<L>,
     pub(crate) v_n: L,
     pub(crate) impulse: L,
+    /// Normal velocity after it.
+    pub(crate) v_after: L,
     /// After the impact, with the extremes of the flight.
     pub(crate) next: AfterImpact<L>,
 }
@@ -200,10 +203,12 @@ fn land<L: Lane>(
         y: off.mul_add(normal.n[1], state.y),
         ..*state
     };
-    let e = two_cables.restitution;
+    let contact = ContactLaw {
+        restitution: two_cables.restitution,
+    };
     let v_n = normal.velocity(&before);
     let w = normal.coupling(&normal, two_cables.inverse_inertia);
-    let impulse = e.mul_add(v_n, v_n) / w;
+    let Snap { impulse, v_after } = contact.snap(v_n, w);
     let mut after = before;
     normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
 
@@ -211,7 +216,7 @@ fn land<L: Lane>(
     let last = speed_bound(length_bound([after.vx, after.vy]), after.vtheta, reach);
     let rounding = first.larger(last) * L::EPSILON;
     let rebounds =
-        two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n) & (rounding * UNMOVED).below(e * v_n);
+        two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n) & (rounding * UNMOVED).below(-v_after);
     let t = from.t + s;
     let other = other_gap(two_cables, second, state, &turn, jets);
     let closed = [L::ZERO; 2];
@@ -224,6 +229,7 @@ fn land<L: Lane>(
         before,
         v_n,
         impulse,
+        v_after,
         next: AfterImpact {
             t,
             state: after,

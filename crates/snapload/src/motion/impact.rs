@@ -79,7 +79,7 @@ pub(crate) fn impact<T: Real>(
     closed: TautSet,
     taut: TautSet,
 ) -> ImpactResult<T> {
-    let e = system.restitution;
+    let contact = system.contact_law();
     let inverse_inertia = system.body.inverse_inertia();
     let normals = system.normals(before, closed);
     let mut v_before = [T::ZERO; MAX_CABLES];
@@ -87,7 +87,7 @@ pub(crate) fn impact<T: Real>(
     for cable in closed.iter().filter(|&cable| !taut.contains(cable)) {
         let v = normals[cable].velocity(before);
         v_before[cable] = v;
-        load[cable] = v + e * v.max(T::ZERO);
+        load[cable] = contact.load(v);
     }
     let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
     let held: TautSet = closed
@@ -108,7 +108,7 @@ pub(crate) fn impact<T: Real>(
     }
     for cable in closed.iter() {
         v_after[cable] = if pulling.contains(cable) {
-            -e * v_before[cable].max(T::ZERO)
+            contact.velocity_after(v_before[cable])
         } else {
             pulling
                 .iter()
@@ -142,14 +142,15 @@ pub(crate) fn slope_of_impact_alone(
     let inverse_mass = [1.0, 1.0, inverse_inertia];
     let v_n = normal.velocity(before);
     let w = normal.coupling(&normal, inverse_inertia);
-    let gain = (1.0 + system.restitution) / w;
+    let contact = system.contact_law();
+    let gain = contact.impulse_per_velocity(w);
     let velocity = [before.vx, before.vy, before.vtheta];
     let mut rows = [[0.0; 6]; 3];
     for k in 0..3 {
         let dg = slopes.map(|slope| slope[k]);
         let dv_n: f64 = (0..3).map(|i| dg[i] * velocity[i]).sum();
         let dw: f64 = (0..3).map(|i| 2.0 * g[i] * inverse_mass[i] * dg[i]).sum();
-        let dp = gain * (dv_n - v_n * dw / w);
+        let dp = contact.snap_slope([v_n, w], [dv_n, dw]);
         for i in 0..3 {
             let kick = gain * v_n;
             rows[i][k] = -inverse_mass[i] * (g[i] * dp + dg[i] * kick);

@@ -74,7 +74,7 @@ pub(crate) fn prepare<T: Real>(
     if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
         return Err(StartError::NotFinite);
     }
-    if system.restitution < T::ZERO || system.restitution > T::ONE {
+    if !system.contact_law().is_passive() {
         return Err(StartError::Restitution);
     }
     let stop = stop_at_start(system, rules, t, state)?;

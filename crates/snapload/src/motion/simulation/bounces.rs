@@ -118,10 +118,9 @@ impl<T: Real> Simulation<T> {
         }
         self.state = next.state;
         self.end_slow_row();
-        let e = self.system.restitution;
         let result = ImpactResult::of_one(
             struck,
-            [bounce.v_n, -e * bounce.v_n],
+            [bounce.v_n, bounce.v_after],
             bounce.impulse,
             next.state,
         );

@@ -195,14 +195,12 @@ impl<T: Real> Simulation<T> {
     /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
     #[inline(always)]
     fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
-        let e = self.system.restitution;
         let LastImpacts {
             cables,
             v_n,
             repeats,
         } = self.last;
         let converging = repeats >= CONVERGING
-            && e < T::ONE
             && !stuck.is_empty()
             && (cables.len() == 1 || cables == self.system.all_cables());
         if !converging {
@@ -216,7 +214,7 @@ impl<T: Real> Simulation<T> {
         for cable in cables.iter() {
             let alpha = normal_acceleration(&self.system, self.t, &self.state, cable, others);
             if alpha > T::ZERO {
-                let at = self.t + e * v_n * 2.0 / ((T::ONE - e) * alpha);
+                let at = self.t + self.system.contact_law().time_of_bounces(v_n, alpha)?;
                 limit = Some(limit.map_or(at, |limit: T| limit.max(at)));
             }
         }

@@ -1,0 +1,108 @@
+//! The law of contact: what becomes of the normal velocity of a cable that snaps taut.
+//!
+//! The loop, the flights of two cables side by side, and the derivatives of an impact all ask here. A law is a value:
+//! whoever adds a number to it is led by the compiler to every place that has to hand it over.
+
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::real::Real;
+
+/// Newton's law of restitution, v⁺ = −e v⁻ of the normal velocity (docs/model.md section 5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ContactLaw<L> {
+    /// Coefficient of restitution e, 0 ≤ e ≤ 1.
+    pub(crate) restitution: L,
+}
+
+/// What one cable does that is closed by itself and closing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Snap<L> {
+    /// Impulse p \[m L/T\].
+    pub(crate) impulse: L,
+    /// Normal velocity after, v⁺ ≤ 0 \[L/T\].
+    pub(crate) v_after: L,
+}
+
+impl<L: Lane> ContactLaw<L> {
+    /// p = (1 + e) v⁻/w and v⁺ = −e v⁻ of a cable that closes at `v_before` > 0, with the inverse effective mass
+    /// w = G M⁻¹ Gᵀ.
+    #[inline(always)]
+    pub(crate) fn snap(self, v_before: L, w: L) -> Snap<L> {
+        let e = self.restitution;
+        Snap {
+            impulse: e.mul_add(v_before, v_before) / w,
+            v_after: -e * v_before,
+        }
+    }
+}
+
+impl<T: Real> ContactLaw<T> {
+    /// The law for any normal velocity, as one of several cables: v⁺ = −e max(v⁻, 0).
+    #[inline(always)]
+    pub(crate) fn velocity_after(self, v_before: T) -> T {
+        -self.restitution * v_before.max(T::ZERO)
+    }
+
+    /// v⁻ − v⁺, which the impulses have to take away: the load of the complementarity problem. Rounded as a sum of its
+    /// two terms, for which several cables keep the symmetry that they have.
+    #[inline(always)]
+    pub(crate) fn load(self, v_before: T) -> T {
+        v_before + self.restitution * v_before.max(T::ZERO)
+    }
+
+    /// The time that a series of bounces takes which begins with a snap at `v_before`, the cable being pressed closed
+    /// with the normal acceleration α > 0 in between: Σ 2 eᵏ v⁻/α, k ≥ 1. None if it does not converge.
+    #[inline(always)]
+    pub(crate) fn time_of_bounces(self, v_before: T, alpha: T) -> Option<T> {
+        let e = self.restitution;
+        (e < T::ONE).then(|| e * v_before * 2.0 / ((T::ONE - e) * alpha))
+    }
+
+    /// Whether an impact under this law can lose energy but not gain any.
+    pub(crate) fn is_passive(self) -> bool {
+        T::ZERO <= self.restitution && self.restitution <= T::ONE
+    }
+}
+
+impl ContactLaw<f64> {
+    /// The derivative of the impulse of [`ContactLaw::snap`], δp = (1 + e) (δv⁻/w − v⁻ δw/w²).
+    #[inline(always)]
+    pub(crate) fn snap_slope(self, [v_before, w]: [f64; 2], [dv, dw]: [f64; 2]) -> f64 {
+        self.impulse_per_velocity(w) * (dv - v_before * dw / w)
+    }
+
+    /// ∂p/∂v⁻ = (1 + e)/w.
+    #[inline(always)]
+    pub(crate) fn impulse_per_velocity(self, w: f64) -> f64 {
+        (1.0 + self.restitution) / w
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One law, told for one cable and for several, and its derivative.
+    #[test]
+    fn one_cable_is_one_of_several() {
+        for restitution in [0.0, 0.3, 1.0] {
+            let law = ContactLaw { restitution };
+            let (v, w, h) = (0.7, 1.9, 1e-6);
+            let Snap { impulse, v_after } = law.snap(v, w);
+            assert!((impulse - law.load(v) / w).abs() < 1e-15);
+            assert_eq!(v_after, law.velocity_after(v));
+            assert!((v - w * impulse - v_after).abs() < 1e-15);
+            assert_eq!((law.velocity_after(-v), law.load(-v)), (0.0, -v));
+            let p = |dv: f64, dw: f64| law.snap(v + dv, w + dw).impulse;
+            let difference = (p(0.4 * h, -0.9 * h) - p(-0.4 * h, 0.9 * h)) / (2.0 * h);
+            assert!((law.snap_slope([v, w], [0.4, -0.9]) - difference).abs() < 1e-9);
+        }
+        assert_eq!(
+            ContactLaw { restitution: 1.0 }.time_of_bounces(1.0, 1.0),
+            None
+        );
+        let half = ContactLaw { restitution: 0.5 };
+        let series: f64 = (1..60).map(|k| 2.0 * 0.5_f64.powi(k) * 0.3 / 0.8).sum();
+        let closed = half.time_of_bounces(0.3, 0.8).expect("it converges");
+        assert!((closed - series).abs() < 1e-15);
+    }
+}
