@@ -47,7 +47,7 @@ pub use model::quantity::{QUANTITIES, Quantity, quantity};
 pub use model::rules::{Rules, Stop};
 pub use model::state::State;
 pub use model::system::{System, anchor_height};
-pub use model::taut_set::{MAX_CABLES, Mode, TautSet};
+pub use model::taut_set::{MAX_CABLES, Mode, PerCable, TautSet};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};

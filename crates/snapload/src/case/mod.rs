@@ -16,9 +16,11 @@ use crate::model::forcing::Harmonic;
 use crate::model::rules::{Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::{System, anchor_height};
+use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
 use crate::motion::start::StartError;
 use crate::motion::trajectory::Trajectory;
+use std::ops::ControlFlow;
 
 /// A case that was checked and can be run.
 ///
@@ -83,6 +85,30 @@ impl Case {
     /// Runs it to its end and keeps all of it.
     pub fn run(&self) -> Trajectory {
         Trajectory::record(self.simulation())
+    }
+}
+
+impl Outcome {
+    /// Of a case.
+    pub fn of(case: &Case) -> Self {
+        Self::after(case.simulation())
+    }
+
+    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on; none where it
+    /// did not let it come to its end.
+    pub fn of_while(
+        case: &Case,
+        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let mut simulation = case.simulation();
+        let mut outcome = Self::begun(&simulation);
+        while let Some(step) = simulation.step() {
+            outcome.take(&step);
+            if watch(&simulation).is_break() {
+                return None;
+            }
+        }
+        Some(outcome.ended(&simulation))
     }
 }
 

@@ -3,6 +3,9 @@
 /// The most cables that one system may have.
 pub const MAX_CABLES: usize = 16;
 
+/// One number a cable.
+pub type PerCable<T> = [T; MAX_CABLES];
+
 /// A set of cables, by index from 0; as the set of taut cables it *is* the mode of motion: empty is
 /// slack flight, one cable is sliding, two are rocking.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]

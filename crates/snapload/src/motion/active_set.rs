@@ -3,10 +3,8 @@
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
-use crate::motion::complementarity::{
-    PerCable, SHARED, complementary, independent, least_norm, solve,
-};
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
+use crate::motion::complementarity::{SHARED, complementary, independent, least_norm, solve};
 
 /// The mode of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -5,8 +5,8 @@ use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::{VectorSeries, convolve};
 use crate::model::cable::Normal;
 use crate::model::system::System;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
-use crate::motion::complementarity::{Factored, PerCable};
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
+use crate::motion::complementarity::Factored;
 
 /// x and y of one cable, x and y of the next.
 type Quad<T> = [T; 4];

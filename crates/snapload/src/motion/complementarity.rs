@@ -1,10 +1,7 @@
 //! The one small solver of both complementarity problems.
 
 use crate::arithmetic::real::Real;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
-
-/// One number a cable.
-pub(crate) type PerCable<T> = [T; MAX_CABLES];
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 
 /// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
 const DEPENDENT: f64 = 1e-12;

@@ -3,8 +3,8 @@
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
-use crate::motion::complementarity::{PerCable, complementary, least_norm};
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
+use crate::motion::complementarity::{complementary, least_norm};
 
 /// A cable snapping taut.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,12 +1,8 @@
 //! What a run comes to, without keeping the run.
 
-use crate::case::Case;
+use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::trajectory::{End, Norms};
-use std::ops::ControlFlow;
-
-/// The cables of a case.
-pub(crate) const CABLES: usize = 2;
 
 /// A run in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,13 +11,13 @@ pub struct Outcome {
     pub end: End,
     /// The norms.
     pub norms: Norms,
-    /// How many impacts each cable had, impulses passed into it while taut not among them.
-    pub impacts: [u64; CABLES],
+    /// How many impacts each cable had, by index from 0, impulses passed into it while taut not among them.
+    pub impacts: PerCable<u64>,
     /// The first of them.
     pub first: Option<FirstImpact>,
     /// Time with one taut cable \[T\].
     pub sliding: f64,
-    /// Time with both \[T\].
+    /// Time with two or more \[T\].
     pub rocking: f64,
 }
 
@@ -37,11 +33,6 @@ pub struct FirstImpact {
 }
 
 impl Outcome {
-    /// Of a case.
-    pub fn of(case: &Case) -> Self {
-        Self::after(case.simulation())
-    }
-
     /// Of a simulation that is run to its end.
     pub fn after(simulation: Simulation) -> Self {
         Self::watched(simulation, |_, _| {})
@@ -57,29 +48,12 @@ impl Outcome {
         outcome.ended(&simulation)
     }
 
-    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on; none where it
-    /// did not let it come to its end.
-    pub fn of_while(
-        case: &Case,
-        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
-    ) -> Option<Self> {
-        let mut simulation = case.simulation();
-        let mut outcome = Self::begun(&simulation);
-        while let Some(step) = simulation.step() {
-            outcome.take(&step);
-            if watch(&simulation).is_break() {
-                return None;
-            }
-        }
-        Some(outcome.ended(&simulation))
-    }
-
     /// Of a motion that has just begun.
     pub(crate) fn begun(simulation: &Simulation) -> Self {
         Self {
             end: End::of(simulation),
             norms: Norms::default(),
-            impacts: [0; CABLES],
+            impacts: [0; MAX_CABLES],
             first: None,
             sliding: 0.0,
             rocking: 0.0,
@@ -95,9 +69,7 @@ impl Outcome {
         for impact in step.impacts() {
             self.norms.take(&impact);
             if impact.v_n > 0.0 {
-                if let Some(count) = self.impacts.get_mut(impact.cable) {
-                    *count += 1;
-                }
+                self.impacts[impact.cable] += 1;
                 self.first.get_or_insert(FirstImpact {
                     t: impact.t,
                     cable: impact.cable,
@@ -134,6 +106,7 @@ impl Outcome {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Case;
     use crate::case::error::CaseError;
     use crate::case::named::named_case;
 
@@ -145,7 +118,8 @@ mod tests {
             let (outcome, run) = (Outcome::of(&case), case.run());
             assert_eq!((outcome.end, outcome.norms), (*run.end(), *run.norms()));
             let snaps: Vec<_> = run.impacts().iter().filter(|i| i.v_n > 0.0).collect();
-            let by_cable = [0, 1].map(|k| snaps.iter().filter(|i| i.cable == k).count() as u64);
+            let by_cable =
+                std::array::from_fn(|k| snaps.iter().filter(|i| i.cable == k).count() as u64);
             assert_eq!(outcome.impacts, by_cable);
             let first = snaps.first().map(|i| (i.t, i.cable, i.v_n));
             assert_eq!(outcome.first.map(|f| (f.t, f.cable, f.v_n)), first);

@@ -2,9 +2,8 @@
 
 use crate::model::rules::Rules;
 use crate::model::state::State;
-use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::active_set::{ActiveSet, tensions};
-use crate::motion::complementarity::PerCable;
 use crate::motion::contact::Contact;
 use crate::motion::flight::Flight;
 use crate::motion::taut_series::Series;
