@@ -345,10 +345,8 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         };
         let Outcome { impacts, norms, .. } = &mut slot.outcome;
         let second = tally.second as u64;
-        *impacts = [
-            impacts[0] + (progress.impacts - before) - (second - impacts[1]),
-            second,
-        ];
+        impacts[0] = impacts[0] + (progress.impacts - before) - (second - impacts[1]);
+        impacts[1] = second;
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
     }
