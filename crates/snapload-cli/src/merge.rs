@@ -2,9 +2,9 @@
 use crate::failure::Failure;
 use crate::failure::print;
 use crate::stage::Stage;
-use crate::study_picture::{PictureArgs, description_of};
+use crate::study_picture::PictureArgs;
 use crate::sweep::summary;
-use snapload_study::merge;
+use snapload_study::{identity_of, merge};
 use std::path::{Path, PathBuf};
 
 /// Which parts, and where the whole goes.
@@ -32,8 +32,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             args.out.display()
         )));
     }
-    if let Some((study, _)) = args.parts.first().and_then(|part| description_of(part)) {
-        args.picture.check(&study)?;
+    if let Some(identity) = args.parts.first().and_then(|part| identity_of(part)) {
+        args.picture.check(&identity.study)?;
     }
     let mut stage = Stage::default();
     let parent = args
@@ -46,6 +46,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     })?;
     stage.commit()?;
     let picture = args.picture.draw(&args.out)?;
-    let cases = description_of(&args.out).map_or(0, |(_, cases)| cases);
+    let cases = identity_of(&args.out).map_or(0, |identity| identity.cases);
     print(&summary(&args.out, cases, picture)?)
 }

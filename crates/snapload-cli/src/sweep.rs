@@ -6,7 +6,7 @@ use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use clap::CommandFactory;
 use snapload_study::{
-    Finished, Identity, Opened, Shard, Store, StudyError, Tally, Watch, columns, ends, sweep,
+    Finished, Identity, Opened, Shard, Store, StudyError, Tally, Watch, ends, sweep,
 };
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -164,10 +164,4 @@ pub(crate) fn summary(file: &Path, rows: u64, picture: Option<PathBuf>) -> Resul
         let _ = writeln!(text, "{label:<9} {}", path.display());
     }
     Ok(text)
-}
-
-/// The names of the columns that can be shown in a picture.
-pub(crate) fn showable() -> String {
-    let names: Vec<&str> = columns().iter().map(|column| column.name).collect();
-    names.join(", ")
 }

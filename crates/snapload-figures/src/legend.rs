@@ -1,64 +1,79 @@
-//! The legend: a row of samples above the frame, where it can hide no data.
+//! The legend: rows of samples above the frame, where they can hide no data.
 
-use crate::area::{Area, SMALL, fitted, marker_radius};
-use crate::plot::{Colour, Layer, Plot, Shape, Stroke};
-use crate::polyline::Rect;
-use crate::svg::{Anchor, Sheet};
-use crate::text::{CAP_HEIGHT, width};
+use crate::area::Area;
+use crate::layers::marker_radius;
+use crate::map::samples;
+use crate::plot::{Colour, Layer, Plot, Shape, Stroke, drawable};
+use crate::svg::{Anchor, Fill, Sheet};
+use crate::text::{CAP_HEIGHT, ROW, SMALL, fitted, width};
+use kurbo::{Point, Rect, Vec2};
 
-/// The height of a row, in points.
-const ROW: f64 = 10.0;
-/// From a sample to its words.
+/// From a sample to its words, in points.
 const GAP: f64 = 3.0;
 /// From one entry to the next.
 const BETWEEN: f64 = 10.0;
 
-/// How a layer looks, for the legend.
+/// How a layer looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Sample {
     Line(Stroke),
     Marker(Shape, Colour),
     Shade,
+    Cell(Fill),
 }
 
 impl Sample {
-    fn of(layer: &Layer) -> Option<Self> {
-        match layer {
-            Layer::Line { stroke, .. } => Some(Self::Line(*stroke)),
-            Layer::Markers { shape, colour, .. } => Some(Self::Marker(*shape, *colour)),
-            Layer::Shade { .. } => Some(Self::Shade),
-            Layer::Boundary { .. } | Layer::Horizontal { .. } | Layer::Letters(_) => None,
-        }
-    }
-
     fn width(self) -> f64 {
         match self {
             Self::Line(_) => 16.0,
             Self::Marker(..) => 5.0,
             Self::Shade => 10.0,
+            Self::Cell(_) => 7.0,
         }
     }
 
-    fn draw(self, sheet: &mut Sheet, left: f64, middle: f64) {
+    /// Draws it to the right of `at`, on the base line of its words.
+    fn draw(self, sheet: &mut Sheet, at: Point) {
+        let width = self.width();
+        let left = at - Vec2::new(0.0, 0.5 * CAP_HEIGHT * SMALL);
         match self {
-            Self::Line(stroke) => {
-                sheet.segment([left, middle], [left + self.width(), middle], stroke);
-            }
+            Self::Line(stroke) => sheet.segment(left, left + Vec2::new(width, 0.0), stroke),
             Self::Marker(shape, colour) => {
-                let at = [left + self.width() / 2.0, middle];
-                sheet.markers(&[at], shape, marker_radius(1), colour);
+                let middle = left + Vec2::new(width / 2.0, 0.0);
+                sheet.markers(&[middle], shape, marker_radius(1), colour);
             }
-            Self::Shade => {
-                let (width, height) = (self.width(), 6.0);
-                sheet.shade(&Rect {
-                    left,
-                    top: middle - height / 2.0,
-                    width,
-                    height,
-                });
+            Self::Shade => sheet.shade(Rect::new(at.x, left.y - 3.0, at.x + width, left.y + 3.0)),
+            Self::Cell(fill) => {
+                let square = Rect::new(at.x, at.y - width + 1.0, at.x + width, at.y + 1.0);
+                sheet.rects(&[square], fill);
+                sheet.frame(square);
             }
         }
     }
+}
+
+/// What stands in the legend for a layer of which something is seen.
+fn entries(layer: &Layer, area: &Area) -> Vec<(Sample, String)> {
+    let (seen, sample, words) = match layer {
+        Layer::Line(pieces, stroke, words) => {
+            let seen = pieces.iter().flatten().any(drawable);
+            (seen, Sample::Line(*stroke), words)
+        }
+        Layer::Markers(points, shape, colour, words) => {
+            let seen = points.iter().any(drawable);
+            (seen, Sample::Marker(*shape, *colour), words)
+        }
+        Layer::Shade(from, to, words) => (area.shaded(*from, *to).is_some(), Sample::Shade, words),
+        Layer::Map(map) => {
+            let cells = samples(map).into_iter();
+            return cells
+                .map(|(fill, words)| (Sample::Cell(fill), words))
+                .collect();
+        }
+        Layer::Boundary(..) | Layer::Horizontal(..) | Layer::Letters(_) => return Vec::new(),
+    };
+    let shown = seen && !words.is_empty();
+    shown.then(|| (sample, words.clone())).into_iter().collect()
 }
 
 /// The entries drawn so far: a panel does not repeat those of the panels above.
@@ -70,31 +85,26 @@ pub(crate) struct Legend {
 impl Legend {
     /// Draws what is new in this panel from `top` down; returns where the rows end.
     pub(crate) fn draw(&mut self, sheet: &mut Sheet, plot: &Plot, area: &Area, top: f64) -> f64 {
-        let (left, room) = (area.rect.left, area.rect.width);
-        let mut cursor = left;
-        let mut row = top;
-        let mut any = false;
-        for layer in plot.layers.iter().filter(|layer| area.shows(layer)) {
-            let Some(sample) = Sample::of(layer) else {
-                continue;
-            };
-            let entry = (sample, layer.legend().to_string());
-            if entry.1.is_empty() || self.drawn.contains(&entry) {
+        let (left, right) = (area.rect.x0, area.rect.x1);
+        let mut at = Point::new(left, top);
+        for entry in plot.layers.iter().flat_map(|layer| entries(layer, area)) {
+            if self.drawn.contains(&entry) {
                 continue;
             }
+            let (sample, words) = &entry;
             let words_at = sample.width() + GAP;
-            let size = fitted(&entry.1, SMALL, room - words_at);
-            let wide = words_at + width(&entry.1) * size;
-            if any && cursor + wide > left + room {
-                (cursor, row) = (left, row + ROW);
+            let size = fitted(words, SMALL, right - left - words_at);
+            let wide = words_at + width(words) * size;
+            // at.y is the end of the row; the first one is opened by its first entry.
+            if at.y == top || at.x + wide > right {
+                at = Point::new(left, at.y + ROW);
             }
-            let base = row + ROW - 2.5;
-            sample.draw(sheet, cursor, base - 0.5 * CAP_HEIGHT * SMALL);
-            sheet.text(&entry.1, [cursor + words_at, base], size, Anchor::Start);
-            cursor += wide + BETWEEN;
-            any = true;
+            let base = at - Vec2::new(0.0, 2.5);
+            sample.draw(sheet, base);
+            sheet.text(words, base + Vec2::new(words_at, 0.0), size, Anchor::Start);
+            at.x += wide + BETWEEN;
             self.drawn.push(entry);
         }
-        if any { row + ROW } else { top }
+        at.y
     }
 }

@@ -40,6 +40,7 @@ mod axis;
 mod draw;
 mod error;
 mod figures;
+mod layers;
 mod legend;
 mod map;
 mod picture;
@@ -47,16 +48,14 @@ mod place;
 mod plot;
 mod polyline;
 mod run;
-mod scale;
 mod svg;
 mod text;
 
 pub use draw::draw;
 pub use error::FigureError;
 pub use figures::{Leg, Mode, energy, rotation, snap_velocities, tensions, trajectory};
-pub use map::{Cell, Map, draw_map};
 pub use picture::{PNG_SCALE, Picture};
 pub use plot::{
-    Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
+    Axis, Cell, Colour, Dash, Layer, Map, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
 };
 pub use run::{RunPlot, RunPlots};

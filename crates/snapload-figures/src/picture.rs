@@ -4,7 +4,8 @@ use crate::error::FigureError;
 use crate::text;
 use resvg::{tiny_skia, usvg};
 
-/// Pixels per point of a PNG with 300 dots per inch: what journals ask of a line drawing in a raster format.
+/// Pixels per point of a PNG with 300 dots per inch: what journals ask of a line drawing in a
+/// raster format.
 pub const PNG_SCALE: f32 = 300.0 / 72.0;
 
 /// The most pixels that a PNG may have.
@@ -22,11 +23,8 @@ pub struct Picture {
 impl Picture {
     /// A picture of a document that measures so many points.
     pub(crate) fn new(name: &str, svg: String, size_pt: (f64, f64)) -> Self {
-        Self {
-            name: name.to_string(),
-            svg,
-            size_pt,
-        }
+        let name = name.to_string();
+        Self { name, svg, size_pt }
     }
 
     /// The SVG document. Its size is in millimetres; its letters are text.
@@ -55,29 +53,23 @@ impl Picture {
         let mut pixmap =
             tiny_skia::Pixmap::new(wide as u32, high as u32).ok_or(FigureError::Scale)?;
         pixmap.fill(tiny_skia::Color::WHITE);
-        let tree = self.tree()?;
+        let mut options = usvg::Options::default();
+        options.fontdb_mut().load_font_data(text::UPRIGHT.to_vec());
+        options.fontdb_mut().load_font_data(text::ITALIC.to_vec());
+        let tree = usvg::Tree::from_str(&self.svg, &options)
+            .map_err(|reason| FigureError::Raster(reason.to_string()))?;
         // The document's size is in millimetres, which the rasteriser counts in 1/96 inch.
         let per_unit = scale * (width as f32) / tree.size().width();
         let transform = tiny_skia::Transform::from_scale(per_unit, per_unit);
         resvg::render(&tree, transform, &mut pixmap.as_mut());
-        encode(&pixmap, scale)
-    }
-
-    fn tree(&self) -> Result<usvg::Tree, FigureError> {
-        let mut options = usvg::Options::default();
-        options.fontdb_mut().load_font_data(text::UPRIGHT.to_vec());
-        options.fontdb_mut().load_font_data(text::ITALIC.to_vec());
-        usvg::Tree::from_str(&self.svg, &options)
-            .map_err(|reason| FigureError::Raster(reason.to_string()))
+        encode(&pixmap, scale).map_err(|reason| FigureError::Raster(reason.to_string()))
     }
 }
 
 /// The pixels, all opaque, as a PNG without transparency.
-fn encode(pixmap: &tiny_skia::Pixmap, scale: f32) -> Result<Vec<u8>, FigureError> {
-    let reason = |reason: png::EncodingError| FigureError::Raster(reason.to_string());
-    let rgb: Vec<u8> = pixmap
-        .pixels()
-        .iter()
+fn encode(pixmap: &tiny_skia::Pixmap, scale: f32) -> Result<Vec<u8>, png::EncodingError> {
+    let pixels = pixmap.pixels().iter();
+    let rgb: Vec<u8> = pixels
         .flat_map(|p| [p.red(), p.green(), p.blue()])
         .collect();
     let per_metre = (f64::from(scale) * 72.0 / 0.0254).round() as u32;
@@ -85,13 +77,10 @@ fn encode(pixmap: &tiny_skia::Pixmap, scale: f32) -> Result<Vec<u8>, FigureError
     let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_pixel_dims(Some(png::PixelDimensions {
-        xppu: per_metre,
-        yppu: per_metre,
-        unit: png::Unit::Meter,
-    }));
-    let mut writer = encoder.write_header().map_err(reason)?;
-    writer.write_image_data(&rgb).map_err(reason)?;
-    writer.finish().map_err(reason)?;
+    let (xppu, yppu, unit) = (per_metre, per_metre, png::Unit::Meter);
+    encoder.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit }));
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&rgb)?;
+    writer.finish()?;
     Ok(bytes)
 }

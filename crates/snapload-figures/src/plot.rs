@@ -62,56 +62,28 @@ pub enum TickStyle {
     Angle,
 }
 
-/// One layer of a plot.
+/// One layer of a plot. Its words stand in the legend, or where it says so; they may be empty.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Layer {
-    /// A line of one or several pieces. A piece of a single point is drawn as a dot.
-    Line {
-        /// The pieces, each a polyline.
-        pieces: Vec<Vec<Point>>,
-        /// How it is drawn.
-        stroke: Stroke,
-        /// Its words in the legend; empty for none.
-        legend: String,
-    },
-    /// A marker at each point. They shrink as they grow many, and of thousands that cover one
-    /// another some are left out.
-    Markers {
-        /// Where.
-        points: Vec<Point>,
-        /// What each looks like.
-        shape: Shape,
-        /// Its colour.
-        colour: Colour,
-        /// Its words in the legend; empty for none.
-        legend: String,
-    },
-    /// The boundary of a region, thin and grey. It enters an automatic range only
-    /// where there are no data.
-    Boundary {
-        /// The polyline.
-        points: Vec<Point>,
-        /// Its name, written along it where there is room; empty for none.
-        label: String,
-    },
-    /// A dashed line across the plot. It does not enter an automatic range.
-    Horizontal {
-        /// Its height.
-        y: f64,
-        /// Its name, written at its right end; empty for none.
-        label: String,
-    },
-    /// A light grey background over part of the x axis. It does not enter an automatic range.
-    Shade {
-        /// Where it starts.
-        from: f64,
-        /// Where it ends; may be infinite.
-        to: f64,
-        /// Its words in the legend; empty for none.
-        legend: String,
-    },
+    /// A line: its pieces, each a polyline, how they are drawn, and its words.
+    /// A piece of a single point is drawn as a dot.
+    Line(Vec<Vec<Point>>, Stroke, String),
+    /// A marker at each point, and their words. They shrink as they grow many, and of thousands
+    /// that cover one another some are left out.
+    Markers(Vec<Point>, Shape, Colour, String),
+    /// The boundary of a region, thin and grey, and its name, written along it where there is room.
+    /// It enters an automatic range only where there are no data.
+    Boundary(Vec<Point>, String),
+    /// A dashed line across the plot at a height, and its name, written at its right end.
+    /// It does not enter an automatic range.
+    Horizontal(f64, String),
+    /// A light grey background from one x to another, which may be infinite, and its words.
+    /// It does not enter an automatic range.
+    Shade(f64, f64, String),
     /// Dots with letters beside them. Where dots coincide on paper the letters are joined: "S,G".
     Letters(Vec<Mark>),
+    /// A value or a class for every cell of a grid. The axes end where the grid does.
+    Map(Map),
 }
 
 /// A dot with a letter (or a short word) beside it.
@@ -123,6 +95,35 @@ pub struct Mark {
     pub letter: String,
 }
 
+/// A grid of cells. Its colours are told apart by colour-blind readers and in grey print.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Map {
+    /// The values of x, rising or falling, each in the middle of its cells.
+    pub x: Vec<f64>,
+    /// The values of y.
+    pub y: Vec<f64>,
+    /// The cells: for the first x all of y, then for the next.
+    pub cells: Vec<Cell>,
+    /// What the values are, written along the colour bar.
+    pub value_label: String,
+    /// The names of the classes.
+    pub classes: Vec<String>,
+}
+
+/// What a cell of a [`Map`] holds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Cell {
+    /// A number; one that is not finite counts as nothing.
+    Value(f64),
+    /// One of the classes, by its place in their list.
+    Class(usize),
+    /// Nothing.
+    #[default]
+    Empty,
+    /// What could not be computed; hatched.
+    Fault,
+}
+
 /// How a line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
@@ -132,17 +133,6 @@ pub struct Stroke {
     pub width_pt: f64,
     /// Its dashes.
     pub dash: Dash,
-}
-
-impl Default for Stroke {
-    /// Black, solid, 0.7 points.
-    fn default() -> Self {
-        Self {
-            colour: Colour::Black,
-            width_pt: 0.7,
-            dash: Dash::Solid,
-        }
-    }
 }
 
 /// The dashes of a line.
@@ -167,28 +157,10 @@ pub enum Shape {
     Circle,
 }
 
-/// The colours of Okabe and Ito, which colour-blind readers tell apart, without the yellow that
-/// is too pale for a thin line, and a grey.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Colour {
-    /// Black.
-    #[default]
-    Black,
-    /// Middle grey.
-    Grey,
-    /// Orange.
-    Orange,
-    /// Sky blue.
-    SkyBlue,
-    /// Bluish green.
-    Green,
-    /// Blue.
-    Blue,
-    /// Vermilion.
-    Vermilion,
-    /// Reddish purple.
-    Purple,
-}
+/// Red, green and blue. The named ones are those of Okabe and Ito, which colour-blind readers tell
+/// apart, and a grey.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub struct Colour(pub [u8; 3]);
 
 /// How wide the picture is on paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -200,62 +172,68 @@ pub enum Width {
     Page,
 }
 
-impl Plot {
-    /// The points of the layers that can be placed on paper.
-    pub(crate) fn data(&self) -> impl Iterator<Item = Point> {
-        self.layers.iter().flat_map(Layer::data).filter(drawable)
-    }
-
-    /// What an automatic range shows: the data, or without any the boundaries.
-    pub(crate) fn shown(&self) -> Box<dyn Iterator<Item = Point> + '_> {
-        if self.data().next().is_some() {
-            return Box::new(self.data());
+impl Axis {
+    /// With decimal ticks.
+    pub fn new(label: impl Into<String>, range: Range) -> Self {
+        let (label, ticks) = (label.into(), TickStyle::Decimal);
+        Self {
+            label,
+            range,
+            ticks,
         }
-        let boundary = |layer: &Layer| match layer {
-            Layer::Boundary { points, .. } => points.clone(),
-            _ => Vec::new(),
-        };
-        Box::new(self.layers.iter().flat_map(boundary).filter(drawable))
     }
 }
 
 impl Layer {
-    fn data(&self) -> Box<dyn Iterator<Item = Point> + '_> {
+    fn points(&self) -> Box<dyn Iterator<Item = Point> + '_> {
         match self {
-            Self::Line { pieces, .. } => Box::new(pieces.iter().flatten().copied()),
-            Self::Markers { points, .. } => Box::new(points.iter().copied()),
+            Self::Line(pieces, ..) => Box::new(pieces.iter().flatten().copied()),
+            Self::Markers(points, ..) => Box::new(points.iter().copied()),
             Self::Letters(marks) => Box::new(marks.iter().map(|mark| mark.at)),
-            Self::Boundary { .. } | Self::Horizontal { .. } | Self::Shade { .. } => {
-                Box::new(std::iter::empty())
-            }
-        }
-    }
-
-    /// The words of this layer in the legend.
-    pub(crate) fn legend(&self) -> &str {
-        match self {
-            Self::Line { legend, .. }
-            | Self::Markers { legend, .. }
-            | Self::Shade { legend, .. } => legend,
-            Self::Boundary { .. } | Self::Horizontal { .. } | Self::Letters(_) => "",
+            _ => Box::new(std::iter::empty()),
         }
     }
 }
 
-impl Colour {
-    /// As SVG writes it.
-    pub(crate) fn hex(self) -> &'static str {
-        match self {
-            Self::Black => "#000",
-            Self::Grey => "#888",
-            Self::Orange => "#e69f00",
-            Self::SkyBlue => "#56b4e9",
-            Self::Green => "#009e73",
-            Self::Blue => "#0072b2",
-            Self::Vermilion => "#d55e00",
-            Self::Purple => "#cc79a7",
+impl Mark {
+    /// A dot with a letter.
+    pub fn new(letter: impl Into<String>, at: Point) -> Self {
+        let letter = letter.into();
+        Self { at, letter }
+    }
+}
+
+impl Stroke {
+    /// A line of a colour and a width.
+    pub const fn new(colour: Colour, width_pt: f64, dash: Dash) -> Self {
+        Self {
+            colour,
+            width_pt,
+            dash,
         }
     }
+}
+
+impl Default for Stroke {
+    /// Black, solid, 0.7 points.
+    fn default() -> Self {
+        Self::new(Colour::BLACK, 0.7, Dash::Solid)
+    }
+}
+
+#[allow(missing_docs)]
+impl Colour {
+    pub const BLACK: Self = Self([0x00, 0x00, 0x00]);
+    pub const GREY: Self = Self([0x88, 0x88, 0x88]);
+    pub const ORANGE: Self = Self([0xe6, 0x9f, 0x00]);
+    pub const SKY_BLUE: Self = Self([0x56, 0xb4, 0xe9]);
+    pub const GREEN: Self = Self([0x00, 0x9e, 0x73]);
+    /// Too pale for a thin line.
+    pub const YELLOW: Self = Self([0xf0, 0xe4, 0x42]);
+    pub const BLUE: Self = Self([0x00, 0x72, 0xb2]);
+    pub const VERMILION: Self = Self([0xd5, 0x5e, 0x00]);
+    /// Reddish.
+    pub const PURPLE: Self = Self([0xcc, 0x79, 0xa7]);
 }
 
 impl Width {
@@ -265,6 +243,21 @@ impl Width {
             Self::Column => 85.0 * 72.0 / 25.4,
             Self::Page => 170.0 * 72.0 / 25.4,
         }
+    }
+}
+
+impl Plot {
+    /// The points of lines, markers and letters that can be placed on paper.
+    pub(crate) fn data(&self) -> impl Iterator<Item = Point> {
+        self.layers.iter().flat_map(Layer::points).filter(drawable)
+    }
+
+    /// The map among the layers.
+    pub(crate) fn map(&self) -> Option<&Map> {
+        self.layers.iter().find_map(|layer| match layer {
+            Layer::Map(map) => Some(map),
+            _ => None,
+        })
     }
 }
 

@@ -1,7 +1,10 @@
 //! The plots of a run: what of the motion goes into which.
 
-use crate::figures;
-use crate::{FigureError, Leg, Mark, Mode, Picture, Plot, Point, Range, Width, draw};
+use crate::draw::draw;
+use crate::error::FigureError;
+use crate::figures::{self, Leg, Mode};
+use crate::picture::Picture;
+use crate::plot::{Mark, Plot, Point, Range, Width};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory};
 
 /// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
@@ -63,12 +66,6 @@ struct Stretch {
     motion: Vec<Motion>,
 }
 
-impl Stretch {
-    fn points(&self, of: impl Fn(&Motion) -> Point) -> impl Iterator<Item = Point> {
-        self.motion.iter().map(of)
-    }
-}
-
 impl<'a> RunPlots<'a> {
     /// Of a run.
     pub fn new(run: &'a Trajectory) -> Self {
@@ -105,75 +102,24 @@ impl<'a> RunPlots<'a> {
         Self { horizon, ..self }
     }
 
-    /// y against x, with the region's boundaries and the letters of chapter Figs 6.43 and 6.45: I start,
-    /// S sliding starts, R rocking starts, G the other boundary is struck while one cable is taut, E end;
-    /// each where it happens first.
-    pub fn trajectory(&self) -> Plot {
-        let mut legs: Vec<Leg> = Vec::new();
-        for stretch in &self.stretches {
-            let begins = stretch.motion.first().map_or(0.0, |motion| motion.t);
-            let mode = match stretch.taut.len() {
-                _ if self.horizon.is_some_and(|horizon| begins >= horizon) => Mode::BeyondHorizon,
-                0 => Mode::Slack,
-                1 => Mode::Sliding,
-                _ => Mode::Rocking,
-            };
-            let points = stretch.points(place);
-            match legs.last_mut() {
-                Some(leg) if leg.mode == mode => leg.points.extend(points),
-                _ => legs.push(Leg {
-                    mode,
-                    points: points.collect(),
-                }),
-            }
-        }
-        let boundaries = [0, 1].map(|cable| boundary(self.run, cable));
-        figures::trajectory(&legs, [&boundaries[0], &boundaries[1]], &self.marks())
-    }
-
-    /// θ against t.
-    pub fn rotation(&self) -> Plot {
-        self.over_whole_run(figures::rotation(
-            &self.points(|m| [m.t, m.state.theta]),
-            self.horizon,
-        ))
-    }
-
-    /// v_n⁻ against t.
-    pub fn snaps(&self) -> Plot {
-        let [first, second] = [0, 1].map(|cable| -> Vec<Point> {
-            let impacts = self.run.impacts().iter();
-            impacts
-                .filter(|impact| impact.cable == cable && impact.v_n > 0.0)
-                .map(|impact| [impact.t, impact.v_n])
-                .collect()
-        });
-        self.over_whole_run(figures::snap_velocities([&first, &second], self.horizon))
-    }
-
-    /// Tensions against t.
-    pub fn tensions(&self) -> Plot {
-        let [first, second] = [0, 1].map(|cable| self.tension_pieces(cable));
-        self.over_whole_run(figures::tensions([&first, &second], self.horizon))
-    }
-
-    /// Energy against t.
-    pub fn energy(&self) -> Plot {
-        self.over_whole_run(figures::energy(
-            &self.points(|m| [m.t, m.energy]),
-            self.horizon,
-        ))
-    }
-
-    /// One of them.
+    /// One of the plots.
     pub fn plot(&self, which: RunPlot) -> Plot {
-        match which {
-            RunPlot::Trajectory => self.trajectory(),
-            RunPlot::Rotation => self.rotation(),
-            RunPlot::Snaps => self.snaps(),
-            RunPlot::Tensions => self.tensions(),
-            RunPlot::Energy => self.energy(),
-        }
+        let over_time = |of: fn(&Motion) -> f64| joined(&self.stretches, |m| [m.t, of(m)]);
+        let mut plot = match which {
+            RunPlot::Trajectory => return self.trajectory(),
+            RunPlot::Rotation => figures::rotation(&over_time(|m| m.state.theta), self.horizon),
+            RunPlot::Snaps => {
+                let [first, second] = [0, 1].map(|cable| self.snaps(cable));
+                figures::snap_velocities([&first, &second], self.horizon)
+            }
+            RunPlot::Tensions => {
+                let [first, second] = [0, 1].map(|cable| self.tensions(cable));
+                figures::tensions([&first, &second], self.horizon)
+            }
+            RunPlot::Energy => figures::energy(&over_time(|m| m.energy), self.horizon),
+        };
+        plot.x.range = Range::AtLeast(0.0, self.run.end().t);
+        plot
     }
 
     /// One of them on a page of its own.
@@ -188,35 +134,44 @@ impl<'a> RunPlots<'a> {
         draw(which.name(), Width::Page, &[plot])
     }
 
-    fn points(&self, of: impl Fn(&Motion) -> Point) -> Vec<Point> {
-        self.stretches
-            .iter()
-            .flat_map(|stretch| stretch.points(&of))
-            .collect()
-    }
-
-    fn over_whole_run(&self, mut plot: Plot) -> Plot {
-        plot.x.range = Range::AtLeast(0.0, self.run.end().t);
-        plot
-    }
-
-    fn tension_pieces(&self, cable: usize) -> Vec<Vec<Point>> {
-        let mut pieces: Vec<Vec<Point>> = Vec::new();
-        let mut joined = false;
-        for stretch in &self.stretches {
-            let taut = stretch.taut.contains(cable);
-            if taut {
-                let points = stretch.points(|motion| [motion.t, motion.tensions[cable]]);
-                match pieces.last_mut() {
-                    Some(piece) if joined => piece.extend(points),
-                    _ => pieces.push(points.collect()),
-                }
+    /// y against x, with the region's boundaries and the letters of chapter Figs 6.43 and 6.45.
+    fn trajectory(&self) -> Plot {
+        let mode_of = |stretch: &Stretch| {
+            let begins = stretch.motion.first().map_or(0.0, |motion| motion.t);
+            match stretch.taut.len() {
+                _ if self.horizon.is_some_and(|horizon| begins >= horizon) => Mode::BeyondHorizon,
+                0 => Mode::Slack,
+                1 => Mode::Sliding,
+                _ => Mode::Rocking,
             }
-            joined = taut;
-        }
-        pieces
+        };
+        let same = |a: &Stretch, b: &Stretch| mode_of(a) == mode_of(b);
+        let legs = self.stretches.chunk_by(same).map(|stretches| Leg {
+            mode: mode_of(&stretches[0]),
+            points: joined(stretches, place),
+        });
+        let legs: Vec<Leg> = legs.collect();
+        let boundaries = [0, 1].map(|cable| boundary(self.run, cable));
+        figures::trajectory(&legs, [&boundaries[0], &boundaries[1]], &self.marks())
     }
 
+    fn snaps(&self, cable: usize) -> Vec<Point> {
+        let impacts = self.run.impacts().iter();
+        let snaps = impacts.filter(|impact| impact.cable == cable && impact.v_n > 0.0);
+        snaps.map(|snap| [snap.t, snap.v_n]).collect()
+    }
+
+    /// The tension of a cable in each piece of time during which it is taut.
+    fn tensions(&self, cable: usize) -> Vec<Vec<Point>> {
+        let is_taut = |stretch: &Stretch| stretch.taut.contains(cable);
+        let pieces = self.stretches.chunk_by(|a, b| is_taut(a) == is_taut(b));
+        let taut = pieces.filter(|piece| is_taut(&piece[0]));
+        let tension = |motion: &Motion| [motion.t, motion.tensions[cable]];
+        taut.map(|piece| joined(piece, tension)).collect()
+    }
+
+    /// The letters I start, S sliding starts, R rocking starts, G the other boundary is struck while
+    /// one cable is taut, E end; each where it happens first.
     fn marks(&self) -> Vec<Mark> {
         let run = self.run;
         let starts = |taut: usize| {
@@ -236,14 +191,15 @@ impl<'a> RunPlots<'a> {
             ("R", starts(2)),
             ("E", Some(run.end().t)),
         ];
-        let mark = |(letter, t): (&str, Option<f64>)| {
-            t.map(|t| Mark {
-                at: place(&run.at(t)),
-                letter: letter.to_owned(),
-            })
-        };
+        let mark = |(letter, t): (&str, Option<f64>)| Some(Mark::new(letter, place(&run.at(t?))));
         letters.into_iter().filter_map(mark).collect()
     }
+}
+
+/// A point for each time of some stretches.
+fn joined(stretches: &[Stretch], of: impl Fn(&Motion) -> Point) -> Vec<Point> {
+    let motions = stretches.iter().flat_map(|stretch| &stretch.motion);
+    motions.map(of).collect()
 }
 
 fn place(motion: &Motion) -> Point {

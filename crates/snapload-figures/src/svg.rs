@@ -2,33 +2,24 @@
 //!
 //! All lengths are points on paper (1/72 inch), written with two decimals.
 
-use crate::plot::{Colour, Dash, Point, Shape, Stroke};
-use crate::polyline::Rect;
+use crate::plot::{Colour, Dash, Shape, Stroke};
 use crate::text;
-use std::fmt::Write;
+use kurbo::{Point, Rect};
+use std::fmt::{Arguments, Display, Formatter, Result, Write};
 
 /// The thin grey of boundaries.
-pub(crate) const BOUNDARY: Stroke = Stroke {
-    colour: Colour::Grey,
-    width_pt: 0.6,
-    dash: Dash::Solid,
-};
+pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::GREY, 0.6, Dash::Solid);
 /// A dashed line across a plot.
-pub(crate) const ACROSS: Stroke = Stroke {
-    colour: Colour::Grey,
-    width_pt: 0.6,
-    dash: Dash::Dashed,
-};
+pub(crate) const ACROSS: Stroke = Stroke::new(Colour::GREY, 0.6, Dash::Dashed);
 /// The frame of a plot and its ticks.
-pub(crate) const FRAME: Stroke = Stroke {
-    colour: Colour::Black,
-    width_pt: 0.5,
-    dash: Dash::Solid,
-};
+pub(crate) const FRAME: Stroke = Stroke::new(Colour::BLACK, 0.5, Dash::Solid);
 /// The grey of a shaded background.
 const SHADE: &str = "#e6e6e6";
 /// The width of the line of a marker.
 const MARKER_LINE: f64 = 0.6;
+/// What keeps a text readable on top of lines.
+const HALO: &str =
+    r##" stroke="#fff" stroke-width="2" stroke-linejoin="round" paint-order="stroke""##;
 
 /// Which part of a text stands at its place.
 #[derive(Debug, Clone, Copy)]
@@ -41,8 +32,7 @@ pub(crate) enum Anchor {
 /// What fills a cell of a map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Fill {
-    /// Red, green and blue.
-    Colour([u8; 3]),
+    Colour(Colour),
     /// Light grey.
     Blank,
     /// Grey lines, told from every colour in print, too.
@@ -69,15 +59,15 @@ impl Sheet {
         };
         // Round caps make a piece of one point a dot; they would fill the gaps between dashes.
         let lone = pieces.iter().any(|piece| piece.len() == 1);
-        let cap = if lone || stroke.dash == Dash::Solid {
+        let round = lone || stroke.dash == Dash::Solid;
+        let cap = if round {
             " stroke-linecap=\"round\""
         } else {
             ""
         };
+        let (colour, width) = (hex(stroke.colour), number(stroke.width_pt.clamp(0.1, 20.0)));
         self.push(format_args!(
-            "<path d=\"{d}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{cap}{dash}/>",
-            stroke.colour.hex(),
-            number(stroke.width_pt.clamp(0.1, 20.0)),
+            r#"<path d="{d}" fill="none" stroke="{colour}" stroke-width="{width}" stroke-linejoin="round"{cap}{dash}/>"#
         ));
     }
 
@@ -93,59 +83,70 @@ impl Sheet {
             .map(|&point| marker(point, shape, radius))
             .collect();
         if !d.is_empty() {
-            let (colour, width) = (colour.hex(), number(MARKER_LINE));
+            let (colour, width) = (hex(colour), number(MARKER_LINE));
             self.push(format_args!(
-                "<path d=\"{d}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+                r#"<path d="{d}" fill="none" stroke="{colour}" stroke-width="{width}"/>"#
             ));
         }
     }
 
     /// A black dot with a white rim.
-    pub(crate) fn dot(&mut self, [x, y]: Point, radius: f64) {
-        let (x, y, r) = (number(x), number(y), number(radius));
+    pub(crate) fn dot(&mut self, at: Point, radius: f64) {
+        let (x, y, r) = (number(at.x), number(at.y), number(radius));
         self.push(format_args!(
-            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" stroke=\"#fff\" stroke-width=\"0.6\"/>"
+            r##"<circle cx="{x}" cy="{y}" r="{r}" stroke="#fff" stroke-width="0.6"/>"##
         ));
     }
 
     /// A light grey background.
-    pub(crate) fn shade(&mut self, rect: &Rect) {
-        self.push(format_args!("<rect {} fill=\"{SHADE}\"/>", box_of(rect)));
+    pub(crate) fn shade(&mut self, rect: Rect) {
+        self.rect(rect, format_args!(r#"fill="{SHADE}""#));
+    }
+
+    /// The frame of a plot.
+    pub(crate) fn frame(&mut self, rect: Rect) {
+        let (colour, width) = (hex(FRAME.colour), number(FRAME.width_pt));
+        let paint = format_args!(r#"fill="none" stroke="{colour}" stroke-width="{width}""#);
+        self.rect(rect, paint);
+    }
+
+    fn rect(&mut self, rect: Rect, paint: Arguments<'_>) {
+        let (x, y, width, height) = (
+            number(rect.x0),
+            number(rect.y0),
+            number(rect.width()),
+            number(rect.height()),
+        );
+        self.push(format_args!(
+            r#"<rect x="{x}" y="{y}" width="{width}" height="{height}" {paint}/>"#
+        ));
     }
 
     /// The lines of [`Fill::Hatch`].
     pub(crate) fn define_hatch(&mut self) {
-        self.push(format_args!(
-            "<pattern id=\"hatch\" width=\"3\" height=\"3\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate(45)\">\
-             <rect width=\"3\" height=\"3\" fill=\"#fff\"/><rect width=\"1\" height=\"3\" fill=\"#666\"/></pattern>"
-        ));
+        self.push(format_args!(concat!(
+            r#"<pattern id="hatch" width="3" height="3" patternUnits="userSpaceOnUse" "#,
+            r#"patternTransform="rotate(45)">"#,
+            r##"<rect width="3" height="3" fill="#fff"/><rect width="1" height="3" fill="#666"/>"##,
+            "</pattern>"
+        )));
     }
 
     /// One path for rectangles of one fill, without seams between neighbours.
     pub(crate) fn rects(&mut self, rects: &[Rect], fill: Fill) {
         let mut d = String::new();
         for rect in rects {
-            let (left, right) = (number(rect.left), number(rect.left + rect.width));
-            let (top, bottom) = (number(rect.top), number(rect.top + rect.height));
+            let [left, top, right, bottom] = [rect.x0, rect.y0, rect.x1, rect.y1].map(number);
             // Places and no lengths: what two share is rounded alike.
             d.push_str(&format!("M{left} {top}H{right}V{bottom}H{left}z"));
         }
         let paint = match fill {
-            Fill::Colour([r, g, b]) => format!("#{r:02x}{g:02x}{b:02x}"),
+            Fill::Colour(colour) => hex(colour),
             Fill::Blank => SHADE.to_string(),
             Fill::Hatch => "url(#hatch)".to_string(),
         };
         self.push(format_args!(
-            "<path d=\"{d}\" fill=\"{paint}\" shape-rendering=\"crispEdges\"/>"
-        ));
-    }
-
-    /// The frame of a plot.
-    pub(crate) fn frame(&mut self, rect: &Rect) {
-        let (colour, width) = (FRAME.colour.hex(), number(FRAME.width_pt));
-        self.push(format_args!(
-            "<rect {} fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>",
-            box_of(rect)
+            r#"<path d="{d}" fill="{paint}" shape-rendering="crispEdges"/>"#
         ));
     }
 
@@ -156,22 +157,20 @@ impl Sheet {
 
     /// A text that stays readable on top of lines.
     pub(crate) fn text_with_halo(&mut self, text: &str, at: Point, size: f64, anchor: Anchor) {
-        let halo =
-            " stroke=\"#fff\" stroke-width=\"2\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
-        self.text_with(text, at, size, anchor, halo);
+        self.text_with(text, at, size, anchor, HALO);
     }
 
     /// A text that reads upwards.
     pub(crate) fn text_upwards(&mut self, text: &str, at: Point, size: f64) {
         let turn = format!(
-            " transform=\"rotate(-90 {} {})\"",
-            number(at[0]),
-            number(at[1])
+            r#" transform="rotate(-90 {} {})""#,
+            number(at.x),
+            number(at.y)
         );
         self.text_with(text, at, size, Anchor::Middle, &turn);
     }
 
-    fn text_with(&mut self, text: &str, [x, y]: Point, size: f64, anchor: Anchor, more: &str) {
+    fn text_with(&mut self, text: &str, at: Point, size: f64, anchor: Anchor, more: &str) {
         if text.is_empty() {
             return;
         }
@@ -180,16 +179,13 @@ impl Sheet {
             Anchor::Middle => " text-anchor=\"middle\"",
             Anchor::End => " text-anchor=\"end\"",
         };
+        let (x, y, size, text) = (number(at.x), number(at.y), number(size), text::markup(text));
         self.push(format_args!(
-            "<text x=\"{}\" y=\"{}\" font-size=\"{}\"{anchor}{more}>{}</text>",
-            number(x),
-            number(y),
-            number(size),
-            text::markup(text),
+            r#"<text x="{x}" y="{y}" font-size="{size}"{anchor}{more}>{text}</text>"#
         ));
     }
 
-    fn push(&mut self, element: std::fmt::Arguments<'_>) {
+    fn push(&mut self, element: Arguments<'_>) {
         // Writing to a string cannot fail.
         let _ = writeln!(self.body, "{element}");
     }
@@ -197,116 +193,91 @@ impl Sheet {
     /// The finished document.
     pub(crate) fn finish(self, width: f64, height: f64, title: &str) -> String {
         let (w, h) = (number(width), number(height));
-        let millimetres = |points: f64| number(points * 25.4 / 72.0);
+        let [w_mm, h_mm] = [width, height].map(|points| number(points * 25.4 / 72.0));
+        let (title, family, body) = (text::escape(title), text::FAMILY, self.body);
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {w} {h}\">\n\
-             <title>{}</title>\n\
-             <rect width=\"{w}\" height=\"{h}\" fill=\"#fff\"/>\n\
-             <g font-family=\"{}\" fill=\"#000\">\n{}</g>\n</svg>\n",
-            millimetres(width),
-            millimetres(height),
-            text::escape(title),
-            text::FAMILY,
-            self.body,
+            r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{w_mm}mm" height="{h_mm}mm" viewBox="0 0 {w} {h}">
+<title>{title}</title>
+<rect width="{w}" height="{h}" fill="#fff"/>
+<g font-family="{family}" fill="#000">
+{body}</g>
+</svg>
+"##
         )
     }
 }
 
-fn box_of(rect: &Rect) -> String {
-    format!(
-        "x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
-        number(rect.left),
-        number(rect.top),
-        number(rect.width),
-        number(rect.height),
-    )
+/// A colour as short as SVG can write it.
+fn hex(Colour([r, g, b]): Colour) -> String {
+    if [r, g, b].iter().all(|part| part.is_multiple_of(0x11)) {
+        format!("#{:x}{:x}{:x}", r % 16, g % 16, b % 16)
+    } else {
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
 }
 
 /// A polyline as path data: the first point, then steps, which are shorter to write.
 fn path(points: &[Point]) -> String {
-    let Some(first) = points.first() else {
+    let Some((first, rest)) = points.split_first() else {
         return String::new();
     };
-    let [mut x, mut y] = first.map(hundredths);
-    let mut d = format!("M{} {}", decimals(x), decimals(y));
-    let mut steps = String::new();
-    for point in &points[1..] {
-        let next = point.map(hundredths);
-        if next == [x, y] {
+    let (mut x, mut y) = (number(first.x), number(first.y));
+    let mut d = format!("M{x} {y}l");
+    let start = d.len();
+    for point in rest {
+        let (to_x, to_y) = (number(point.x), number(point.y));
+        if (to_x, to_y) == (x, y) {
             continue;
         }
-        let (dx, dy) = (decimals(next[0] - x), decimals(next[1] - y));
-        let gap = |text: &str| if text.starts_with('-') { "" } else { " " };
-        let before = if steps.is_empty() { "" } else { gap(&dx) };
-        steps.push_str(&format!("{before}{dx}{}{dy}", gap(&dy)));
-        [x, y] = next;
+        for step in [Hundredths(to_x.0 - x.0), Hundredths(to_y.0 - y.0)] {
+            let gap = if step.0 < 0 || d.len() == start {
+                ""
+            } else {
+                " "
+            };
+            let _ = write!(d, "{gap}{step}");
+        }
+        (x, y) = (to_x, to_y);
     }
     // A piece of no length is a dot.
-    d.push('l');
-    d.push_str(if steps.is_empty() { "0 0" } else { &steps });
+    if d.len() == start {
+        d.push_str("0 0");
+    }
     d
 }
 
-fn marker([x, y]: Point, shape: Shape, radius: f64) -> String {
-    let r = number(radius);
+fn marker(at: Point, shape: Shape, radius: f64) -> String {
+    let (left, d) = (number(at.x - radius), number(2.0 * radius));
     match shape {
-        Shape::Cross => {
-            let (left, top, d) = (number(x - radius), number(y - radius), number(2.0 * radius));
-            format!("M{left} {top}l{d} {d}m0-{d}l-{d} {d}")
-        }
+        Shape::Cross => format!("M{left} {}l{d} {d}m0-{d}l-{d} {d}", number(at.y - radius)),
         Shape::Circle => {
-            let (left, d) = (number(x - radius), number(2.0 * radius));
-            format!(
-                "M{left} {}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1-{d} 0z",
-                number(y)
-            )
+            let (y, r) = (number(at.y), number(radius));
+            format!("M{left} {y}a{r} {r} 0 1 1 {d} 0a{r} {r} 0 1 1-{d} 0z")
         }
     }
 }
 
-fn number(v: f64) -> String {
-    decimals(hundredths(v))
+/// A number with two decimals, written as short as can be.
+#[derive(Clone, Copy, PartialEq)]
+struct Hundredths(i64);
+
+fn number(v: f64) -> Hundredths {
+    Hundredths((v * 100.0).round() as i64)
 }
 
-fn hundredths(v: f64) -> i64 {
-    (v * 100.0).round() as i64
-}
-
-/// A number of hundredths, as short as can be.
-fn decimals(hundredths: i64) -> String {
-    let sign = if hundredths < 0 { "-" } else { "" };
-    let (whole, rest) = (
-        hundredths.unsigned_abs() / 100,
-        hundredths.unsigned_abs() % 100,
-    );
-    match (whole, rest) {
-        (whole, 0) => format!("{sign}{whole}"),
-        (0, rest) if rest % 10 == 0 => format!("{sign}.{}", rest / 10),
-        (0, rest) => format!("{sign}.{rest:02}"),
-        (whole, rest) if rest % 10 == 0 => format!("{sign}{whole}.{}", rest / 10),
-        (whole, rest) => format!("{sign}{whole}.{rest:02}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        let written: Vec<String> = [0.0, -0.001, 0.5, -0.05, 12.3, -12.345, 7.0]
-            .map(number)
-            .into();
-        assert_eq!(written, ["0", "0", ".5", "-.05", "12.3", "-12.35", "7"]);
-    }
-
-    #[test]
-    fn a_path_is_a_point_and_steps() {
-        assert_eq!(
-            path(&[[1.0, 2.0], [1.5, 1.75], [2.0, 2.0]]),
-            "M1 2l.5-.25 .5 .25"
-        );
-        assert_eq!(path(&[[1.0, 2.0]]), "M1 2l0 0");
-        assert_eq!(path(&[]), "");
+impl Display for Hundredths {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let (whole, rest) = (self.0.unsigned_abs() / 100, self.0.unsigned_abs() % 100);
+        if self.0 < 0 {
+            f.write_char('-')?;
+        }
+        if whole > 0 || rest == 0 {
+            write!(f, "{whole}")?;
+        }
+        match rest {
+            0 => Ok(()),
+            rest if rest % 10 == 0 => write!(f, ".{}", rest / 10),
+            rest => write!(f, ".{rest:02}"),
+        }
     }
 }

@@ -12,45 +12,46 @@ pub(crate) const ITALIC: &[u8] = include_bytes!("../assets/DejaVuSans-Oblique-su
 pub(crate) const FAMILY: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
 /// The height of a capital letter or a digit, in units of the font size.
 pub(crate) const CAP_HEIGHT: f64 = 0.729;
+/// The size of letters beside ticks, in legends and at marks, in points.
+pub(crate) const SMALL: f64 = 7.0;
+/// The size of titles and of the labels of axes.
+pub(crate) const LABEL: f64 = 8.0;
 
-/// A run of letters of one kind.
-struct Run<'a> {
-    text: &'a str,
-    italic: bool,
-}
+/// The height of a line of small text.
+pub(crate) const ROW: f64 = 10.0;
 
-/// Splits a text at its pairs of asterisks.
-fn runs(text: &str) -> Vec<Run<'_>> {
-    let mut parts: Vec<&str> = text.split('*').collect();
-    let mut found = Vec::new();
-    if parts.len().is_multiple_of(2) {
-        // The last asterisk has no partner: it stands for itself, with what follows.
-        let last = parts.pop().map_or(0, str::len);
-        let kept = text.len() - last - 1;
-        let open = kept - parts.pop().map_or(0, str::len);
-        parts.push(&text[open..]);
-    }
-    for (index, text) in parts.into_iter().enumerate() {
-        if !text.is_empty() {
-            found.push(Run {
-                text,
-                italic: index % 2 == 1,
-            });
-        }
-    }
-    found
+/// The length of a tick.
+pub(crate) const TICK: f64 = 2.5;
+/// From a tick to its number.
+pub(crate) const TICK_GAP: f64 = 2.0;
+/// From the right side of a plot to the names of the lines across it.
+pub(crate) const NAME_GAP: f64 = 2.5;
+
+/// The parts of a text, and whether each is in italics. An asterisk without its partner is a letter.
+fn runs(text: &str) -> impl Iterator<Item = (&str, bool)> {
+    let paired = text.matches('*').count().is_multiple_of(2);
+    let lone = text.rfind('*').filter(|_| !paired);
+    let (marked, rest) = text.split_at(lone.unwrap_or(text.len()));
+    let parts = marked.split('*').enumerate();
+    let parts = parts.map(|(index, part)| (part, index % 2 == 1));
+    parts
+        .chain([(rest, false)])
+        .filter(|(part, _)| !part.is_empty())
 }
 
 /// The width of a text in units of the font size.
 pub(crate) fn width(text: &str) -> f64 {
     runs(text)
-        .iter()
-        .map(|run| run_width(run).unwrap_or(0.6 * run.text.len() as f64))
+        .map(|(part, italic)| run_width(part, italic))
         .sum()
 }
 
-fn run_width(run: &Run<'_>) -> Option<f64> {
-    let font = FontRef::new(if run.italic { ITALIC } else { UPRIGHT }).ok()?;
+fn run_width(text: &str, italic: bool) -> f64 {
+    /// Of a letter that the font does not have.
+    const UNKNOWN: f32 = 0.6;
+    let Ok(font) = FontRef::new(if italic { ITALIC } else { UPRIGHT }) else {
+        return f64::from(UNKNOWN) * text.len() as f64;
+    };
     let metrics = GlyphMetrics::new(&font, Size::new(1.0), LocationRef::default());
     let charmap = font.charmap();
     let advance = |c| {
@@ -58,28 +59,38 @@ fn run_width(run: &Run<'_>) -> Option<f64> {
             .map(c)
             .and_then(|glyph| metrics.advance_width(glyph))
     };
-    Some(
-        run.text
-            .chars()
-            .map(|c| f64::from(advance(c).unwrap_or(0.6)))
-            .sum(),
-    )
+    text.chars()
+        .map(|c| f64::from(advance(c).unwrap_or(UNKNOWN)))
+        .sum()
+}
+
+/// The width on paper of the widest of some small texts.
+pub(crate) fn widest<'a>(texts: impl Iterator<Item = &'a str>) -> f64 {
+    texts.map(|text| width(text) * SMALL).fold(0.0, f64::max)
+}
+
+/// The size at which a text fits the room, at most `size`.
+pub(crate) fn fitted(text: &str, size: f64, room: f64) -> f64 {
+    let wide = width(text) * size;
+    if wide > room {
+        size * (room / wide).max(0.05)
+    } else {
+        size
+    }
 }
 
 /// A text as the content of an SVG `text` element.
 pub(crate) fn markup(text: &str) -> String {
-    runs(text)
-        .iter()
-        .map(|run| match (run.italic, escape(run.text)) {
-            (true, text) => format!("<tspan font-style=\"italic\">{text}</tspan>"),
-            (false, text) => text,
-        })
-        .collect()
+    let markup = |(part, italic)| match (italic, escape(part)) {
+        (true, part) => format!("<tspan font-style=\"italic\">{part}</tspan>"),
+        (false, part) => part,
+    };
+    runs(text).map(markup).collect()
 }
 
 /// A text without its marks for italics.
 pub(crate) fn plain(text: &str) -> String {
-    runs(text).iter().map(|run| run.text).collect()
+    runs(text).map(|(part, _)| part).collect()
 }
 
 /// A text as XML content or attribute; characters that XML forbids become U+FFFD.
@@ -104,30 +115,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn letters_between_asterisks_are_italic() {
-        assert_eq!(
-            markup("*t* in s"),
-            "<tspan font-style=\"italic\">t</tspan> in s"
-        );
-        assert_eq!(markup("a < b"), "a &lt; b");
-        assert_eq!(
-            markup("*x* 2*3"),
-            "<tspan font-style=\"italic\">x</tspan> 2*3"
-        );
-        assert_eq!(plain("case *π*"), "case π");
-        assert_eq!(plain("*"), "*");
-        assert_eq!(plain(""), "");
-    }
-
-    #[test]
-    fn texts_are_measured() {
+    fn texts_are_measured_and_every_letter_that_a_figure_may_need_has_a_glyph() {
         assert!((width("0") - 0.636).abs() < 0.01);
         assert!(width("*θ*₁ = π/2") > 2.0);
         assert!((width("−") - 0.838).abs() < 0.01);
-    }
-
-    #[test]
-    fn every_letter_that_a_figure_may_need_has_a_glyph() {
         let font = FontRef::new(UPRIGHT).expect("the embedded font is a font");
         let letters = "−±π×∘·≤≥√∞⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃ₙ→←↑↓θωνξ°éü";
         for c in letters.chars() {

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use snapload_figures::{
-    Axis, FigureError, Layer, Leg, Mark, Mode, Picture, Plot, Point, Range, Shape, Stroke,
-    TickStyle, Width, draw, energy, rotation, snap_velocities, tensions, trajectory,
+    Axis, Cell, Colour, FigureError, Layer, Leg, Map, Mark, Mode, Picture, Plot, Point, Range,
+    Shape, Stroke, TickStyle, Width, draw, energy, rotation, snap_velocities, tensions, trajectory,
 };
 
 /// The five figures, all from the same points.
@@ -212,14 +212,8 @@ fn hostile_words_are_written_as_they_stand() {
             ..Axis::default()
         },
         layers: vec![
-            Layer::Horizontal {
-                y: 0.5,
-                label: words.repeat(50),
-            },
-            Layer::Boundary {
-                points: vec![[0.0, 0.0], [1.0, 1.0]],
-                label: words.clone(),
-            },
+            Layer::Horizontal(0.5, words.repeat(50)),
+            Layer::Boundary(vec![[0.0, 0.0], [1.0, 1.0]], words.clone()),
             Layer::Letters(vec![Mark {
                 at: [0.5, 0.5],
                 letter: words.repeat(50),
@@ -232,6 +226,84 @@ fn hostile_words_are_written_as_they_stand() {
             .iter()
             .any(|text| text.starts_with("a<b>&\"c'"))
     );
+}
+
+#[test]
+fn letters_between_asterisks_are_italic() {
+    let svg = |words: &str| {
+        let (title, description) = (words.to_string(), words.to_string());
+        picture(Plot {
+            title,
+            description,
+            ..Plot::default()
+        })
+        .svg()
+        .to_string()
+    };
+    assert!(svg("*t* in s").contains("><tspan font-style=\"italic\">t</tspan> in s</text>"));
+    assert!(svg("a < b").contains(">a &lt; b</text>"));
+    assert!(svg("*x* 2*3").contains("><tspan font-style=\"italic\">x</tspan> 2*3</text>"));
+    assert!(svg("case *π*").contains("<title>case π; case π</title>"));
+    assert!(svg("*").contains("<title>*; *</title>"));
+    assert!(svg("").contains("<title>test</title>"));
+}
+
+fn map(cells: Vec<Cell>) -> Plot {
+    let map = Map {
+        x: vec![0.0, 1.0, 2.0],
+        y: vec![0.0, 0.5],
+        cells,
+        classes: vec!["settled".to_string(), "upper bound".to_string()],
+        value_label: "*t* (T)".to_string(),
+    };
+    Plot {
+        layers: vec![Layer::Map(map)],
+        ..Plot::default()
+    }
+}
+
+#[test]
+fn values_have_a_bar_and_classes_a_legend() {
+    use Cell::{Class, Empty, Fault, Value};
+    let values = picture(map(vec![
+        Value(0.0),
+        Value(1.0),
+        Value(2.0),
+        Value(3.0),
+        Empty,
+        Fault,
+    ]));
+    let said = letters(&values);
+    for wanted in ["no legal case", "none", "t (T)", "0", "3"] {
+        assert!(
+            said.iter().any(|text| text == wanted),
+            "{wanted} is not among {said:?}"
+        );
+    }
+    assert!(!said.iter().any(|text| text == "settled"));
+    for wanted in ["url(#hatch)", "#440154", "#fde725"] {
+        assert!(values.svg().contains(wanted), "{wanted} is missing");
+    }
+    let classes = picture(map(vec![Class(0); 6]));
+    let said = letters(&classes);
+    assert!(said.iter().any(|text| text == "settled"));
+    assert!(
+        !said
+            .iter()
+            .any(|text| text == "upper bound" || text == "no data")
+    );
+    assert!(!classes.svg().contains("#440154"));
+}
+
+#[test]
+fn a_map_becomes_pixels_and_an_empty_one_is_an_error() {
+    let even = picture(map(vec![Cell::Value(1.0); 6]));
+    assert!(even.png(2.0).expect("a PNG").starts_with(b"\x89PNG"));
+    let empty = Plot {
+        layers: vec![Layer::Map(Map::default())],
+        ..Plot::default()
+    };
+    assert_eq!(draw("m", Width::Page, &[empty]), Err(FigureError::NoPanel));
 }
 
 #[test]
@@ -362,8 +434,8 @@ proptest! {
             x: Axis { range: Range::Fixed(ends[0], ends[1]), ..Axis::default() },
             y: Axis { range: Range::AtLeast(ends[2], ends[3]), ticks: TickStyle::Angle, ..Axis::default() },
             layers: vec![
-                Layer::Line { pieces: vec![all.clone()], stroke: Stroke::default(), legend: legend.clone() },
-                Layer::Markers { points: all, shape, colour: Default::default(), legend },
+                Layer::Line(vec![all.clone()], Stroke::default(), legend.clone()),
+                Layer::Markers(all, shape, Colour::default(), legend),
             ],
             ..Plot::default()
         };

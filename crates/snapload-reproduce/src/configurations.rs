@@ -33,19 +33,11 @@ enum Marks {
     Rocking,
 }
 
-const BODY: Stroke = line(Colour::Black, 1.1, Dash::Solid);
-const TAUT: Stroke = line(Colour::Blue, 1.1, Dash::Solid);
-const SLACK: Stroke = line(Colour::Grey, 0.8, Dash::Dashed);
-const HELP: Stroke = line(Colour::Grey, 0.5, Dash::Dotted);
-const ARROW: Stroke = line(Colour::Vermilion, 1.0, Dash::Solid);
-
-const fn line(colour: Colour, width_pt: f64, dash: Dash) -> Stroke {
-    Stroke {
-        colour,
-        width_pt,
-        dash,
-    }
-}
+const BODY: Stroke = Stroke::new(Colour::BLACK, 1.1, Dash::Solid);
+const TAUT: Stroke = Stroke::new(Colour::BLUE, 1.1, Dash::Solid);
+const SLACK: Stroke = Stroke::new(Colour::GREY, 0.8, Dash::Dashed);
+const HELP: Stroke = Stroke::new(Colour::GREY, 0.5, Dash::Dotted);
+const ARROW: Stroke = Stroke::new(Colour::VERMILION, 1.0, Dash::Solid);
 
 /// Length of an arrow per unit of force.
 const PER_FORCE: f64 = 0.5;
@@ -226,7 +218,7 @@ impl<'a> Configuration<'a> {
             self.add_sizes(&mut layers);
         }
         layers.push(ink(vec![self.outline()], BODY, "body"));
-        let mut letters = vec![mark("c", self.centre())];
+        let mut letters = vec![Mark::new("c", self.centre())];
         let system = self.run.system();
         for cable in 0..2 {
             let (anchor, fairlead) = (system.cables[cable].anchor(), self.fairlead(cable));
@@ -237,25 +229,16 @@ impl<'a> Configuration<'a> {
                 let sag = sagging(anchor, fairlead, system.cables[cable].length());
                 ink(vec![sag], SLACK, &format!("{name}, slack"))
             });
-            layers.push(Layer::Markers {
-                points: vec![anchor],
-                shape: Shape::Cross,
-                colour: Colour::Black,
-                legend: String::new(),
-            });
-            letters.push(mark(["V", "W"][cable], fairlead));
+            let (shape, colour) = (Shape::Cross, Colour::BLACK);
+            layers.push(Layer::Markers(vec![anchor], shape, colour, String::new()));
+            letters.push(Mark::new(["V", "W"][cable], fairlead));
         }
         self.add_marks(&mut layers);
         layers.push(Layer::Letters(letters));
-        let axis = |label: &str| Axis {
-            label: label.to_owned(),
-            range: Range::Auto,
-            ..Axis::default()
-        };
         Plot {
             description: self.caption.clone(),
-            x: axis("*x* (nondimensional)"),
-            y: axis("*y* (nondimensional)"),
+            x: Axis::new("*x* (nondimensional)", Range::Auto),
+            y: Axis::new("*y* (nondimensional)", Range::Auto),
             equal_scale: true,
             layers,
             ..Plot::default()
@@ -396,18 +379,11 @@ fn arc(centre: Point, radius: f64, direction: impl Fn(f64) -> f64) -> Vec<Point>
 
 /// A thin line with its name beside it.
 fn named(points: Vec<Point>, name: &str) -> Layer {
-    Layer::Boundary {
-        points,
-        label: name.to_owned(),
-    }
+    Layer::Boundary(points, name.to_owned())
 }
 
 fn ink(pieces: Vec<Vec<Point>>, stroke: Stroke, legend: &str) -> Layer {
-    Layer::Line {
-        pieces,
-        stroke,
-        legend: legend.to_owned(),
-    }
+    Layer::Line(pieces, stroke, legend.to_owned())
 }
 
 /// An arrow in one stroke: shaft, then both sides of the head.
@@ -422,13 +398,6 @@ fn headed(from: Point, by: Point) -> Vec<Point> {
         ]
     };
     vec![from, tip, barb(1.0), tip, barb(-1.0)]
-}
-
-fn mark(letter: &str, at: Point) -> Mark {
-    Mark {
-        at,
-        letter: letter.to_owned(),
-    }
 }
 
 /// A slack line of the given length between two points, as a parabola that hangs towards −y.

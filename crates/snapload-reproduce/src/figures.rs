@@ -9,7 +9,7 @@ use crate::study::{CaseRuns, Reading, Study};
 use crate::tables::reason;
 use curves::{critical_rows, norm_rows};
 use snapload::Trajectory;
-use snapload_figures::{Layer, Picture, Plot, Point, Range, RunPlots, Width, draw};
+use snapload_figures::{Layer, Picture, Plot, Point, Range, RunPlot, RunPlots, Width, draw};
 
 /// A figure of the report.
 #[derive(Clone, Debug)]
@@ -225,17 +225,17 @@ fn of_run(
         View::Path(_) => (
             "Path of the body's centre",
             "x and y in motion.csv; trajectory.svg",
-            plots.trajectory(),
+            plots.plot(RunPlot::Trajectory),
         ),
         View::Rotation => (
             "Rotation against time",
             "t and theta in motion.csv; rotation.svg",
-            plots.rotation(),
+            plots.plot(RunPlot::Rotation),
         ),
         View::Snaps => (
             "Normal velocity before each snap against time",
             "t and v_n in impacts.csv; snaps.svg",
-            plots.snaps(),
+            plots.plot(RunPlot::Snaps),
         ),
     };
     if let View::Path(scale) = view {
@@ -325,7 +325,7 @@ fn example(
         run.end().t
     );
     let place = "x and y in motion.csv; trajectory.svg";
-    let plot = RunPlots::new(run).trajectory();
+    let plot = RunPlots::new(run).plot(RunPlot::Trajectory);
     finish(number, caption, written(number, code, place), plot)
 }
 
@@ -342,13 +342,13 @@ fn csv(plot: &Plot) -> String {
     };
     for layer in &plot.layers {
         match layer {
-            Layer::Line { pieces, legend, .. } => {
+            Layer::Line(pieces, _, legend) => {
                 for (k, points) in pieces.iter().enumerate() {
                     add(if legend.is_empty() { "line" } else { legend }, k, points);
                 }
             }
-            Layer::Markers { points, legend, .. } => add(legend, 0, points),
-            Layer::Boundary { points, label } => add(label, 0, points),
+            Layer::Markers(points, .., legend) => add(legend, 0, points),
+            Layer::Boundary(points, label) => add(label, 0, points),
             _ => {}
         }
     }

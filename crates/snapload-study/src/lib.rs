@@ -10,6 +10,8 @@ mod error;
 mod grid;
 mod list;
 mod metadata;
+#[cfg(feature = "pictures")]
+mod picture;
 mod plan;
 mod rows;
 mod sobol;
@@ -23,6 +25,8 @@ pub use error::StudyError;
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
+#[cfg(feature = "pictures")]
+pub use picture::StudyPicture;
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
 pub use rows::{Row, rows};
 pub use sobol::Sobol;

@@ -6,16 +6,8 @@ use crate::study::{Both, CriticalCurve, NormCurve, Reading, Study};
 use snapload::Outcome;
 use snapload_figures::{Axis, Colour, Dash, Layer, Plot, Point, Range, Shape, Stroke};
 
-const CHAPTER: Stroke = Stroke {
-    colour: Colour::Blue,
-    width_pt: 0.9,
-    dash: Dash::Solid,
-};
-const SLIDING_ON: Stroke = Stroke {
-    colour: Colour::Vermilion,
-    width_pt: 0.9,
-    dash: Dash::Dashed,
-};
+const CHAPTER: Stroke = Stroke::new(Colour::BLUE, 0.9, Dash::Solid);
+const SLIDING_ON: Stroke = Stroke::new(Colour::VERMILION, 0.9, Dash::Dashed);
 
 fn stroke(reading: Reading) -> Stroke {
     match reading {
@@ -65,11 +57,8 @@ pub(super) fn critical_rows(study: &Study) -> Result<Vec<Row>, ReportError> {
 fn critical(number: &'static str, curve: &CriticalCurve) -> Result<Figure, ReportError> {
     let layer = |reading: Reading| {
         let points = curve.points.of(reading).iter();
-        Layer::Line {
-            pieces: vec![points.filter_map(|(x, f)| Some([*x, (*f)?])).collect()],
-            stroke: stroke(reading),
-            legend: reading.words().to_owned(),
-        }
+        let points = points.filter_map(|(x, f)| Some([*x, (*f)?])).collect();
+        Layer::Line(vec![points], stroke(reading), reading.words().to_owned())
     };
     let (symbol, name, (from, to), values) = match curve.key {
         "e" => ("*e*", "the restitution e", (0.3, 1.0), "seq 30 100"),
@@ -82,8 +71,8 @@ fn critical(number: &'static str, curve: &CriticalCurve) -> Result<Figure, Repor
     };
     let plot = Plot {
         description: format!("Critical force against {name}"),
-        x: axis(symbol, Range::AtLeast(from, to)),
-        y: axis("critical force (nondimensional)", Range::AtLeast(0.0, 0.0)),
+        x: Axis::new(symbol, Range::AtLeast(from, to)),
+        y: Axis::new("critical force (nondimensional)", Range::AtLeast(0.0, 0.0)),
         layers: Reading::BOTH.map(layer).to_vec(),
         ..Plot::default()
     };
@@ -190,9 +179,9 @@ fn norm(
     let largest = values.fold(0.0, f64::max);
     let plot = Plot {
         description: format!("{what} against force amplitude"),
-        x: axis("*f*ₒ (nondimensional)", Range::AtLeast(0.0, 0.0)),
+        x: Axis::new("*f*ₒ (nondimensional)", Range::AtLeast(0.0, 0.0)),
         // With room for a whole marker at the top.
-        y: axis(figure.axis, Range::AtLeast(0.0, 1.08 * largest)),
+        y: Axis::new(figure.axis, Range::AtLeast(0.0, 1.08 * largest)),
         layers: norm_layers(figure, &curve.points),
         ..Plot::default()
     };
@@ -226,27 +215,16 @@ fn norm_layers(figure: &NormFigure, points: &Both<Vec<(f64, Outcome)>>) -> Vec<L
         let both = chapter.iter().filter(|point| sliding_on.contains(point));
         let [first, second] = Reading::BOTH;
         for (points, colour, words) in [
-            (both.copied().collect(), Colour::Black, "both readings"),
+            (both.copied().collect(), Colour::BLACK, "both readings"),
             (only(chapter, sliding_on), CHAPTER.colour, first.words()),
             (only(sliding_on, chapter), SLIDING_ON.colour, second.words()),
         ] {
             if !points.is_empty() {
-                layers.push(Layer::Markers {
-                    points,
-                    shape: if k == 0 { Shape::Circle } else { Shape::Cross },
-                    colour,
-                    legend: format!("{symbol}, {words}"),
-                });
+                let shape = if k == 0 { Shape::Circle } else { Shape::Cross };
+                let words = format!("{symbol}, {words}");
+                layers.push(Layer::Markers(points, shape, colour, words));
             }
         }
     }
     layers
-}
-
-fn axis(label: &str, range: Range) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        range,
-        ..Axis::default()
-    }
 }

@@ -9,7 +9,7 @@ use crate::structure::{Structure, Water};
 use snapload::Playback;
 use snapload_figures::{
     Axis, Cell, Colour, Dash, FigureError, Layer, Map, Picture, Plot, Point, Range, Shape, Stroke,
-    TickStyle, Width, draw, draw_map,
+    Width, draw,
 };
 
 /// Points of a line over time.
@@ -18,21 +18,13 @@ const POINTS: u32 = 12_000;
 const CLOSE: f64 = 6.0;
 
 const INKS: [Colour; 6] = [
-    Colour::Blue,
-    Colour::Vermilion,
-    Colour::Green,
-    Colour::Purple,
-    Colour::Orange,
-    Colour::Grey,
+    Colour::BLUE,
+    Colour::VERMILION,
+    Colour::GREEN,
+    Colour::PURPLE,
+    Colour::ORANGE,
+    Colour::GREY,
 ];
-
-fn axis(label: &str, range: Range) -> Axis {
-    Axis {
-        label: label.to_owned(),
-        range,
-        ticks: TickStyle::Decimal,
-    }
-}
 
 /// The plots with their captions.
 pub(super) fn all(assessment: &Assessment) -> Result<Vec<(Picture, String)>, FigureError> {
@@ -99,23 +91,18 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
         last = Some(kind);
     });
     let [slack, taut] = pieces;
-    let line = |pieces, colour, width_pt, legend: &str| Layer::Line {
-        pieces,
-        stroke: Stroke {
-            colour,
-            width_pt,
-            dash: Dash::Solid,
-        },
-        legend: legend.to_owned(),
+    let line = |pieces, colour, width_pt, legend: &str| {
+        let stroke = Stroke::new(colour, width_pt, Dash::Solid);
+        Layer::Line(pieces, stroke, legend.to_owned())
     };
     Plot {
         description: "Path of the body's centre, z against x".to_owned(),
-        x: axis("*x* (m)", Range::Auto),
-        y: axis("*z* (m)", Range::Auto),
+        x: Axis::new("*x* (m)", Range::Auto),
+        y: Axis::new("*z* (m)", Range::Auto),
         equal_scale: true,
         layers: vec![
-            line(slack, Colour::Black, 0.5, "no line taut"),
-            line(taut, Colour::Blue, 1.0, "a line taut"),
+            line(slack, Colour::BLACK, 0.5, "no line taut"),
+            line(taut, Colour::BLUE, 1.0, "a line taut"),
         ],
         ..Plot::default()
     }
@@ -124,8 +111,8 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
 fn over_time(description: &str, label: &str, range: Range, layers: Vec<Layer>) -> Plot {
     Plot {
         description: description.to_owned(),
-        x: axis("*t* (s)", Range::Auto),
-        y: axis(label, range),
+        x: Axis::new("*t* (s)", Range::Auto),
+        y: Axis::new(label, range),
         layers,
         ..Plot::default()
     }
@@ -188,11 +175,7 @@ impl PeakScale {
 fn peaks(assessment: &Assessment) -> Plot {
     let structure = &assessment.prepared.structure;
     let scale = PeakScale::of(assessment);
-    let shade = Layer::Shade {
-        from: f64::NEG_INFINITY,
-        to: structure.transient_s,
-        legend: String::new(),
-    };
+    let shade = Layer::Shade(f64::NEG_INFINITY, structure.transient_s, String::new());
     let mut layers = vec![shade];
     for line in 0..structure.lines.len() {
         let of_line = assessment
@@ -200,22 +183,12 @@ fn peaks(assessment: &Assessment) -> Plot {
             .iter()
             .filter(|snap| snap.counts() && snap.line == line);
         let points = of_line.map(|snap| [snap.t_s, scale.value(snap)]);
-        layers.push(Layer::Markers {
-            points: points.collect(),
-            shape: if line.is_multiple_of(2) {
-                Shape::Cross
-            } else {
-                Shape::Circle
-            },
-            colour: INKS[line % INKS.len()],
-            legend: format!("line {}", line + 1),
-        });
+        let shape = [Shape::Cross, Shape::Circle][line % 2];
+        let (colour, name) = (INKS[line % INKS.len()], format!("line {}", line + 1));
+        layers.push(Layer::Markers(points.collect(), shape, colour, name));
     }
     if let Some(load) = scale.limit() {
-        layers.push(Layer::Horizontal {
-            y: load,
-            label: "breaks".to_owned(),
-        });
+        layers.push(Layer::Horizontal(load, "breaks".to_owned()));
     }
     let label = scale.label();
     let mut plot = over_time(
@@ -249,22 +222,11 @@ fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
             joined[line] = taut;
         }
     });
-    let layers = pieces
-        .into_iter()
-        .enumerate()
-        .map(|(line, pieces)| Layer::Line {
-            pieces,
-            stroke: Stroke {
-                colour: INKS[line % INKS.len()],
-                width_pt: 0.9,
-                dash: if line.is_multiple_of(2) {
-                    Dash::Solid
-                } else {
-                    Dash::Dashed
-                },
-            },
-            legend: format!("line {}", line + 1),
-        });
+    let layers = pieces.into_iter().enumerate().map(|(line, pieces)| {
+        let dash = [Dash::Solid, Dash::Dashed][line % 2];
+        let stroke = Stroke::new(INKS[line % INKS.len()], 0.9, dash);
+        Layer::Line(pieces, stroke, format!("line {}", line + 1))
+    });
     let mut plot = over_time(
         "Tension of each line while it is taut",
         "tension (kN)",
@@ -280,11 +242,7 @@ fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
     looks(assessment, window, |t, motion| {
         points.push([t, -motion.state.theta.to_degrees()])
     });
-    let line = Layer::Line {
-        pieces: vec![points],
-        stroke: Stroke::default(),
-        legend: String::new(),
-    };
+    let line = Layer::Line(vec![points], Stroke::default(), String::new());
     let mut plot = over_time(
         "Rotation of the body against time",
         "rotation (degrees)",
@@ -305,22 +263,26 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
         None => Cell::Class(0),
         Some(value) => Cell::Value(*value),
     });
+    let label = if known {
+        "utilisation"
+    } else {
+        "fastest snap (m/s)"
+    };
     let map = Map {
-        description: "Result for other waves, by period and height".to_owned(),
-        x_label: "*T* (s)".to_owned(),
         x: scan.periods_s.clone(),
-        y_label: "*H* (m)".to_owned(),
         y: scan.heights_m.clone(),
         cells: cells.collect(),
-        value_label: if known {
-            "utilisation".to_owned()
-        } else {
-            "fastest snap (m/s)".to_owned()
-        },
+        value_label: label.to_owned(),
         classes: vec!["turned over or touched the floor".to_owned()],
-        ..Map::default()
     };
-    draw_map("scan", Width::Column, &map)
+    let plot = Plot {
+        description: "Result for other waves, by period and height".to_owned(),
+        x: Axis::new("*T* (s)", Range::Auto),
+        y: Axis::new("*H* (m)", Range::Auto),
+        layers: vec![Layer::Map(map)],
+        ..Plot::default()
+    };
+    draw("scan", Width::Column, &[plot])
 }
 
 /// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often tensions are exceeded.
@@ -349,32 +311,22 @@ pub(super) fn of_seas(seas: &Seas) -> Result<Vec<(Picture, String)>, FigureError
         .enumerate()
         .map(|(rank, value)| [value / unit, reduced((rank as f64 + 0.56) / (count + 0.12))])
         .collect();
-    let mut layers = vec![Layer::Markers {
-        points,
-        shape: Shape::Circle,
-        colour: Colour::Blue,
-        legend: "records".to_owned(),
-    }];
+    let words = "records".to_owned();
+    let mut layers = vec![Layer::Markers(points, Shape::Circle, Colour::BLUE, words)];
     // The fit is for three hours; on this paper it stands where the records are.
     let judged = structure.duration_s - structure.transient_s;
     if let Some(fit) = fit.map(|fit| fit.over_times(judged / crate::THREE_HOURS_S)) {
         let ends = [0.01, 0.995].map(|p| [fit.quantile(p).value / unit, reduced(p)]);
-        layers.push(Layer::Line {
-            pieces: vec![ends.to_vec()],
-            stroke: Stroke::default(),
-            legend: "Gumbel fit".to_owned(),
-        });
+        let words = "Gumbel fit".to_owned();
+        layers.push(Layer::Line(vec![ends.to_vec()], Stroke::default(), words));
     }
     for (p, words) in [(0.5, "50 %"), (0.9, "90 %"), (0.99, "99 %")] {
-        layers.push(Layer::Horizontal {
-            y: reduced(p),
-            label: words.to_owned(),
-        });
+        layers.push(Layer::Horizontal(reduced(p), words.to_owned()));
     }
     let gumbel = Plot {
         description: "Largest snap of each record on Gumbel's paper".to_owned(),
-        x: axis(label, Range::Auto),
-        y: axis("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
+        x: Axis::new(label, Range::Auto),
+        y: Axis::new("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
         layers,
         ..Plot::default()
     };
@@ -386,13 +338,13 @@ pub(super) fn of_seas(seas: &Seas) -> Result<Vec<(Picture, String)>, FigureError
         .collect();
     let often = Plot {
         description: "How often a snap is harder than a value, in three hours".to_owned(),
-        x: axis(label, Range::AtLeast(0.0, 0.0)),
-        y: axis("log₁₀ of snaps in 3 h", Range::Auto),
-        layers: vec![Layer::Line {
-            pieces: vec![exceeded],
-            stroke: Stroke::default(),
-            legend: String::new(),
-        }],
+        x: Axis::new(label, Range::AtLeast(0.0, 0.0)),
+        y: Axis::new("log₁₀ of snaps in 3 h", Range::Auto),
+        layers: vec![Layer::Line(
+            vec![exceeded],
+            Stroke::default(),
+            String::new(),
+        )],
         note: if all.is_empty() {
             "no line snapped".to_owned()
         } else {

@@ -1,0 +1,225 @@
+//! A quick picture of a study: a line over one key, or a map over two.
+
+use crate::error::StudyError;
+use crate::plan::Axis;
+use crate::table::{Column, columns};
+use crate::whole::{Shown, read_shown};
+use snapload::{Value, key_named};
+use snapload_figures::{
+    Axis as PlotAxis, Cell, Layer, Map, Picture, Plot, Range, Stroke, Width, draw,
+};
+use std::path::Path;
+
+/// The most cells of a map, and points of a line: more are not seen, and make the file large.
+const MOST_CELLS: u64 = 250_000;
+
+/// A picture that can be drawn of a study.
+pub struct StudyPicture {
+    axes: Vec<Axis>,
+    column: &'static Column,
+}
+
+impl StudyPicture {
+    /// Over the axes of a grid: rho1 as a line over one, the end of the runs as a map over two.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] unless one or two axes have several values, which are numbers.
+    pub fn over(axes: impl IntoIterator<Item = Axis>) -> Result<Self, StudyError> {
+        let axes: Vec<Axis> = axes.into_iter().filter(|axis| axis.count() > 1).collect();
+        let column = match axes.len() {
+            1 => named("rho1")?,
+            2 => named("end")?,
+            _ => {
+                return Err(StudyError::Input(
+                    "a picture needs a grid over one or two keys; read the file with pandas or polars for others"
+                        .to_owned(),
+                ));
+            }
+        };
+        match axes.iter().find(|axis| number(&axis.value(0)).is_none()) {
+            Some(axis) => Err(StudyError::Input(format!(
+                "{} holds no numbers to draw along",
+                axis.key()
+            ))),
+            None => Ok(Self { axes, column }),
+        }
+    }
+
+    /// The same of another column.
+    ///
+    /// # Errors
+    /// [`StudyError::Input`] if there is no such column, or it can not be drawn as a line.
+    pub fn showing(self, name: &str) -> Result<Self, StudyError> {
+        let column = named(name)?;
+        if self.axes.len() == 1 && !column.is_number() {
+            return Err(StudyError::Input(format!(
+                "{name} holds no numbers to draw a line of; choose another column"
+            )));
+        }
+        Ok(Self { column, ..self })
+    }
+
+    /// Draws it from the file of the study.
+    ///
+    /// # Errors
+    /// [`StudyError::Failed`] if the file can not be read.
+    pub fn draw(&self, file: &Path) -> Result<Picture, StudyError> {
+        let cannot = |error| StudyError::Failed(format!("the picture can not be drawn: {error}"));
+        let plot = match &self.axes[..] {
+            [x] => self.line(file, x)?,
+            [x, y, ..] => self.map(file, x, y)?,
+            [] => Plot::default(),
+        };
+        draw(self.column.name, Width::Page, &[plot]).map_err(cannot)
+    }
+
+    fn line(&self, file: &Path, x: &Axis) -> Result<Plot, StudyError> {
+        let thinned = Thinned::of(x, MOST_CELLS);
+        let mut cells = Vec::new();
+        self.read(file, |row, cell| {
+            if row.is_multiple_of(thinned.step) {
+                cells.push(cell);
+            }
+        })?;
+        let value = |cell: &Cell| match cell {
+            Cell::Value(value) => *value,
+            _ => f64::NAN,
+        };
+        let points = thinned.values.iter().zip(&cells);
+        let points = points.map(|(x, cell)| [*x, value(cell)]).collect();
+        let mut layers = shades(&thinned.values, &cells);
+        layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
+        // Where there is no legal case, too.
+        let [first, last] = [0, x.count() - 1].map(|k| number(&x.value(k)).unwrap_or_default());
+        Ok(Plot {
+            description: format!("{} against {}", self.column.name, x.key()),
+            x: PlotAxis::new(key_label(x.key()), Range::AtLeast(first, last)),
+            y: PlotAxis::new(self.label(), Range::Auto),
+            layers,
+            ..Plot::default()
+        })
+    }
+
+    fn map(&self, file: &Path, x: &Axis, y: &Axis) -> Result<Plot, StudyError> {
+        let side = MOST_CELLS.isqrt();
+        // An axis that needs less than its share leaves the rest to the other.
+        let of_x = Thinned::of(x, side.max(MOST_CELLS / y.count().min(side)));
+        let of_y = Thinned::of(y, MOST_CELLS / of_x.values.len() as u64);
+        let mut cells = Vec::new();
+        self.read(file, |row, cell| {
+            let (i, j) = (row / y.count(), row % y.count());
+            if i.is_multiple_of(of_x.step) && j.is_multiple_of(of_y.step) {
+                cells.push(cell);
+            }
+        })?;
+        let words = self.column.words().into_iter();
+        let map = Map {
+            x: of_x.values,
+            y: of_y.values,
+            cells,
+            value_label: self.label(),
+            classes: words.map(|word| word.replace('_', " ")).collect(),
+        };
+        Ok(Plot {
+            description: format!("{} over {} and {}", self.column.name, x.key(), y.key()),
+            x: PlotAxis::new(key_label(x.key()), Range::Auto),
+            y: PlotAxis::new(key_label(y.key()), Range::Auto),
+            layers: vec![Layer::Map(map)],
+            ..Plot::default()
+        })
+    }
+
+    fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell)) -> Result<(), StudyError> {
+        let words = self.column.words();
+        read_shown(file, self.column, |row, shown| {
+            let cell = match shown {
+                Shown::Number(value) => Cell::Value(value),
+                Shown::Word(word) => {
+                    let class = words.iter().position(|known| *known == word);
+                    class.map_or(Cell::Empty, Cell::Class)
+                }
+                Shown::Nothing => Cell::Empty,
+                Shown::Fault => Cell::Fault,
+            };
+            visit(row, cell);
+        })
+    }
+
+    fn label(&self) -> String {
+        with_unit(self.column.symbol, self.column.unit)
+    }
+}
+
+fn named(name: &str) -> Result<&'static Column, StudyError> {
+    let column = columns().iter().find(|column| column.name == name);
+    column.ok_or_else(|| {
+        let known: Vec<&str> = columns().iter().map(|column| column.name).collect();
+        let known = known.join(", ");
+        StudyError::Input(format!(
+            "there is no column {name:?}\nthe columns are {known}"
+        ))
+    })
+}
+
+/// The values of an axis that are drawn, and every how many-th these are.
+struct Thinned {
+    step: u64,
+    values: Vec<f64>,
+}
+
+impl Thinned {
+    fn of(axis: &Axis, most: u64) -> Self {
+        let step = axis.count().div_ceil(most.max(1));
+        let drawn = (0..axis.count()).step_by(step as usize);
+        let values = drawn.filter_map(|k| number(&axis.value(k))).collect();
+        Self { step, values }
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => Some(*number),
+        Value::Integer(number) => Some(*number as f64),
+        Value::Bool(_) | Value::Text(_) => None,
+    }
+}
+
+/// Grey where there is no legal case: half the way to the neighbours.
+fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
+    let half = match at {
+        [a, b, ..] => (b - a).abs() / 2.0,
+        _ => 0.0,
+    };
+    let along: Vec<(f64, bool)> = (at.iter().zip(cells))
+        .map(|(x, cell)| (*x, *cell == Cell::Fault))
+        .collect();
+    let runs = along.chunk_by(|a, b| a.1 == b.1);
+    let shade = |run: &[(f64, bool)]| match run {
+        [(from, true), ..] => {
+            let to = run[run.len() - 1].0;
+            let (low, high) = (from.min(to) - half, from.max(to) + half);
+            Some(Layer::Shade(low, high, "no legal case".to_owned()))
+        }
+        _ => None,
+    };
+    runs.filter_map(shade).collect()
+}
+
+fn key_label(name: &str) -> String {
+    let Ok(key) = key_named(name) else {
+        return name.to_owned();
+    };
+    // As the report's figures have it: the f of f_o alone in italics.
+    let symbol = match key.symbol.split_once("_o") {
+        Some((letter, "")) => format!("*{letter}*ₒ"),
+        _ => format!("*{}*", key.symbol),
+    };
+    with_unit(&symbol, key.unit)
+}
+
+fn with_unit(symbol: &str, unit: &str) -> String {
+    match unit {
+        "" | "1" => symbol.to_owned(),
+        unit => format!("{symbol} ({unit})"),
+    }
+}
