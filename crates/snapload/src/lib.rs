@@ -53,5 +53,6 @@ pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};
 pub use motion::simulation::{Simulation, Step};
 pub use motion::start::{START_TOLERANCE, StartError};
-pub use motion::tangent::{Deviation, Matrix, StepMap, Tangent};
+pub use motion::step_map::{Deviation, Matrix, StepMap};
+pub use motion::tangent::Tangent;
 pub use motion::trajectory::{End, ModeInterval, Norms, Trajectory};

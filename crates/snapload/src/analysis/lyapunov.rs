@@ -1,6 +1,6 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
-use crate::motion::tangent::{Block, StepMap};
+use crate::motion::step_map::{Block, StepMap};
 
 /// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani, Giorgilli &
 /// Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their lengths add up to the

@@ -4,7 +4,8 @@ use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
-use crate::motion::complementarity::{SHARED, complementary, independent, least_norm, solve};
+use crate::motion::complementarity::{complementary, independent, solve};
+use crate::motion::least_norm::{SHARED, least_norm};
 
 /// The mode of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -152,41 +153,4 @@ fn problem<T: Real>(
     let (normals, inverse_inertia) = (system.normals(state, set), system.body.inverse_inertia());
     let w = move |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
     (w, load)
-}
-
-/// Moves the body by the least distance in the mass metric so that the gaps of a set close.
-///
-/// As many Newton steps as a start's tolerance of 1e-9 may need.
-#[inline(always)]
-pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
-    let inverse_inertia = system.body.inverse_inertia();
-    for _ in 0..T::NEWTON_STEPS {
-        let normals = system.normals(state, set);
-        let mut distance = [T::ZERO; MAX_CABLES];
-        for cable in set.iter() {
-            let tether = &system.cables[cable];
-            distance[cable] = tether.gap(state) / (tether.length() * 2.0);
-        }
-        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-        let shift = solve(set, w, &distance);
-        for cable in set.iter() {
-            normals[cable].displace(state, shift[cable], inverse_inertia);
-        }
-    }
-}
-
-/// Takes the normal velocities of a set to zero by the least change in the mass metric.
-#[inline(always)]
-pub(crate) fn project_velocity<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
-    let inverse_inertia = system.body.inverse_inertia();
-    let normals = system.normals(state, set);
-    let mut velocity = [T::ZERO; MAX_CABLES];
-    for cable in set.iter() {
-        velocity[cable] = normals[cable].velocity(state);
-    }
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-    let kick = solve(set, w, &velocity);
-    for cable in set.iter() {
-        normals[cable].apply_impulse(state, kick[cable], inverse_inertia);
-    }
 }

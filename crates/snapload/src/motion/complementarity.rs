@@ -7,10 +7,6 @@ use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 const DEPENDENT: f64 = 1e-12;
 /// Of a body in the plane: more cables than that depend on each other, whatever rounding says of their pivots.
 const FREEDOMS: usize = 3;
-/// Of so many cables at most every set is tried.
-const MOST_TRIED: usize = 6;
-/// A normal velocity below this part of the largest is the same.
-pub(crate) const SHARED: f64 = 1e-9;
 /// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
 const SLANTED: f64 = 0.1;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
@@ -235,106 +231,6 @@ pub(crate) fn complementary<T: Real>(
         *value = value.max(T::ZERO);
     }
     (z, pulling.iter().filter(|&i| z[i] > T::ZERO).collect())
-}
-
-/// Of all impulses z ≥ 0 that act like `z` on the body, those of the least norm.
-///
-/// Where more cables close at once than the body has freedoms for, W is singular: the motion after the impact is
-/// unique, who carries how much of it is not. [`complementary`] finds a solution with as few cables as will do; here
-/// the load is spread over all `held` cables that the solution leaves without a normal velocity of their own. For
-/// each set S of them the least norm is z = W y with W W y = W z over S, since the rows of G that z may use are
-/// those of W's range; of the sets without a negative impulse the one of least norm is the answer.
-///
-/// Sets without dependent cables are returned as they are. Where one of more than [`MOST_TRIED`] would have to push, not
-/// every set is tried, and the norm may be more than the least.
-pub(crate) fn least_norm<T: Real>(
-    held: TautSet,
-    w: impl Fn(usize, usize) -> T,
-    q: &PerCable<T>,
-    z: PerCable<T>,
-) -> PerCable<T> {
-    if held.len() < 2 {
-        return z;
-    }
-    let product =
-        |i: usize, z: &PerCable<T>| held.iter().fold(T::ZERO, |sum, j| sum + w(i, j) * z[j]);
-    let size = held
-        .iter()
-        .fold(T::ZERO, |size, i| size.max(z[i] * w(i, i)));
-    let close = size * T::from_decimal(SHARED);
-    let tight: TautSet = held
-        .iter()
-        .filter(|&i| (product(i, &z) - q[i]).abs() <= close)
-        .collect();
-    if independent(tight, &w) {
-        return z;
-    }
-    let does_the_same = |shared: &PerCable<T>| {
-        held.iter()
-            .all(|i| (product(i, shared) - product(i, &z)).abs() <= close)
-    };
-    let share = |set: TautSet| {
-        let shared = spread(set, &w, &z, &product);
-        let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
-        (pulls && does_the_same(&shared)).then_some(shared)
-    };
-    // No set can do better than all of them, where none of all has to push.
-    if let Some(shared) = share(tight) {
-        return shared;
-    }
-    let norm = |z: &PerCable<T>| tight.iter().fold(T::ZERO, |sum, i| sum + z[i] * z[i]);
-    let shorter = |best: PerCable<T>, shared: PerCable<T>| {
-        if norm(&shared) < norm(&best) {
-            shared
-        } else {
-            best
-        }
-    };
-    if tight.len() <= MOST_TRIED {
-        let sets = tight.subsets().filter(|set| !set.is_empty());
-        return sets.filter_map(share).fold(z, shorter);
-    }
-    // Of more cables the one that would have to push hardest leaves, one after the other.
-    let mut set = tight;
-    while set.len() > 1 {
-        let shared = spread(set, &w, &z, &product);
-        let pushes_hardest = set
-            .iter()
-            .reduce(|a, b| if shared[b] < shared[a] { b } else { a });
-        match pushes_hardest {
-            Some(cable) if shared[cable] < T::ZERO => set = set.without(cable),
-            _ => {
-                return if does_the_same(&shared) {
-                    shorter(z, shared)
-                } else {
-                    z
-                };
-            }
-        }
-    }
-    z
-}
-
-/// The z = W y over a set that acts on it like `z`, with one step of refinement.
-fn spread<T: Real>(
-    set: TautSet,
-    w: &impl Fn(usize, usize) -> T,
-    z: &PerCable<T>,
-    product: &impl Fn(usize, &PerCable<T>) -> T,
-) -> PerCable<T> {
-    let square = |i: usize, j: usize| set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * w(k, j));
-    let mut shared = [T::ZERO; MAX_CABLES];
-    for _ in 0..2 {
-        let mut left = [T::ZERO; MAX_CABLES];
-        for i in set.iter() {
-            left[i] = product(i, z) - product(i, &shared);
-        }
-        let y = solve(set, square, &left);
-        for i in set.iter() {
-            shared[i] += set.iter().fold(T::ZERO, |sum, k| sum + w(i, k) * y[k]);
-        }
-    }
-    shared
 }
 
 /// Whether no cable's constraint depends on those of the others.

@@ -4,7 +4,8 @@ use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
-use crate::motion::complementarity::{complementary, least_norm};
+use crate::motion::complementarity::complementary;
+use crate::motion::least_norm::least_norm;
 
 /// A cable snapping taut.
 #[derive(Clone, Copy, Debug, PartialEq)]

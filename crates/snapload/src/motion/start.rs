@@ -6,8 +6,9 @@ use crate::model::rules::{Limit, Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
-use crate::motion::active_set::{ActiveSet, project_position, project_velocity, taut_next};
+use crate::motion::active_set::{ActiveSet, taut_next};
 use crate::motion::contact::{Contact, Contacts};
+use crate::motion::projection::{project_position, project_velocity};
 
 /// A start's gap counts as closed within this of zero, and its normal velocity as zero
 /// (docs/model.md section 5).
@@ -56,42 +57,10 @@ pub(crate) fn prepare<T: Real>(
     t: T,
     state: &State<T>,
 ) -> Result<Start<T>, StartError> {
-    if system.cables.len() > MAX_CABLES {
-        return Err(StartError::TooManyCables);
-    }
-    let numbers = [
-        t,
-        rules.t_end,
-        system.restitution,
-        state.x,
-        state.y,
-        state.theta,
-        state.vx,
-        state.vy,
-        state.vtheta,
-    ];
-    let lengths = system.cables.iter().map(Cable::length);
-    if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
-        return Err(StartError::NotFinite);
-    }
-    if !system.contact_law().is_passive() {
-        return Err(StartError::Restitution);
-    }
+    check_numbers(system, rules, t, state)?;
     let stop = stop_at_start(system, rules, t, state)?;
+    let closed = closed_cables(system, state)?;
     let tolerance = T::from_decimal(START_TOLERANCE);
-    let mut closed = TautSet::SLACK;
-    for (cable, tether) in system.cables.iter().enumerate() {
-        let gap = tether.gap(state);
-        if gap > tolerance {
-            return Err(StartError::CableTooShort {
-                cable,
-                gap: gap.to_f64(),
-            });
-        }
-        if gap >= -tolerance {
-            closed = closed.with(cable);
-        }
-    }
     let mut state = *state;
     project_position(system, &mut state, closed);
     let velocity =
@@ -124,6 +93,56 @@ pub(crate) fn prepare<T: Real>(
         contacts,
         stop: stop.or(settled),
     })
+}
+
+/// Whether the system has no more cables than there is room for, and whether all that decides the run is a number.
+fn check_numbers<T: Real>(
+    system: &System<T>,
+    rules: &Rules<T>,
+    t: T,
+    state: &State<T>,
+) -> Result<(), StartError> {
+    if system.cables.len() > MAX_CABLES {
+        return Err(StartError::TooManyCables);
+    }
+    let numbers = [
+        t,
+        rules.t_end,
+        system.restitution,
+        state.x,
+        state.y,
+        state.theta,
+        state.vx,
+        state.vy,
+        state.vtheta,
+    ];
+    let lengths = system.cables.iter().map(Cable::length);
+    if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
+        return Err(StartError::NotFinite);
+    }
+    if !system.contact_law().is_passive() {
+        return Err(StartError::Restitution);
+    }
+    Ok(())
+}
+
+/// The cables that count as closed.
+fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSet, StartError> {
+    let tolerance = T::from_decimal(START_TOLERANCE);
+    let mut closed = TautSet::SLACK;
+    for (cable, tether) in system.cables.iter().enumerate() {
+        let gap = tether.gap(state);
+        if gap > tolerance {
+            return Err(StartError::CableTooShort {
+                cable,
+                gap: gap.to_f64(),
+            });
+        }
+        if gap >= -tolerance {
+            closed = closed.with(cable);
+        }
+    }
+    Ok(closed)
 }
 
 /// A start on a limit stops at once; one beyond it is an error.

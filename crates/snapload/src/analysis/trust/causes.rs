@@ -7,7 +7,7 @@ use crate::model::rules::{Limit, Stop};
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
-use crate::motion::tangent::StepMap;
+use crate::motion::step_map::StepMap;
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;

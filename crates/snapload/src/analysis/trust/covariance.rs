@@ -1,6 +1,6 @@
 //! The spread of deviations: independent ones, added up.
 
-use crate::motion::tangent::{Block, Deviation, combined};
+use crate::motion::step_map::{Block, Deviation, combined};
 
 /// How many parts the start and rounding have: as many as a deviation has components.
 const PARTS: usize = 7;

@@ -11,7 +11,8 @@ use crate::case::error::CaseError;
 use crate::case::value::Value;
 use crate::model::state::State;
 use crate::motion::simulation::{Simulation, Step};
-use crate::motion::tangent::{Block, Deviation, StepMap, Tangent, combined};
+use crate::motion::step_map::{Block, Deviation, StepMap, combined};
+use crate::motion::tangent::Tangent;
 
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;

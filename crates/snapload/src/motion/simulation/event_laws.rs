@@ -5,10 +5,11 @@ use crate::arithmetic::real::Real;
 use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
-use crate::motion::active_set::{ActiveSet, normal_acceleration, project_velocity, taut_next};
+use crate::motion::active_set::{ActiveSet, normal_acceleration, taut_next};
 use crate::motion::bounce::UNMOVED;
 use crate::motion::contact::Contact;
 use crate::motion::impact::{ImpactResult, impact};
+use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
 /// A tension below this is one that pushes, far beyond what counts as the same \[F\].
