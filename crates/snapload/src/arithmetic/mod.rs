@@ -1,9 +1,10 @@
 //! The number types that the physics is written over, and power series of them.
 //!
-//! Doubles for the ordinary run ([`real`], [`elementary`]), several side by side ([`lane`]), numbers with their
+//! Doubles for the ordinary run ([`double`], [`elementary`]), several side by side ([`lane`]), numbers with their
 //! derivatives ([`dual`]), numbers of many digits ([`precise`]), truncated power series ([`polynomial`],
 //! [`vector_series`]), and work compiled for the processor at hand ([`processor`]).
 
+pub(crate) mod double;
 pub(crate) mod dual;
 pub(crate) mod elementary;
 pub(crate) mod lane;

@@ -268,6 +268,7 @@ pub(crate) fn independent<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::least_norm::least_norm;
     use proptest::prelude::*;
     use proptest::test_runner::RngSeed;
 
