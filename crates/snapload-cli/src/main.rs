@@ -1,6 +1,5 @@
 //! The command line of snapload: reads a case, runs it, and writes down what happened.
 mod assess;
-mod assess_json;
 mod case_input;
 mod cases;
 mod completions;
@@ -20,6 +19,7 @@ mod reproduce;
 mod run;
 mod seas;
 mod stage;
+mod structure_input;
 mod study_input;
 mod study_picture;
 mod sweep;

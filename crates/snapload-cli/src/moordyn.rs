@@ -1,22 +1,15 @@
 //! `snapload moordyn`: a structure's case from a MoorDyn file, and for MoorDyn.
-use crate::assess::{StructureArgs, told};
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
 use crate::json::room_of;
 use crate::stage::Stage;
+use crate::structure_input::StructureArgs;
 use clap::Subcommand;
-use snapload_structure::{Structure, moordyn};
+use snapload_structure::{Structure, moordyn, told};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-const EXAMPLES: &str = "\
-Examples:
-  snapload moordyn read lines.txt --set body.width=3 --set run.restitution=0.5 --out case.toml
-      a case of the file's body and lines, with what MoorDyn files do not have given by hand
-  snapload moordyn write docs/examples/cylinder.toml --out lines.txt
-      the example for MoorDyn: each line one segment, a spring with the damper of the restitution
-  snapload moordyn write cylinder.toml --segments 20 --out lines.txt
-      lines with mass, in twenty segments each";
+const EXAMPLES: &str = include_str!("../help/moordyn.txt").trim_ascii_end();
 
 /// From MoorDyn or for it.
 #[derive(clap::Args)]

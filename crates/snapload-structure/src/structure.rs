@@ -225,7 +225,7 @@ impl Structure {
             start_m: run.maybe_pair("start")?,
             max_snaps: run.count("max_snaps")?,
         };
-        crate::plausible::check(&structure)?;
+        check(&structure)?;
         Ok(structure)
     }
 
@@ -242,6 +242,11 @@ impl Structure {
     /// Coefficient of added mass C_a = m_a/(ρV).
     pub fn added_mass_coefficient(&self) -> f64 {
         self.body.added_mass_kg / self.displaced_mass_kg()
+    }
+
+    /// Whether every line has a stiffness, without which the tension in a snap is not known.
+    pub fn tensions_known(&self) -> bool {
+        self.lines.iter().all(|line| line.stiffness_n.is_some())
     }
 
     /// Mass that a snap has to stop, m + m_a \[kg\].
@@ -415,6 +420,57 @@ fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
             Ok((Water::Sea(sea), heading(fields)?))
         }
     }
+}
+
+/// A line may fall short of the drawn fairlead by this part of its length, as drawings are rounded;
+/// the body then rests a little lower.
+const ROUNDED: f64 = 0.02;
+
+/// Refuses what can not be.
+fn check(structure: &Structure) -> Result<(), CaseError> {
+    let body = &structure.body;
+    let depth = structure.site.depth_m;
+    let place = |[x, z]: [f64; 2]| format!("[{x}, {z}]");
+    if structure.net_buoyancy_n() <= 0.0 {
+        let allowed = format!(
+            "less than the {:.0} kg of water that the body displaces, so that its net buoyancy \
+             pulls on the lines",
+            structure.displaced_mass_kg()
+        );
+        return Err(CaseError::value("body.mass", body.mass_kg, allowed)
+            .with_hint("a body that sinks needs no mooring; check mass and displaced_volume"));
+    }
+    let [_, z] = body.position_m;
+    let shown = place(body.position_m);
+    let lowest = z - body.height_m / 2.0;
+    if lowest <= -depth {
+        let allowed = format!(
+            "a body above the floor; its lowest point would be at z = {lowest:.3}, the floor is at \
+             {:.3}",
+            -depth
+        );
+        return Err(CaseError::value("body.position", shown, allowed));
+    }
+    if z >= 0.0 {
+        let allowed = "a centre below the still water, z < 0";
+        return Err(CaseError::value("body.position", shown, allowed)
+            .with_hint("z is up from the still water, so depths are negative"));
+    }
+    for (index, line) in structure.lines.iter().enumerate() {
+        let path = |key: &str| format!("line.{}.{key}", index + 1);
+        let (anchor, fairlead) = (line.anchor_m, line.fairlead_m);
+        if anchor[1] < -depth {
+            let allowed = format!("an anchor on the floor or above it, z >= {}", -depth);
+            return Err(CaseError::value(&path("anchor"), place(anchor), allowed));
+        }
+        let reach = (fairlead[0] - anchor[0]).hypot(fairlead[1] - anchor[1]);
+        if reach > line.length_m * (1.0 + ROUNDED) {
+            let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");
+            return Err(CaseError::value(&path("length"), line.length_m, allowed)
+                .with_hint("make the line longer, or put the body or the anchor elsewhere"));
+        }
+    }
+    Ok(())
 }
 
 impl SpectrumShape {

@@ -1,7 +1,7 @@
 //! Forces and tensions against independent computations, and several lines along a run.
 
 use snapload::{Impact, Playback, State};
-use snapload_structure::{Prepared, SnapLaw, Structure, assess};
+use snapload_structure::{Prepared, Structure, assess, snaps};
 use std::f64::consts::PI;
 
 const EXAMPLE: &str = include_str!("../../../docs/examples/cylinder.toml");
@@ -85,7 +85,6 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
         prepared.structure.body.moment_of_inertia_kg_m2,
     );
     let scales = prepared.model.scales;
-    let law = SnapLaw::new(&prepared.structure, &prepared.rest, &prepared.model);
     // At rest line 1 is closed; the body comes with some velocity that closes it.
     let before = State {
         vx: -0.2,
@@ -107,7 +106,7 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
         before,
         after: before,
     };
-    let snap = law.snaps(&prepared.model.system, &[impact], |_| None)[0];
+    let snap = snaps(&prepared, &[impact], |_| None)[0];
 
     let line = &prepared.structure.lines[0];
     let rate = 1e12 / line.length_m;
@@ -246,7 +245,6 @@ fn lines_that_share_a_snap_share_its_energy() {
     let peaks = |text: &str| {
         let structure = Structure::parse("shared", text).unwrap();
         let prepared = Prepared::new(structure).unwrap();
-        let law = SnapLaw::new(&prepared.structure, &prepared.rest, &prepared.model);
         let system = &prepared.model.system;
         let before = State {
             vy: -0.2,
@@ -269,7 +267,7 @@ fn lines_that_share_a_snap_share_its_energy() {
                 }
             })
             .collect();
-        let snaps = law.snaps(system, &impacts, |_| None);
+        let snaps = snaps(&prepared, &impacts, |_| None);
         snaps
             .iter()
             .map(|snap| snap.energy_peak_n.unwrap() - prepared.rest.tension_n[snap.line])

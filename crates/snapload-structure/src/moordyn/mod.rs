@@ -1,5 +1,5 @@
-//! Cases from and for MoorDyn, a lumped-mass code of mooring lines (M. Hall and A. Goupee, *Ocean Engineering* 104
-//! (2015) 590), in the input format of its version 2 (docs/structures.md).
+//! Cases from and for MoorDyn, a lumped-mass code of mooring lines (M. Hall and A. Goupee, *Ocean
+//! Engineering* 104 (2015) 590), in the input format of its version 2 (docs/structures.md).
 
 mod planar;
 mod read;
@@ -8,6 +8,3 @@ mod write;
 
 pub use read::{Reading, read};
 pub use write::write;
-
-/// Lines of a file's front matter that begin so are keys of a case that MoorDyn has no place for.
-const KEY_LINE: &str = "snapload:";

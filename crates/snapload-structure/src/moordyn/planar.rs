@@ -1,8 +1,8 @@
-//! The things of a MoorDyn file: types, the body, points; and whether they lie in one vertical plane.
+//! The things of a MoorDyn file: types, the body, points; and whether they lie in one vertical
+//! plane.
 
 use super::sections::{Row, Section, Sections};
 use crate::InputError;
-use snapload::CaseError;
 use std::collections::BTreeMap;
 
 /// Places closer to the plane than this are in it \[m\].
@@ -11,9 +11,7 @@ const OFF_PLANE_M: f64 = 1e-6;
 /// What a point is made fast to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
-    /// The ground.
     Ground,
-    /// The body.
     Body,
 }
 
@@ -24,6 +22,9 @@ pub(super) struct Point {
     pub(super) place_m: [f64; 3],
 }
 
+/// The points of a file with their rows, by their numbers.
+pub(super) type Points<'a> = BTreeMap<&'a str, (&'a Row<'a>, Point)>;
+
 /// The body of a file.
 #[derive(Debug)]
 pub(super) struct Body<'a> {
@@ -31,37 +32,41 @@ pub(super) struct Body<'a> {
     pub(super) place_m: [f64; 3],
 }
 
-/// Refuses what lines straight from anchors to one body can not be.
+/// What lines straight from anchors to one body can not be: the section, what errors call it, what
+/// is allowed and what to do.
+const UNSUPPORTED: [(Section, &str, &str, &str); 4] = [
+    (
+        Section::Rods,
+        "RODS",
+        "no rods: snapload's lines run from anchors to points of one body",
+        "make a rod that is fixed to the body a part of it: its mass, inertia and volume, and Body1 \
+         points for its ends",
+    ),
+    (
+        Section::Failure,
+        "FAILURE",
+        "no failures: snapload says whether a line would break and goes on",
+        "take the section out; give the breaking load as line.1.breaking_load by --set",
+    ),
+    (
+        Section::Control,
+        "CONTROL",
+        "no control of line lengths",
+        "take the section out",
+    ),
+    (
+        Section::Loads,
+        "EXTERNAL LOADS",
+        "no external loads",
+        "take the section out; linear damping is body.linear_damping, given by --set",
+    ),
+];
+
+/// Refuses what is not supported.
 pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), InputError> {
-    let refused = [
-        (
-            Section::Rods,
-            "RODS",
-            "no rods: snapload's lines run from anchors to points of one body",
-            "make a rod that is fixed to the body a part of it: its mass, inertia and volume, and Body1 points for its ends",
-        ),
-        (
-            Section::Failure,
-            "FAILURE",
-            "no failures: snapload says whether a line would break and goes on",
-            "take the section out; give the breaking load as line.1.breaking_load by --set",
-        ),
-        (
-            Section::Control,
-            "CONTROL",
-            "no control of line lengths",
-            "take the section out",
-        ),
-        (
-            Section::Loads,
-            "EXTERNAL LOADS",
-            "no external loads",
-            "take the section out; linear damping is body.linear_damping, given by --set",
-        ),
-    ];
-    for (section, name, allowed, hint) in refused {
+    for (section, name, allowed, hint) in UNSUPPORTED {
         if let Some(row) = sections.rows(section).next() {
-            return Err(row.refuse_with(name, "(given)", allowed, hint));
+            return Err(row.refuse(name, "(given)", allowed, hint));
         }
     }
     Ok(())
@@ -74,48 +79,27 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, I
         return Ok(None);
     };
     if let Some(second) = rows.next() {
-        return Err(second.refuse_with(
-            "ID",
-            "(a further body)",
-            "one body",
-            "snapload moors one body; write a file for each, with lines to the ground",
-        ));
+        let hint = "snapload moors one body; write a file for each, with lines to the ground";
+        return Err(second.refuse("ID", "(a further body)", "one body", hint));
     }
-    let attachment = row.word(1, "Attachment")?;
-    if !matches!(
-        attachment.to_lowercase().as_str(),
-        "free" | "coupled" | "vessel"
-    ) {
-        return Err(row.refuse_with(
-            "Attachment",
-            attachment,
-            "Free or Coupled",
-            "snapload's body is free in x, z and rotation",
-        ));
+    let column = "Attachment";
+    let attachment = row.word(1, column)?;
+    if !["free", "coupled", "vessel"].contains(&attachment.to_lowercase().as_str()) {
+        let hint = "snapload's body is free in x, z and rotation";
+        return Err(row.refuse(column, attachment, "Free or Coupled", hint));
     }
-    let place_m = [
-        row.number(2, "X0")?,
-        row.number(3, "Y0")?,
-        row.number(4, "Z0")?,
-    ];
+    let place_m = row.place(2, ["X0", "Y0", "Z0"])?;
     for (index, column) in [(5, "r0"), (6, "p0"), (7, "y0")] {
-        if row.number(index, column)? != 0.0 {
-            return Err(row.refuse_with(
-                column,
-                row.word(index, column)?,
-                "0: the body is drawn upright",
-                "where it rests, turned or not, is found",
-            ));
-        }
+        let hint = "where it rests, turned or not, is found";
+        row.number(index, column)?;
+        row.zero(index, column, "0: the body is drawn upright", hint)?;
     }
-    if row.numbers(9, "CG")?.iter().any(|offset| *offset != 0.0) {
-        return Err(row.refuse_with(
-            "CG",
-            row.word(9, "CG")?,
-            "0: one centre of mass, buoyancy and added mass",
-            "if that is near enough, put the body's origin there, and take it from the z of its points",
-        ));
-    }
+    row.zero(
+        9,
+        "CG",
+        "0: one centre of mass, buoyancy and added mass",
+        "if that is near enough, put the body's origin there, and take it from the z of its points",
+    )?;
     Ok(Some(Body { row, place_m }))
 }
 
@@ -123,24 +107,20 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, I
 pub(super) fn points<'a>(
     sections: &'a Sections<'a>,
     body: Option<&Body<'_>>,
-) -> Result<BTreeMap<&'a str, (&'a Row<'a>, Point)>, InputError> {
+) -> Result<Points<'a>, InputError> {
     let mut points = BTreeMap::new();
     for row in sections.rows(Section::Points) {
         let id = row.word(0, "ID")?;
         if points.contains_key(id) {
-            return Err(row.refuse("ID", id, "a number that no other point has"));
+            return Err(row.refuse("ID", id, "a number that no other point has", ""));
         }
         let point = point(row, body)?;
-        for (index, column) in [(5, "Mass"), (6, "Volume"), (7, "CdA")] {
-            // Shorter rows are MoorDyn's to refuse.
-            if row.words.len() > index && row.number(index, column)? != 0.0 {
-                return Err(row.refuse_with(
-                    column,
-                    row.word(index, column)?,
-                    "0: points are places and no things",
-                    "give mass and volume of a point on the body to the body",
-                ));
-            }
+        // Shorter rows are MoorDyn's to refuse.
+        let given = [(5, "Mass"), (6, "Volume"), (7, "CdA")].into_iter();
+        for (index, column) in given.filter(|(index, _)| row.words.len() > *index) {
+            let hint = "give mass and volume of a point on the body to the body";
+            row.number(index, column)?;
+            row.zero(index, column, "0: points are places and no things", hint)?;
         }
         points.insert(id, (row, point));
     }
@@ -149,48 +129,39 @@ pub(super) fn points<'a>(
 
 fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, InputError> {
     let attachment = row.word(1, "Attachment")?;
-    let own = [
-        row.number(2, "X")?,
-        row.number(3, "Y")?,
-        row.number(4, "Z")?,
-    ];
+    let own = row.place(2, ["X", "Y", "Z"])?;
     let lower = attachment.to_lowercase();
     let number = lower
         .strip_prefix("body")
         .or_else(|| lower.strip_prefix('b'));
-    match (lower.as_str(), number, body) {
-        ("fixed" | "fix" | "anchor" | "body0", ..) => Ok(Point {
-            holds: Holds::Ground,
-            place_m: own,
-        }),
-        ("coupled" | "vessel" | "ves" | "coup", _, None) => Ok(Point {
-            holds: Holds::Body,
-            place_m: own,
-        }),
-        (_, Some(number), Some(body)) if body.row.words.first() == Some(&number) => Ok(Point {
-            holds: Holds::Body,
-            place_m: [0, 1, 2].map(|i| body.place_m[i] + own[i]),
-        }),
-        (_, Some(_), _) => Err(row.refuse_with(
-            "Attachment",
-            attachment,
-            &match body {
-                Some(body) => format!("Fixed or Body{}", body.row.words[0]),
-                None => "Fixed, or Coupled where the file has no section BODIES".to_owned(),
-            },
-            "each Body has a row in the section BODIES",
-        )),
-        _ => Err(row.refuse_with(
-            "Attachment",
-            attachment,
-            "Fixed (the ground) or Body1 (the body)",
-            "a point that moves by itself, such as a joint or a clump, is not supported: lines run from the ground straight to the body",
-        )),
-    }
+    let refuse = |allowed: &str, hint| Err(row.refuse("Attachment", attachment, allowed, hint));
+    let (holds, place_m) = match (lower.as_str(), number, body) {
+        ("fixed" | "fix" | "anchor" | "body0", ..) => (Holds::Ground, own),
+        ("coupled" | "vessel" | "ves" | "coup", _, None) => (Holds::Body, own),
+        (_, Some(number), Some(body)) if body.row.words.first() == Some(&number) => {
+            (Holds::Body, [0, 1, 2].map(|i| body.place_m[i] + own[i]))
+        }
+        (_, Some(_), Some(body)) => {
+            let allowed = format!("Fixed or Body{}", body.row.words[0]);
+            return refuse(&allowed, "each Body has a row in the section BODIES");
+        }
+        (_, Some(_), None) => {
+            let allowed = "Fixed, or Coupled where the file has no section BODIES";
+            return refuse(allowed, "each Body has a row in the section BODIES");
+        }
+        _ => {
+            return refuse(
+                "Fixed (the ground) or Body1 (the body)",
+                "a point that moves by itself, such as a joint or a clump, is not supported: lines \
+                 run from the ground straight to the body",
+            );
+        }
+    };
+    Ok(Point { holds, place_m })
 }
 
 /// Refuses what does not lie in the plane of the rest, y = const.
-pub(super) fn one_plane<'a>(
+pub(super) fn refuse_off_plane<'a>(
     body: Option<&Body<'_>>,
     used: impl Iterator<Item = &'a (&'a Row<'a>, Point)>,
 ) -> Result<(), InputError> {
@@ -199,11 +170,10 @@ pub(super) fn one_plane<'a>(
         let y = point.place_m[1];
         let of = *plane.get_or_insert(y);
         if (y - of).abs() > OFF_PLANE_M {
-            let key = format!("{}, Y", row.what);
             let allowed = format!("y = {of}, where the others are: one vertical plane y = const");
-            return Err(row.fault(CaseError::value(&key, y, allowed).with_hint(
-                "snapload computes motion in the x-z plane; keep the lines of one plane, or turn the file so that its plane is y = const",
-            )));
+            let hint = "snapload computes motion in the x-z plane; keep the lines of one plane, or \
+                        turn the file so that its plane is y = const";
+            return Err(row.refuse("Y", y, &allowed, hint));
         }
     }
     Ok(())

@@ -1,14 +1,16 @@
 //! From a MoorDyn file to the keys of a case.
 
-use super::KEY_LINE;
-use super::planar::{Body, Holds, Point, body, one_plane, points, refuse_unsupported};
+use super::planar::{
+    Body, Holds, Point, Points, body, points, refuse_off_plane, refuse_unsupported,
+};
 use super::sections::{Row, Section, Sections, number};
 use crate::InputError;
 use crate::entries::{Entries, Value};
 use snapload::CaseError;
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+/// Lines of a file's front matter that begin so are keys of a case that MoorDyn has no place for.
+const KEY_LINE: &str = "snapload:";
 /// MoorDyn's own defaults \[m/s²\], \[kg/m³\].
 const GRAVITY: f64 = 9.81;
 const WATER_DENSITY: f64 = 1025.0;
@@ -24,7 +26,8 @@ pub struct Reading {
 
 /// Reads a MoorDyn v2 input file as a planar structure; `name` is what errors call it.
 ///
-/// The file has no waves, no restitution and no width of the body: [`Entries::missing`] says what is still to be given.
+/// The file has no waves, no restitution and no width of the body: [`Entries::missing`] says what
+/// is still to be given.
 ///
 /// # Errors
 /// An [`InputError`] that names line, object and column, what is allowed there and what to do.
@@ -48,7 +51,7 @@ pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
     let mut reader = Reader {
         entries: Entries::default(),
         notes: Vec::new(),
-        site: Site::default(),
+        water_density: WATER_DENSITY,
     };
     reader.options(&sections)?;
     let body = body(&sections)?;
@@ -57,27 +60,22 @@ pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
     for row in sections.rows(Section::Lines) {
         used.extend(reader.line(row, &sections, &points)?);
     }
-    one_plane(body.as_ref(), used.into_iter())?;
+    refuse_off_plane(body.as_ref(), used.into_iter())?;
     match &body {
         Some(body) => reader.body(body)?,
-        None => reader.notes.push(
-            "The file has no section BODIES: its points are coupled to a body that is not in it."
-                .to_owned(),
+        None => reader.note(
+            "The file has no section BODIES: its points are coupled to a body that is not in it.",
         ),
     }
     if sections.rows(Section::Other).next().is_some() {
-        let note = "Rows below a header that is not known were left out.";
-        reader.notes.push(note.to_owned());
+        reader.note("Rows below a header that is not known were left out.");
     }
     for (origin, line) in &sections.front {
-        if let Some(set) = line
-            .trim_start_matches(['#', ' ', '\t'])
-            .strip_prefix(KEY_LINE)
-        {
-            reader.entries.set(set.trim()).map_err(|error| InputError {
-                origin: origin.clone(),
-                ..error
-            })?;
+        let line = line.trim_start_matches(['#', ' ', '\t']);
+        if let Some(set) = line.strip_prefix(KEY_LINE) {
+            let origin = origin.clone();
+            let given = reader.entries.set(set.trim());
+            given.map_err(|error| InputError { origin, ..error })?;
         }
     }
     Ok(Reading {
@@ -86,26 +84,24 @@ pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
     })
 }
 
-#[derive(Default)]
-struct Site {
-    water_density: f64,
-}
-
 struct Reader {
     entries: Entries,
     notes: Vec<String>,
-    site: Site,
+    water_density: f64,
 }
 
 /// The ends of a line: its anchor and its fairlead.
 type Ends<'a> = [&'a (&'a Row<'a>, Point); 2];
 
 impl Reader {
+    fn note(&mut self, words: impl Into<String>) {
+        self.notes.push(words.into());
+    }
+
     fn give(
         &mut self,
         row: &Row<'_>,
-        table: &'static str,
-        index: usize,
+        (table, index): (&'static str, usize),
         key: &'static str,
         value: Value,
     ) -> Result<(), InputError> {
@@ -115,22 +111,20 @@ impl Reader {
 
     /// Depth, density and gravity; the other options are about MoorDyn's computation.
     fn options(&mut self, sections: &Sections<'_>) -> Result<(), InputError> {
-        self.site.water_density = WATER_DENSITY;
-        let origin = "MoorDyn's default";
         let mut defaults = vec![("gravity", GRAVITY), ("water_density", WATER_DENSITY)];
         for row in sections.rows(Section::Options) {
-            let (Some(value), Some(option)) = (row.words.first(), row.words.get(1)) else {
+            let [word, option, ..] = row.words[..] else {
                 continue;
             };
-            let lower = option.to_lowercase();
-            let key = match lower.as_str() {
+            let key = match option.to_lowercase().as_str() {
                 "wtrdpth" | "depth" | "waterdepth" => "depth",
                 "rho" | "rhow" | "wtrdnsty" | "wtrdens" => "water_density",
                 "g" | "gravity" => "gravity",
                 "wavekin" | "currents" | "seafloorfile" | "waterkin" => {
-                    if number(value) != Some(0.0) {
-                        self.notes.push(format!(
-                            "{option} = {value} was left out: give [wave] or [sea]; the floor is flat and there is no current."
+                    if number(word) != Some(0.0) {
+                        self.note(format!(
+                            "{option} = {word} was left out: give [wave] or [sea]; the floor is \
+                             flat and there is no current."
                         ));
                     }
                     continue;
@@ -138,16 +132,17 @@ impl Reader {
                 _ => continue,
             };
             let value =
-                number(value).ok_or_else(|| row.refuse(option, value, "a number before it"))?;
+                number(word).ok_or_else(|| row.refuse(option, word, "a number before it", ""))?;
             if key == "water_density" {
-                self.site.water_density = value;
+                self.water_density = value;
             }
             defaults.retain(|(default, _)| *default != key);
-            self.give(row, "site", 0, key, Value::Number(value))?;
+            self.give(row, ("site", 0), key, Value::Number(value))?;
         }
         for (key, value) in defaults {
+            let value = Value::Number(value);
             self.entries
-                .give("site", 0, key, Value::Number(value), origin)?;
+                .give("site", 0, key, value, "MoorDyn's default")?;
         }
         Ok(())
     }
@@ -155,64 +150,50 @@ impl Reader {
     fn body(&mut self, body: &Body<'_>) -> Result<(), InputError> {
         let row = body.row;
         let [x, _, z] = body.place_m;
-        self.give(row, "body", 0, "position", Value::Pair([x, z]))?;
+        self.give(row, ("body", 0), "position", Value::Pair([x, z]))?;
         let (mass, volume) = (row.number(8, "Mass")?, row.number(11, "Volume")?);
-        let inertia = row.numbers(10, "I")?;
-        let inertia = match inertia[..] {
+        let inertia = match row.numbers(10, "I")?[..] {
             [every] | [_, every, _] => every,
-            _ => return Err(row.refuse("I", row.word(10, "I")?, "one number or Ix|Iy|Iz")),
+            _ => return Err(row.refuse("I", row.words[10], "one number or Ix|Iy|Iz", "")),
         };
         if mass == 0.0 && volume == 0.0 {
-            self.notes.push(
-                "The body has neither mass nor volume in the file: another program moves it."
-                    .to_owned(),
+            self.note(
+                "The body has neither mass nor volume in the file: another program moves it.",
             );
             return Ok(());
         }
-        self.give(row, "body", 0, "mass", Value::Number(mass))?;
-        self.give(row, "body", 0, "displaced_volume", Value::Number(volume))?;
-        self.give(row, "body", 0, "moment_of_inertia", Value::Number(inertia))?;
-        let [drag, turning] = self.drag(row)?;
-        self.give(row, "body", 0, "drag_area", Value::Number(drag))?;
+        let [drag, turning] = drag(row)?;
         if turning != 0.0 {
-            self.notes.push(format!(
-                "The body's rotational drag, CdA = {turning}, was left out: here turning_damping is linear."
+            self.note(format!(
+                "The body's rotational drag, CdA = {turning}, was left out: here turning_damping \
+                 is linear."
             ));
         }
-        let added = row.numbers(13, "Ca")?;
-        let added = match added[..] {
+        let added = match row.numbers(13, "Ca")?[..] {
             [every] => every,
             [x, _, z] if x == z => z,
             _ => {
                 let allowed = "one number, or three of which those for x and z are equal";
-                return Err(row.refuse("Ca", row.word(13, "Ca")?, allowed));
+                return Err(row.refuse("Ca", row.words[13], allowed, ""));
             }
         };
-        let added = added * volume * self.site.water_density;
-        self.give(row, "body", 0, "added_mass", Value::Number(added))
-    }
-
-    /// C_d A in x and z, and about y.
-    fn drag(&self, row: &Row<'_>) -> Result<[f64; 2], InputError> {
-        let given = row.numbers(12, "CdA")?;
-        match given[..] {
-            [every] => Ok([every, every]),
-            [moving, turning] => Ok([moving, turning]),
-            [x, y, z] if x == z => Ok([x, y]),
-            [x, _, z, _, turning, _] if x == z => Ok([x, turning]),
-            _ => Err(row.refuse(
-                "CdA",
-                row.word(12, "CdA")?,
-                "the same in x and z: one number, two (moving and turning), three or six",
-            )),
+        for (key, value) in [
+            ("mass", mass),
+            ("displaced_volume", volume),
+            ("moment_of_inertia", inertia),
+            ("drag_area", drag),
+            ("added_mass", added * volume * self.water_density),
+        ] {
+            self.give(row, ("body", 0), key, Value::Number(value))?;
         }
+        Ok(())
     }
 
     fn line<'a>(
         &mut self,
         row: &Row<'_>,
         sections: &Sections<'_>,
-        points: &'a BTreeMap<&'a str, (&'a Row<'a>, Point)>,
+        points: &'a Points<'a>,
     ) -> Result<Ends<'a>, InputError> {
         let ends = ends(row, points)?;
         let [anchor, fairlead] = ends.map(|(_, point)| {
@@ -220,28 +201,30 @@ impl Reader {
             Value::Pair([x, z])
         });
         let index = self.entries.add_line();
-        self.give(row, "line", index, "anchor", anchor)?;
-        self.give(row, "line", index, "fairlead", fairlead)?;
+        let table = ("line", index);
+        self.give(row, table, "anchor", anchor)?;
+        self.give(row, table, "fairlead", fairlead)?;
         let length = row.number(4, "UnstrLen")?;
-        self.give(row, "line", index, "length", Value::Number(length))?;
+        self.give(row, table, "length", Value::Number(length))?;
         let name = row.word(1, "LineType")?;
         let mut types = sections.rows(Section::LineTypes);
-        let Some(kind) = types.find(|kind| kind.words.first() == Some(&name)) else {
-            let known: Vec<&str> = sections
-                .rows(Section::LineTypes)
-                .filter_map(|kind| kind.words.first().copied())
-                .collect();
-            let allowed = format!("a name from LINE TYPES: {}", known.join(", "));
-            return Err(row.refuse("LineType", name, &allowed));
+        let Some(kind) = types.find(|kind| kind.words[0] == name) else {
+            let known = sections.rows(Section::LineTypes).map(|kind| kind.words[0]);
+            let known = known.collect::<Vec<_>>().join(", ");
+            let allowed = format!("a name from LINE TYPES: {known}");
+            return Err(row.refuse("LineType", name, &allowed, ""));
         };
         let mass = kind.number(2, "Mass/m")?;
-        self.give(row, "line", index, "mass_per_length", Value::Number(mass))?;
-        self.stiffness(row, kind, index)?;
+        self.give(row, table, "mass_per_length", Value::Number(mass))?;
+        if let Some(stiffness) = self.stiffness(kind, index + 1)? {
+            self.give(row, table, "stiffness", Value::Number(stiffness))?;
+        }
         let diameter = kind.number(1, "Diam")?;
-        let displaced = self.site.water_density * PI * diameter * diameter / 4.0;
+        let displaced = self.water_density * PI * diameter * diameter / 4.0;
         if (mass - displaced).abs() > 1e-3 * mass {
-            self.notes.push(format!(
-                "Line {} weighs {:.3} kg in the water, which was left out: lines are straight and weightless until they snap.",
+            self.note(format!(
+                "Line {} weighs {:.3} kg in the water, which was left out: lines are straight and \
+                 weightless until they snap.",
                 index + 1,
                 (mass - displaced) * length
             ));
@@ -249,77 +232,79 @@ impl Reader {
         Ok(ends)
     }
 
-    /// EA, of which MoorDyn has several forms.
-    fn stiffness(&mut self, row: &Row<'_>, kind: &Row<'_>, index: usize) -> Result<(), InputError> {
+    /// EA, of which MoorDyn has several forms; none where it stands in a file.
+    fn stiffness(&mut self, kind: &Row<'_>, line: usize) -> Result<Option<f64>, InputError> {
         let word = kind.word(3, "EA")?;
         let parts: Option<Vec<f64>> = word.split('|').map(number).collect();
-        let stiffness = match parts.as_deref() {
-            Some([stiffness]) => *stiffness,
-            Some([_, dynamic]) => {
-                self.notes.push(format!(
-                    "Line {}: of EA = {word} the second, dynamic one was taken, as a snap is quick.",
-                    index + 1
-                ));
-                *dynamic
-            }
-            Some([_, constant, per_load]) => {
-                self.notes.push(format!(
-                    "Line {}: of EA = {word} the constant part of the dynamic stiffness was taken; {per_load} of the mean load is left out.",
-                    index + 1
-                ));
-                *constant
-            }
-            Some(_) => {
-                return Err(kind.refuse(
-                    "EA",
-                    word,
-                    "EA, EA_static|EA_dynamic or EA_static|EA_constant|slope",
-                ));
-            }
-            None => {
-                self.notes.push(format!(
-                    "Line {0}: EA = {word} is a table in a file, which was not read; give line.{0}.stiffness.",
-                    index + 1
-                ));
-                return Ok(());
-            }
+        let Some(parts) = parts else {
+            self.note(format!(
+                "Line {line}: EA = {word} is a table in a file, which was not read; give \
+                 line.{line}.stiffness."
+            ));
+            return Ok(None);
         };
-        self.give(row, "line", index, "stiffness", Value::Number(stiffness))
+        match parts[..] {
+            [stiffness] => Ok(Some(stiffness)),
+            [_, dynamic] => {
+                self.note(format!(
+                    "Line {line}: of EA = {word} the second, dynamic one was taken, as a snap is \
+                     quick."
+                ));
+                Ok(Some(dynamic))
+            }
+            [_, constant, per_load] => {
+                self.note(format!(
+                    "Line {line}: of EA = {word} the constant part of the dynamic stiffness was \
+                     taken; {per_load} of the mean load is left out."
+                ));
+                Ok(Some(constant))
+            }
+            _ => {
+                let allowed = "EA, EA_static|EA_dynamic or EA_static|EA_constant|slope";
+                Err(kind.refuse("EA", word, allowed, ""))
+            }
+        }
+    }
+}
+
+/// C_d A in x and z, and about y.
+fn drag(row: &Row<'_>) -> Result<[f64; 2], InputError> {
+    match row.numbers(12, "CdA")?[..] {
+        [every] => Ok([every, every]),
+        [moving, turning] => Ok([moving, turning]),
+        [x, y, z] if x == z => Ok([x, y]),
+        [x, _, z, _, turning, _] if x == z => Ok([x, turning]),
+        _ => Err(row.refuse(
+            "CdA",
+            row.words[12],
+            "the same in x and z: one number, two (moving and turning), three or six",
+            "",
+        )),
     }
 }
 
 /// The anchor and the fairlead of a line, whichever way round it is written.
-fn ends<'a>(
-    row: &Row<'_>,
-    points: &'a BTreeMap<&'a str, (&'a Row<'a>, Point)>,
-) -> Result<Ends<'a>, InputError> {
+fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, InputError> {
     let find = |index: usize, column: &str| {
         let id = row.word(index, column)?;
-        let known = || points.keys().copied().collect::<Vec<_>>().join(", ");
         points.get(id).ok_or_else(|| {
-            let allowed = format!("the number of a point: {}", known());
+            let known = points.keys().copied().collect::<Vec<_>>().join(", ");
+            let allowed = format!("the number of a point: {known}");
             let hint =
                 "an end of a rod, such as R1A, is not supported; make it a point of the body";
-            row.refuse_with(column, id, &allowed, hint)
+            row.refuse(column, id, &allowed, hint)
         })
     };
     let (a, b) = (find(2, "AttachA")?, find(3, "AttachB")?);
-    match (a.1.holds, b.1.holds) {
-        (Holds::Ground, Holds::Body) => Ok([a, b]),
-        (Holds::Body, Holds::Ground) => Ok([b, a]),
-        (both, _) => {
-            let shown = format!("{} and {}", row.words[2], row.words[3]);
-            let (allowed, hint) = match both {
-                Holds::Ground => (
-                    "one end on the ground and one on the body; both are on the ground",
-                    "take the line out, as it does not hold the body",
-                ),
-                Holds::Body => (
-                    "one end on the ground and one on the body; both are on the body",
-                    "snapload moors one body to the ground",
-                ),
-            };
-            Err(row.refuse_with("AttachA and AttachB", &shown, allowed, hint))
+    let (place, hint) = match (a.1.holds, b.1.holds) {
+        (Holds::Ground, Holds::Body) => return Ok([a, b]),
+        (Holds::Body, Holds::Ground) => return Ok([b, a]),
+        (Holds::Ground, Holds::Ground) => {
+            ("ground", "take the line out, as it does not hold the body")
         }
-    }
+        (Holds::Body, Holds::Body) => ("body", "snapload moors one body to the ground"),
+    };
+    let shown = format!("{} and {}", row.words[2], row.words[3]);
+    let allowed = format!("one end on the ground and one on the body; both are on the {place}");
+    Err(row.refuse("AttachA and AttachB", shown, &allowed, hint))
 }

@@ -21,38 +21,64 @@ pub(super) enum Section {
     Other,
 }
 
-/// Words of a header, in capitals, that tell which section it begins; the first that fits counts.
-const HEADERS: &[(&str, Section)] = &[
-    ("LINE TYPE", Section::LineTypes),
-    ("LINE DICTIONARY", Section::LineTypes),
-    ("ROD TYPE", Section::RodTypes),
-    ("ROD DICTIONARY", Section::RodTypes),
-    ("BODIES", Section::Bodies),
-    ("BODY LIST", Section::Bodies),
-    ("BODY PROPERTIES", Section::Bodies),
-    ("RODS", Section::Rods),
-    ("ROD LIST", Section::Rods),
-    ("ROD PROPERTIES", Section::Rods),
-    ("POINTS", Section::Points),
-    ("POINT LIST", Section::Points),
-    ("POINT PROPERTIES", Section::Points),
-    ("CONNECTION", Section::Points),
-    ("NODE PROPERTIES", Section::Points),
-    ("FAILURE", Section::Failure),
-    ("CONTROL", Section::Control),
-    ("LOADS", Section::Loads),
-    ("OPTIONS", Section::Options),
-    ("OUTPUT", Section::Outputs),
-    ("LINES", Section::Lines),
-    ("LINE LIST", Section::Lines),
-    ("LINE PROPERTIES", Section::Lines),
+/// What a row of each section describes, and words of its header, in capitals; the first section of
+/// which a header has a word is the one that it begins.
+const SECTIONS: &[(Section, &str, &[&str])] = &[
+    (
+        Section::LineTypes,
+        "line type",
+        &["LINE TYPE", "LINE DICTIONARY"],
+    ),
+    (
+        Section::RodTypes,
+        "rod type",
+        &["ROD TYPE", "ROD DICTIONARY"],
+    ),
+    (
+        Section::Bodies,
+        "body",
+        &["BODIES", "BODY LIST", "BODY PROPERTIES"],
+    ),
+    (
+        Section::Rods,
+        "rod",
+        &["RODS", "ROD LIST", "ROD PROPERTIES"],
+    ),
+    (
+        Section::Points,
+        "point",
+        &[
+            "POINTS",
+            "POINT LIST",
+            "POINT PROPERTIES",
+            "CONNECTION",
+            "NODE PROPERTIES",
+        ],
+    ),
+    (Section::Failure, "failure", &["FAILURE"]),
+    (Section::Control, "control channel", &["CONTROL"]),
+    (Section::Loads, "external load", &["LOADS"]),
+    (Section::Options, "option", &["OPTIONS"]),
+    (Section::Outputs, "output", &["OUTPUT"]),
+    (
+        Section::Lines,
+        "line",
+        &["LINES", "LINE LIST", "LINE PROPERTIES"],
+    ),
 ];
 
 impl Section {
     fn of_header(header: &str) -> Option<Self> {
         let capitals = header.to_uppercase();
-        let found = HEADERS.iter().find(|(words, _)| capitals.contains(words));
-        found.map(|(_, section)| *section)
+        let mut sections = SECTIONS.iter();
+        let begun = sections.find(|(_, _, words)| words.iter().any(|word| capitals.contains(word)));
+        begun.map(|(section, ..)| *section)
+    }
+
+    /// What one row of it describes.
+    fn noun(self) -> &'static str {
+        let found = SECTIONS.iter().find(|(section, ..)| *section == self);
+        found.map_or("row", |(_, noun, _)| noun)
     }
 
     /// Lines below the header that name columns and units; MoorDyn reads neither.
@@ -82,37 +108,64 @@ impl Row<'_> {
                 "a value in column {}; the row ends before it, and every column must have one",
                 index + 1
             );
-            self.refuse(column, "(missing)", &allowed)
+            self.refuse(column, "(missing)", &allowed, "")
         })
     }
 
     /// The number of a column.
     pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, InputError> {
         let word = self.word(index, column)?;
-        number(word).ok_or_else(|| self.refuse(column, word, "a number"))
+        number(word).ok_or_else(|| self.refuse(column, word, "a number", ""))
     }
 
     /// The numbers of a column, which bars separate.
     pub(super) fn numbers(&self, index: usize, column: &str) -> Result<Vec<f64>, InputError> {
         let word = self.word(index, column)?;
         let numbers: Option<Vec<f64>> = word.split('|').map(number).collect();
-        numbers.ok_or_else(|| self.refuse(column, word, "numbers, with | between them"))
+        numbers.ok_or_else(|| self.refuse(column, word, "numbers, with | between them", ""))
     }
 
-    pub(super) fn refuse(&self, column: &str, shown: &str, allowed: &str) -> InputError {
-        let key = format!("{}, {column}", self.what);
-        self.fault(CaseError::value(&key, shown, allowed))
+    /// The place in the three columns from one on.
+    pub(super) fn place(&self, index: usize, columns: [&str; 3]) -> Result<[f64; 3], InputError> {
+        let [x, y, z] = columns;
+        Ok([
+            self.number(index, x)?,
+            self.number(index + 1, y)?,
+            self.number(index + 2, z)?,
+        ])
     }
 
-    pub(super) fn refuse_with(
+    /// Refuses anything but zeros in a column.
+    pub(super) fn zero(
+        &self,
+        index: usize,
+        column: &str,
+        allowed: &str,
+        hint: &str,
+    ) -> Result<(), InputError> {
+        match self
+            .numbers(index, column)?
+            .iter()
+            .all(|number| *number == 0.0)
+        {
+            true => Ok(()),
+            false => Err(self.refuse(column, self.words[index], allowed, hint)),
+        }
+    }
+
+    /// An error on a column, with words on what to do, if they are not empty.
+    pub(super) fn refuse(
         &self,
         column: &str,
-        shown: &str,
+        shown: impl std::fmt::Display,
         allowed: &str,
         hint: &str,
     ) -> InputError {
-        let key = format!("{}, {column}", self.what);
-        self.fault(CaseError::value(&key, shown, allowed).with_hint(hint))
+        let error = CaseError::value(&format!("{}, {column}", self.what), shown, allowed);
+        self.fault(match hint {
+            "" => error,
+            hint => error.with_hint(hint),
+        })
     }
 
     pub(super) fn fault(&self, error: CaseError) -> InputError {
@@ -134,7 +187,7 @@ pub(super) struct Sections<'a> {
     /// Lines before the first section, with their origins.
     pub(super) front: Vec<(String, &'a str)>,
     rows: Vec<(Section, Row<'a>)>,
-    found: Vec<(Section, String)>,
+    found: Vec<Section>,
 }
 
 impl<'a> Sections<'a> {
@@ -145,13 +198,12 @@ impl<'a> Sections<'a> {
         for (index, line) in text.lines().enumerate() {
             let origin = format!("{name}, line {}", index + 1);
             if line.contains("---") {
-                match (Section::of_header(line), &now) {
-                    (Some(section), _) => {
-                        sections.found.push((section, origin));
+                match Section::of_header(line) {
+                    Some(section) => {
+                        sections.found.push(section);
                         now = Some((section, section.preamble()));
                     }
-                    (None, Some(_)) => now = Some((Section::Other, 0)),
-                    (None, None) => {}
+                    None => now = now.map(|_| (Section::Other, 0)),
                 }
                 continue;
             }
@@ -164,21 +216,19 @@ impl<'a> Sections<'a> {
             }
             if *preamble > 0 {
                 *preamble -= 1;
-                first_version(&origin, line)?;
+                refuse_first_version(&origin, line)?;
                 continue;
             }
             let line = line.split(['!', '#', '%']).next().unwrap_or_default();
             let words: Vec<&str> = line.split_whitespace().collect();
             if let Some(first) = words.first() {
                 let what = format!("{} {first}", section.noun());
-                sections.rows.push((
-                    *section,
-                    Row {
-                        origin,
-                        what,
-                        words,
-                    },
-                ));
+                let row = Row {
+                    origin,
+                    what,
+                    words,
+                };
+                sections.rows.push((*section, row));
             }
         }
         Ok(sections)
@@ -186,52 +236,29 @@ impl<'a> Sections<'a> {
 
     /// The rows of a section.
     pub(super) fn rows(&self, section: Section) -> impl Iterator<Item = &Row<'a>> {
-        self.rows
-            .iter()
-            .filter(move |(of, _)| *of == section)
-            .map(|(_, row)| row)
+        let rows = self.rows.iter().filter(move |(of, _)| *of == section);
+        rows.map(|(_, row)| row)
     }
 
     pub(super) fn has(&self, section: Section) -> bool {
-        self.found.iter().any(|(found, _)| *found == section)
-    }
-}
-
-impl Section {
-    /// What one row of it describes.
-    fn noun(self) -> &'static str {
-        match self {
-            Self::LineTypes => "line type",
-            Self::RodTypes => "rod type",
-            Self::Bodies => "body",
-            Self::Rods => "rod",
-            Self::Points => "point",
-            Self::Lines => "line",
-            Self::Failure => "failure",
-            Self::Control => "control channel",
-            Self::Loads => "external load",
-            Self::Options => "option",
-            Self::Outputs => "output",
-            Self::Other => "row",
-        }
+        self.found.contains(&section)
     }
 }
 
 /// The columns of version 1 stand in another order; its names give it away.
-fn first_version(origin: &str, line: &str) -> Result<(), InputError> {
+fn refuse_first_version(origin: &str, line: &str) -> Result<(), InputError> {
     let old = ["NodeAnch", "NodeFair", "MassDenInAir", "MassDen"];
-    let Some(word) = line
-        .split_whitespace()
-        .find(|word| old.iter().any(|old| word.eq_ignore_ascii_case(old)))
-    else {
+    let is_old = |word: &&str| old.iter().any(|old| word.eq_ignore_ascii_case(old));
+    let Some(word) = line.split_whitespace().find(is_old) else {
         return Ok(());
     };
     let allowed = "the columns of MoorDyn version 2; this is a file of version 1";
+    let error = CaseError::value("column", word, allowed).with_hint(
+        "write LINE TYPES, POINTS and LINES as the manual of MoorDyn v2 has them, ID LineType \
+         AttachA AttachB UnstrLen NumSegs for a line",
+    );
     Err(InputError {
         origin: origin.to_owned(),
-        error: Box::new(
-            CaseError::value("column", word, allowed)
-                .with_hint("write LINE TYPES, POINTS and LINES as the manual of MoorDyn v2 has them, ID LineType AttachA AttachB UnstrLen NumSegs for a line"),
-        ),
+        error: Box::new(error),
     })
 }

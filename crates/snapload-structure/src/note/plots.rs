@@ -1,12 +1,12 @@
 //! The plots of a note, in SI.
 
-use super::Scan;
-use crate::assess::Assessment;
-use crate::gumbel::reduced;
-use crate::seas::Seas;
-use crate::snap::Snap;
-use crate::structure::{Structure, Water};
-use snapload::Playback;
+use crate::physics::gumbel::reduced_variate;
+use crate::physics::snap::Snap;
+use crate::runs::assess::{Assessment, sorted};
+use crate::runs::scan::Scan;
+use crate::runs::seas::Seas;
+use crate::structure::{Structure, THREE_HOURS_S, Water};
+use snapload::{Motion, Playback};
 use snapload_figures::{
     Axis, Cell, Colour, Dash, FigureError, Layer, Map, Picture, Plot, Point, Range, Shape, Stroke,
     Width, draw,
@@ -14,8 +14,10 @@ use snapload_figures::{
 
 /// Points of a line over time.
 const POINTS: u32 = 12_000;
-/// A closer look takes so many wave periods.
+/// The number of wave periods in a closer look.
 const CLOSE: f64 = 6.0;
+/// An axis from zero on.
+const FROM_ZERO: Range = Range::AtLeast(0.0, 0.0);
 
 const INKS: [Colour; 6] = [
     Colour::BLUE,
@@ -26,34 +28,42 @@ const INKS: [Colour; 6] = [
     Colour::GREY,
 ];
 
-/// The plots with their captions.
-pub(super) fn all(assessment: &Assessment) -> Result<Vec<(Picture, String)>, FigureError> {
-    let window = window(assessment);
-    let named = [
-        ("path", path(assessment, window), format!("Path of the body's centre from t = {:.0} to {:.0} s, about the hardest snap.", window[0], window[1])),
-        ("snaps", peaks(assessment), "Estimated peak of every snap of 1 cm/s or more; where lines break at different loads, over the line's own. Dashed: there it breaks. Grey: not judged.".to_owned()),
-        ("tension", tension(assessment, window), "Tension of the lines while they are taut, in the same time. Snaps are not in it: they last no time here, and have an impulse, not a tension.".to_owned()),
-        ("rotation", rotation(assessment, window), "Rotation of the body in the same time.".to_owned()),
-    ];
-    named
-        .into_iter()
-        .map(|(name, plot, words)| Ok((draw(name, Width::Column, &[plot])?, words)))
-        .collect()
+fn line(pieces: Vec<Vec<Point>>, stroke: Stroke, legend: &str) -> Layer {
+    Layer::Line(pieces, stroke, legend.to_owned())
 }
 
-/// A few periods about the hardest snap that is judged, or the last few.
-fn window(assessment: &Assessment) -> [f64; 2] {
-    let structure = &assessment.prepared.structure;
+fn horizontal(y: f64, label: &str) -> Layer {
+    Layer::Horizontal(y, label.to_owned())
+}
+
+fn plot(description: &str, [x, y]: [(&str, Range); 2], layers: Vec<Layer>) -> Plot {
+    let [x, y] = [x, y].map(|(label, range)| Axis::new(label, range));
+    Plot {
+        description: description.to_owned(),
+        x,
+        y,
+        layers,
+        ..Plot::default()
+    }
+}
+
+/// Adds a point to the latest piece of a line, or begins a new one.
+fn extend(pieces: &mut Vec<Vec<Point>>, joined: bool, point: Point) {
+    match pieces.last_mut() {
+        Some(piece) if joined => piece.push(point),
+        _ => pieces.push(vec![point]),
+    }
+}
+
+/// A few periods about the hardest snap that is judged, or the last few \[s\].
+pub(super) fn window(assessment: &Assessment) -> [f64; 2] {
     let end = assessment.outcome.end_s;
-    let period = match structure.water {
+    let period = match assessment.prepared.structure.water {
         Water::Still => end / CLOSE,
         Water::Wave(wave) => wave.period_s,
         Water::Sea(sea) => 2.0 * sea.peak_period_s,
     };
-    let judged = assessment
-        .snaps
-        .iter()
-        .filter(|snap| snap.counts() && snap.t_s >= structure.transient_s);
+    let judged = assessment.judged();
     let hardest = judged.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
     let width = (CLOSE * period).min(end);
     let middle = hardest.map_or(end, |snap| snap.t_s);
@@ -61,12 +71,23 @@ fn window(assessment: &Assessment) -> [f64; 2] {
     [from, from + width]
 }
 
-/// Looks at the motion within a window, in SI: time, place, rotation, tensions.
-fn looks(
-    assessment: &Assessment,
-    [from, to]: [f64; 2],
-    mut see: impl FnMut(f64, &snapload::Motion),
-) {
+/// The path, the snaps, and tension and rotation over time.
+pub(super) fn of_run(assessment: &Assessment) -> Result<Vec<Picture>, FigureError> {
+    let window = window(assessment);
+    let plots = [
+        ("path", path(assessment, window)),
+        ("snaps", peaks(assessment)),
+        ("tension", tension(assessment, window)),
+        ("rotation", rotation(assessment, window)),
+    ];
+    let drawn = plots.into_iter();
+    drawn
+        .map(|(name, plot)| draw(name, Width::Column, &[plot]))
+        .collect()
+}
+
+/// Looks at the motion within a window of seconds.
+fn looks(assessment: &Assessment, [from, to]: [f64; 2], mut see: impl FnMut(f64, &Motion)) {
     let mut playback = Playback::new(&assessment.run);
     let unit = assessment.prepared.model.scales.time_s;
     for k in 0..=POINTS {
@@ -82,123 +103,78 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
     looks(assessment, window, |_, motion| {
         let kind = usize::from(!motion.taut.is_empty());
         let point = scales.to_si([motion.state.x, motion.state.y]);
-        if last != Some(kind) {
-            pieces[kind].push(Vec::new());
-        }
-        if let Some(piece) = pieces[kind].last_mut() {
-            piece.push(point);
-        }
+        extend(&mut pieces[kind], last == Some(kind), point);
         last = Some(kind);
     });
     let [slack, taut] = pieces;
-    let line = |pieces, colour, width_pt, legend: &str| {
-        let stroke = Stroke::new(colour, width_pt, Dash::Solid);
-        Layer::Line(pieces, stroke, legend.to_owned())
-    };
-    Plot {
-        description: "Path of the body's centre, z against x".to_owned(),
-        x: Axis::new("*x* (m)", Range::Auto),
-        y: Axis::new("*z* (m)", Range::Auto),
-        equal_scale: true,
-        layers: vec![
-            line(slack, Colour::BLACK, 0.5, "no line taut"),
-            line(taut, Colour::BLUE, 1.0, "a line taut"),
-        ],
-        ..Plot::default()
-    }
+    let layers = vec![
+        line(
+            slack,
+            Stroke::new(Colour::BLACK, 0.5, Dash::Solid),
+            "no line taut",
+        ),
+        line(
+            taut,
+            Stroke::new(Colour::BLUE, 1.0, Dash::Solid),
+            "a line taut",
+        ),
+    ];
+    let axes = [("*x* (m)", Range::Auto), ("*z* (m)", Range::Auto)];
+    let mut plot = plot("Path of the body's centre, z against x", axes, layers);
+    plot.equal_scale = true;
+    plot
 }
 
-fn over_time(description: &str, label: &str, range: Range, layers: Vec<Layer>) -> Plot {
-    Plot {
-        description: description.to_owned(),
-        x: Axis::new("*t* (s)", Range::Auto),
-        y: Axis::new(label, range),
-        layers,
-        ..Plot::default()
-    }
-}
-
-/// How hard a snap is, as it is drawn.
-enum PeakScale {
-    /// Tension, all lines breaking at this load, if that is known \[N\].
-    Tension(Option<f64>),
-    /// Tension over the line's own breaking load.
-    Utilisation,
-    /// Of lines without a stiffness only the speed is known.
-    Speed,
-}
-
-impl PeakScale {
-    fn of(assessment: &Assessment) -> Self {
-        let lines = &assessment.prepared.structure.lines;
-        let loads: Vec<f64> = lines
-            .iter()
-            .filter_map(|line| line.breaking_load_n)
-            .collect();
-        if assessment.snaps.iter().any(|snap| snap.peak_n.is_none()) {
-            Self::Speed
-        } else if loads.len() < lines.len() {
-            Self::Tension(None)
-        } else if loads.iter().all(|load| *load == loads[0]) {
-            Self::Tension(loads.first().copied())
-        } else {
-            Self::Utilisation
-        }
-    }
-
-    fn value(&self, snap: &Snap) -> f64 {
-        let peak_kn = snap.peak_n.map_or(0.0, |peak| peak / 1e3);
-        match self {
-            Self::Tension(_) => peak_kn,
-            Self::Utilisation => snap.utilisation.unwrap_or(0.0),
-            Self::Speed => snap.speed_m_s,
-        }
-    }
-
-    fn limit(&self) -> Option<f64> {
-        match self {
-            Self::Tension(load) => load.map(|load| load / 1e3),
-            Self::Utilisation => Some(1.0),
-            Self::Speed => None,
-        }
-    }
-
-    fn label(&self) -> &'static str {
-        match self {
-            Self::Tension(_) => "tension (kN)",
-            Self::Utilisation => "tension over breaking load",
-            Self::Speed => "speed of the snap (m/s)",
-        }
+/// How hard each snap is, as it is drawn: its tension \[kN\], over the line's own breaking load where
+/// those differ, or the speed where a line has no stiffness. With it where lines break, if that is
+/// known, and the label of the axis.
+fn hardness(assessment: &Assessment) -> (fn(&Snap) -> f64, Option<f64>, &'static str) {
+    let lines = &assessment.prepared.structure.lines;
+    let loads: Vec<_> = lines
+        .iter()
+        .filter_map(|line| line.breaking_load_n)
+        .collect();
+    let all_known = loads.len() == lines.len();
+    if assessment.snaps.iter().any(|snap| snap.peak_n.is_none()) {
+        (|snap| snap.speed_m_s, None, "speed of the snap (m/s)")
+    } else if all_known && loads.iter().any(|load| *load != loads[0]) {
+        let part: fn(&Snap) -> f64 = |snap| snap.utilisation.unwrap_or(0.0);
+        (part, Some(1.0), "tension over breaking load")
+    } else {
+        let load = loads.first().filter(|_| all_known);
+        let tension: fn(&Snap) -> f64 = |snap| snap.peak_n.map_or(0.0, |peak| peak / 1e3);
+        (tension, load.map(|load| load / 1e3), "tension (kN)")
     }
 }
 
 fn peaks(assessment: &Assessment) -> Plot {
     let structure = &assessment.prepared.structure;
-    let scale = PeakScale::of(assessment);
-    let shade = Layer::Shade(f64::NEG_INFINITY, structure.transient_s, String::new());
-    let mut layers = vec![shade];
+    let (value, limit, label) = hardness(assessment);
+    let mut layers = vec![Layer::Shade(
+        f64::NEG_INFINITY,
+        structure.transient_s,
+        String::new(),
+    )];
+    let counted = || assessment.snaps.iter().filter(|snap| snap.counts());
     for line in 0..structure.lines.len() {
-        let of_line = assessment
-            .snaps
-            .iter()
-            .filter(|snap| snap.counts() && snap.line == line);
-        let points = of_line.map(|snap| [snap.t_s, scale.value(snap)]);
-        let shape = [Shape::Cross, Shape::Circle][line % 2];
-        let (colour, name) = (INKS[line % INKS.len()], format!("line {}", line + 1));
-        layers.push(Layer::Markers(points.collect(), shape, colour, name));
+        let of_line = counted().filter(|snap| snap.line == line);
+        let points = of_line.map(|snap| [snap.t_s, value(snap)]).collect();
+        let (shape, colour) = (
+            [Shape::Cross, Shape::Circle][line % 2],
+            INKS[line % INKS.len()],
+        );
+        layers.push(Layer::Markers(
+            points,
+            shape,
+            colour,
+            format!("line {}", line + 1),
+        ));
     }
-    if let Some(load) = scale.limit() {
-        layers.push(Layer::Horizontal(load, "breaks".to_owned()));
-    }
-    let label = scale.label();
-    let mut plot = over_time(
-        "Estimated tension of each snap against time",
-        label,
-        Range::AtLeast(0.0, 0.0),
-        layers,
-    );
-    plot.x.range = Range::AtLeast(0.0, assessment.outcome.end_s);
-    if !assessment.snaps.iter().any(Snap::counts) {
+    layers.extend(limit.map(|load| horizontal(load, "breaks")));
+    let t = Range::AtLeast(0.0, assessment.outcome.end_s);
+    let axes = [("*t* (s)", t), (label, FROM_ZERO)];
+    let mut plot = plot("Estimated tension of each snap against time", axes, layers);
+    if counted().next().is_none() {
         plot.note = "no line snapped".to_owned();
     }
     plot
@@ -214,151 +190,127 @@ fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
             let taut = motion.taut.contains(line);
             if taut {
                 let point = [t, motion.tensions[line] * force / 1e3];
-                match pieces[line].last_mut() {
-                    Some(piece) if joined[line] => piece.push(point),
-                    _ => pieces[line].push(vec![point]),
-                }
+                extend(&mut pieces[line], joined[line], point);
             }
             joined[line] = taut;
         }
     });
-    let layers = pieces.into_iter().enumerate().map(|(line, pieces)| {
-        let dash = [Dash::Solid, Dash::Dashed][line % 2];
-        let stroke = Stroke::new(INKS[line % INKS.len()], 0.9, dash);
-        Layer::Line(pieces, stroke, format!("line {}", line + 1))
+    let layers = pieces.into_iter().enumerate().map(|(index, pieces)| {
+        let dash = [Dash::Solid, Dash::Dashed][index % 2];
+        let stroke = Stroke::new(INKS[index % INKS.len()], 0.9, dash);
+        line(pieces, stroke, &format!("line {}", index + 1))
     });
-    let mut plot = over_time(
+    let t = Range::Fixed(window[0], window[1]);
+    let axes = [("*t* (s)", t), ("tension (kN)", FROM_ZERO)];
+    plot(
         "Tension of each line while it is taut",
-        "tension (kN)",
-        Range::AtLeast(0.0, 0.0),
+        axes,
         layers.collect(),
-    );
-    plot.x.range = Range::Fixed(window[0], window[1]);
-    plot
+    )
 }
 
 fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
     let mut points = Vec::new();
     looks(assessment, window, |t, motion| {
-        points.push([t, -motion.state.theta.to_degrees()])
+        points.push([t, -motion.state.theta.to_degrees()]);
     });
-    let line = Layer::Line(vec![points], Stroke::default(), String::new());
-    let mut plot = over_time(
-        "Rotation of the body against time",
-        "rotation (degrees)",
-        Range::Auto,
-        vec![line],
-    );
-    plot.x.range = Range::Fixed(window[0], window[1]);
-    plot
+    let t = Range::Fixed(window[0], window[1]);
+    let axes = [("*t* (s)", t), ("rotation (degrees)", Range::Auto)];
+    let layers = vec![line(vec![points], Stroke::default(), "")];
+    plot("Rotation of the body against time", axes, layers)
 }
 
 /// The map of a scan.
 pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, FigureError> {
-    let known = structure
+    let breaks = structure
         .lines
         .iter()
-        .all(|line| line.breaking_load_n.is_some() && line.stiffness_n.is_some());
-    let cells = scan.cells.iter().map(|cell| match cell {
-        None => Cell::Class(0),
-        Some(value) => Cell::Value(*value),
-    });
-    let label = if known {
-        "utilisation"
-    } else {
-        "fastest snap (m/s)"
+        .all(|line| line.breaking_load_n.is_some());
+    let value_label = match structure.tensions_known() && breaks {
+        true => "utilisation",
+        false => "fastest snap (m/s)",
     };
+    let cells = scan.cells.iter();
     let map = Map {
         x: scan.periods_s.clone(),
         y: scan.heights_m.clone(),
-        cells: cells.collect(),
-        value_label: label.to_owned(),
+        cells: cells
+            .map(|cell| cell.map_or(Cell::Class(0), Cell::Value))
+            .collect(),
+        value_label: value_label.to_owned(),
         classes: vec!["turned over or touched the floor".to_owned()],
     };
-    let plot = Plot {
-        description: "Result for other waves, by period and height".to_owned(),
-        x: Axis::new("*T* (s)", Range::Auto),
-        y: Axis::new("*H* (m)", Range::Auto),
-        layers: vec![Layer::Map(map)],
-        ..Plot::default()
-    };
+    let axes = [("*T* (s)", Range::Auto), ("*H* (m)", Range::Auto)];
+    let description = "Result for other waves, by period and height";
+    let plot = plot(description, axes, vec![Layer::Map(map)]);
     draw("scan", Width::Column, &[plot])
 }
 
-/// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often tensions are exceeded.
-pub(super) fn of_seas(seas: &Seas) -> Result<Vec<(Picture, String)>, FigureError> {
-    let structure = &seas.prepared.structure;
-    let (mut largest, all, fit, unit, label) = match seas.peaks_n() {
-        Some(peaks) => (
-            peaks,
-            seas.all_peaks_n(),
-            seas.peak_in_three_hours(),
-            1e3,
-            "tension (kN)",
-        ),
-        None => (
-            seas.speeds_m_s(),
-            seas.all_speeds_m_s(),
-            seas.speed_in_three_hours(),
-            1.0,
-            "speed of the snap (m/s)",
-        ),
+/// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often
+/// tensions are exceeded; speeds where tensions are not known.
+pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
+    let peaks = seas.peaks_n();
+    let (all, fit, unit, label) = match &peaks {
+        Some(_) => {
+            let fit = seas.peak_in_three_hours();
+            (seas.all_peaks_n(), fit, 1e3, "tension (kN)")
+        }
+        None => {
+            let fit = seas.speed_in_three_hours();
+            (seas.all_speeds_m_s(), fit, 1.0, "speed of the snap (m/s)")
+        }
     };
-    largest.sort_by(f64::total_cmp);
+    let largest = sorted(peaks.unwrap_or_else(|| seas.speeds_m_s()).into_iter());
     let count = largest.len() as f64;
-    let points: Vec<Point> = largest
-        .iter()
-        .enumerate()
-        .map(|(rank, value)| [value / unit, reduced((rank as f64 + 0.56) / (count + 0.12))])
-        .collect();
-    let words = "records".to_owned();
-    let mut layers = vec![Layer::Markers(points, Shape::Circle, Colour::BLUE, words)];
+    let on_paper = |(rank, value): (usize, &f64)| {
+        let below = (rank as f64 + 0.56) / (count + 0.12);
+        [value / unit, reduced_variate(below)]
+    };
+    let mut layers = vec![Layer::Markers(
+        largest.iter().enumerate().map(on_paper).collect(),
+        Shape::Circle,
+        Colour::BLUE,
+        "records".to_owned(),
+    )];
     // The fit is for three hours; on this paper it stands where the records are.
+    let structure = &seas.prepared.structure;
     let judged = structure.duration_s - structure.transient_s;
-    if let Some(fit) = fit.map(|fit| fit.over_times(judged / crate::THREE_HOURS_S)) {
-        let ends = [0.01, 0.995].map(|p| [fit.quantile(p).value / unit, reduced(p)]);
-        let words = "Gumbel fit".to_owned();
-        layers.push(Layer::Line(vec![ends.to_vec()], Stroke::default(), words));
+    if let Some(fit) = fit.map(|fit| fit.over_times(judged / THREE_HOURS_S)) {
+        let ends = [0.01, 0.995].map(|p| [fit.quantile(p).value / unit, reduced_variate(p)]);
+        layers.push(line(vec![ends.to_vec()], Stroke::default(), "Gumbel fit"));
     }
-    for (p, words) in [(0.5, "50 %"), (0.9, "90 %"), (0.99, "99 %")] {
-        layers.push(Layer::Horizontal(reduced(p), words.to_owned()));
-    }
-    let gumbel = Plot {
-        description: "Largest snap of each record on Gumbel's paper".to_owned(),
-        x: Axis::new(label, Range::Auto),
-        y: Axis::new("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
-        layers,
-        ..Plot::default()
-    };
-    let hours = seas.judged_s() / crate::THREE_HOURS_S;
-    let exceeded: Vec<Point> = all
-        .iter()
-        .enumerate()
-        .map(|(below, value)| [value / unit, ((all.len() - below) as f64 / hours).log10()])
-        .collect();
-    let often = Plot {
-        description: "How often a snap is harder than a value, in three hours".to_owned(),
-        x: Axis::new(label, Range::AtLeast(0.0, 0.0)),
-        y: Axis::new("log₁₀ of snaps in 3 h", Range::Auto),
-        layers: vec![Layer::Line(
-            vec![exceeded],
-            Stroke::default(),
-            String::new(),
-        )],
-        note: if all.is_empty() {
-            "no line snapped".to_owned()
-        } else {
-            String::new()
-        },
-        ..Plot::default()
-    };
-    let words = [
-        "The hardest snap of each record against the part P of records that stay below it; on this paper a Gumbel distribution is a straight line.",
-        "How many snaps in three hours are harder than a value.",
+    let parts = [(0.5, "50 %"), (0.9, "90 %"), (0.99, "99 %")];
+    layers.extend(parts.map(|(p, words)| horizontal(reduced_variate(p), words)));
+    let axes = [
+        (label, Range::Auto),
+        ("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
     ];
-    [("gumbel", gumbel), ("exceedance", often)]
-        .into_iter()
-        .zip(words)
-        .map(|((name, plot), words)| Ok((draw(name, Width::Column, &[plot])?, words.to_owned())))
-        .collect()
+    let gumbel = plot(
+        "Largest snap of each record on Gumbel's paper",
+        axes,
+        layers,
+    );
+    let exceedance = exceedance(seas, &all, unit, label);
+    Ok([
+        draw("gumbel", Width::Column, &[gumbel])?,
+        draw("exceedance", Width::Column, &[exceedance])?,
+    ])
+}
+
+/// How many of all snaps are harder than a value.
+fn exceedance(seas: &Seas, all: &[f64], unit: f64, label: &str) -> Plot {
+    let three_hours = seas.judged_s() / THREE_HOURS_S;
+    let harder = |(below, value): (usize, &f64)| {
+        let often = (all.len() - below) as f64 / three_hours;
+        [value / unit, often.log10()]
+    };
+    let points = all.iter().enumerate().map(harder).collect();
+    let axes = [(label, FROM_ZERO), ("log₁₀ of snaps in 3 h", Range::Auto)];
+    let layers = vec![line(vec![points], Stroke::default(), "")];
+    let description = "How often a snap is harder than a value, in three hours";
+    let mut plot = plot(description, axes, layers);
+    if all.is_empty() {
+        plot.note = "no line snapped".to_owned();
+    }
+    plot
 }

@@ -1,6 +1,7 @@
 //! The same structure in other waves.
 
-use crate::assess::Prepared;
+use super::outcome::Outcome;
+use crate::physics::prepared::Prepared;
 use crate::structure::{Structure, Water, Wave};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -8,10 +9,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Heights and periods that are tried, in parts of the case's.
 const HEIGHTS: [f64; 2] = [0.5, 1.25];
 const PERIODS: [f64; 2] = [2.0 / 3.0, 7.0 / 6.0];
-/// Of each so many.
+/// The number of heights, and of periods.
 const STEPS: u32 = 10;
-/// So many periods of each wave are computed.
-const LENGTH: f64 = 60.0;
+/// The number of periods of each wave that are computed.
+pub(crate) const LENGTH: f64 = 60.0;
 
 /// What the structure does in waves about those of its case.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,12 +21,13 @@ pub struct Scan {
     pub periods_s: Vec<f64>,
     /// Heights \[m\].
     pub heights_m: Vec<f64>,
-    /// For the first period all heights, then for the next: the largest utilisation, or the fastest snap \[m/s\] where
-    /// that is not known; none where the body turned over or touched the floor.
+    /// For the first period all heights, then for the next: the largest utilisation, or the fastest
+    /// snap \[m/s\] where that is not known; none where the body turned over or touched the floor.
     pub cells: Vec<Option<f64>>,
 }
 
-/// Scans heights and periods; none unless the case has a regular wave. `watch` is told which part is done.
+/// Scans heights and periods; none unless the case has a regular wave. `watch` is told which part
+/// is done.
 pub fn scan(structure: &Structure, watch: impl Fn(f64) + Sync) -> Option<Scan> {
     let Water::Wave(wave) = structure.water else {
         return None;
@@ -38,14 +40,11 @@ pub fn scan(structure: &Structure, watch: impl Fn(f64) + Sync) -> Option<Scan> {
         spaced(PERIODS, wave.period_s),
         spaced(HEIGHTS, wave.height_m),
     );
-    let waves: Vec<Wave> = periods_s
-        .iter()
-        .flat_map(|&period_s| {
-            heights_m
-                .iter()
-                .map(move |&height_m| Wave { height_m, period_s })
-        })
-        .collect();
+    let of_period = |&period_s: &f64| {
+        let heights = heights_m.iter();
+        heights.map(move |&height_m| Wave { height_m, period_s })
+    };
+    let waves: Vec<Wave> = periods_s.iter().flat_map(of_period).collect();
     let done = AtomicU64::new(0);
     let cells = waves
         .par_iter()
@@ -71,7 +70,7 @@ fn one(structure: &Structure, wave: Wave) -> Option<f64> {
         ..structure.clone()
     };
     let prepared = Prepared::new(changed).ok()?;
-    let outcome = prepared.outcome(1.0).ok()?;
+    let outcome = Outcome::of(&prepared, 1.0).ok()?;
     if outcome.stop.exceeds() {
         return None;
     }
@@ -80,14 +79,4 @@ fn one(structure: &Structure, wave: Wave) -> Option<f64> {
         Some(all) => all.into_iter().fold(0.0, f64::max),
         None => outcome.speed_m_s(),
     })
-}
-
-impl Scan {
-    /// Its caption.
-    pub(super) fn words(&self) -> String {
-        format!(
-            "The largest utilisation (or the fastest snap, where strengths are not known) in other regular waves, each \
-             run for {LENGTH:.0} periods. Grazing and chaos make such maps uneven: read regions, not single cells."
-        )
-    }
 }

@@ -1,13 +1,14 @@
 //! Where the body rests in still water.
 //!
-//! Lines pull only where they are taut, so the place of rest is the least potential energy −F z within reach of all
-//! lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J. Nocedal and S. Wright, *Numerical
-//! Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions T_i ≥ 0, zero where a line is slack, that balance
-//! buoyancy, and curvature Σ T_i ∇(n_i, s_i) that is not negative along the motions that keep the taut lines taut.
-//! Each set of one to three lines is tried, as three hold a body in the plane, from several places and rotations;
-//! of all that pass, the highest place is the answer.
+//! Lines pull only where they are taut, so the place of rest is the least potential energy −F z
+//! within reach of all lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J.
+//! Nocedal and S. Wright, *Numerical Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions
+//! T_i ≥ 0, zero where a line is slack, that balance buoyancy, and curvature Σ T_i ∇(n_i, s_i) that
+//! is not negative along the motions that keep the taut lines taut. Each set of one to three lines
+//! is tried, as three hold a body in the plane, from several places and rotations; of all that
+//! pass, the highest place is the answer.
 
-use crate::model::Model;
+use super::model::Model;
 use crate::structure::Structure;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use snapload::{CaseError, State, System};
@@ -15,7 +16,8 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A closed gap, and a balance of forces, holds to this in the engine's units.
 const BALANCED: f64 = 1e-9;
-/// A line is taut at rest where its gap is within this of closed, which is 0.1 µm on a line of 100 m.
+/// A line is taut at rest where its gap is within this of closed, which is 0.1 µm on a line of 100
+/// m.
 const TOUCHING: f64 = 1e-9;
 /// Steps of Newton's method.
 const STEPS: usize = 30;
@@ -33,8 +35,8 @@ pub struct Equilibrium {
     pub tension_n: Vec<f64>,
     /// The lines that are just taut, by index, a slack one that touches included.
     pub taut: Vec<usize>,
-    /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides who carries what;
-    /// the tensions are then those of the least sum of squares.
+    /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides
+    /// who carries what; the tensions are then those of the least sum of squares.
     pub indeterminate: bool,
 }
 
@@ -45,13 +47,12 @@ pub struct Equilibrium {
 pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
     let model = Model::about(structure, structure.body.position_m, &[]);
     let system = &model.system;
-    let best = sets(system.cables.len())
-        .into_iter()
-        .flat_map(|set| {
-            starts(structure)
-                .into_iter()
-                .filter_map(move |start| rest(system, &set, start))
-        })
+    let starts = starts(structure, model.scales.length_m);
+    let places = sets(system.cables.len()).into_iter().flat_map(|set| {
+        let at = |start: &State| rest(system, &set, *start);
+        starts.iter().filter_map(at).collect::<Vec<_>>()
+    });
+    let best = places
         .min_by(|a, b| a.y.total_cmp(&b.y))
         .ok_or_else(|| nowhere(structure))?;
     let taut: Vec<usize> = (0..system.cables.len())
@@ -84,17 +85,16 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
 }
 
 fn nowhere(structure: &Structure) -> CaseError {
-    CaseError::value("line.length", lengths(structure), "lines within whose reach the body can rest upright")
-        .with_hint("look at anchors, fairleads and lengths: every line must reach, and together they must hold the body without turning it over")
+    let allowed = "lines within whose reach the body can rest upright";
+    CaseError::value("line.length", lengths(structure), allowed).with_hint(
+        "look at anchors, fairleads and lengths: every line must reach, and together they must \
+         hold the body without turning it over",
+    )
 }
 
 fn lengths(structure: &Structure) -> String {
-    let all: Vec<String> = structure
-        .lines
-        .iter()
-        .map(|line| line.length_m.to_string())
-        .collect();
-    format!("[{}]", all.join(", "))
+    let all = structure.lines.iter().map(|line| line.length_m.to_string());
+    format!("[{}]", all.collect::<Vec<_>>().join(", "))
 }
 
 /// Every set of one to three of so many lines.
@@ -111,25 +111,19 @@ fn sets(count: usize) -> Vec<Vec<usize>> {
 }
 
 /// Where the search begins: the place drawn, beside it and turned, and above each line's anchor.
-fn starts(structure: &Structure) -> Vec<State> {
-    let l = Model::about(structure, structure.body.position_m, &[])
-        .scales
-        .length_m;
-    let above = structure
-        .lines
-        .iter()
-        .map(|line| (line.anchor_m[0] - structure.body.position_m[0]) / l);
+fn starts(structure: &Structure, unit_m: f64) -> Vec<State> {
+    let drawn = structure.body.position_m[0];
+    let anchors = structure.lines.iter().map(|line| line.anchor_m[0]);
+    let above = anchors.map(|anchor| (anchor - drawn) / unit_m);
     let places: Vec<f64> = [0.0, 0.3, -0.3].into_iter().chain(above).collect();
-    let turned = [0.0, 0.4, -0.4, 1.0, -1.0];
-    let state = |x: f64, theta: f64| State {
-        x,
-        theta,
-        ..State::default()
+    let turned = |x: f64| {
+        [0.0, 0.4, -0.4, 1.0, -1.0].map(|theta| State {
+            x,
+            theta,
+            ..State::default()
+        })
     };
-    places
-        .iter()
-        .flat_map(|&x| turned.iter().map(move |&theta| state(x, theta)))
-        .collect()
+    places.into_iter().flat_map(turned).collect()
 }
 
 /// The row (n_x, n_y, s) of a line.
@@ -147,20 +141,21 @@ fn moved(at: &State, step: &Vector3<f64>) -> State {
     }
 }
 
-/// How the row of a line changes with x, y and θ.
-fn bend(system: &System, line: usize, at: &State) -> Matrix3<f64> {
-    let mut bend = Matrix3::zeros();
+/// How the row of a line changes with x, y and θ, by differences.
+fn row_gradient(system: &System, line: usize, at: &State) -> Matrix3<f64> {
+    let mut gradient = Matrix3::zeros();
     for k in 0..3 {
         let mut step = Vector3::zeros();
         step[k] = DIFFERENCE;
         let ahead = row(system, line, &moved(at, &step));
         let behind = row(system, line, &moved(at, &-step));
-        bend.set_column(k, &((ahead - behind) / (2.0 * DIFFERENCE)));
+        gradient.set_column(k, &((ahead - behind) / (2.0 * DIFFERENCE)));
     }
-    bend
+    gradient
 }
 
-/// A stable place of rest with just these lines pulling, or none from this start: Newton's method on
+/// A stable place of rest with just these lines pulling, or none from this start: Newton's method
+/// on
 ///
 /// ```text
 /// Σ T_i (n_i, s_i) = (0, −1, 0),    g_i/(2r) = 0
@@ -174,13 +169,13 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
         residual[1] = 1.0;
         for (i, &line) in set.iter().enumerate() {
             let normal = row(system, line, &at);
-            let bend = bend(system, line, &at) * tension[i];
+            let gradient = row_gradient(system, line, &at) * tension[i];
             for k in 0..3 {
                 residual[k] += tension[i] * normal[k];
                 matrix[(k, 3 + i)] = normal[k];
                 matrix[(3 + i, k)] = normal[k];
                 for j in 0..3 {
-                    matrix[(k, j)] += bend[(k, j)];
+                    matrix[(k, j)] += gradient[(k, j)];
                 }
             }
             let cable = &system.cables[line];
@@ -189,14 +184,12 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
         if residual.amax() < 1e-15 {
             break;
         }
-        if !matrix
-            .iter()
-            .chain(residual.iter())
-            .all(|entry: &f64| entry.is_finite())
-        {
+        let mut entries = matrix.iter().chain(residual.iter());
+        if !entries.all(|entry: &f64| entry.is_finite()) {
             return None;
         }
-        // A body that may turn freely makes the matrix singular; the shortest step does not turn it.
+        // A body that may turn freely makes the matrix singular; the shortest step does not turn
+        // it.
         let step = matrix.svd(true, true).solve(&-residual, 1e-10).ok()?;
         let shorter = (0.5 / step.rows(0, 3).norm()).min(1.0);
         at = moved(&at, &(Vector3::new(step[0], step[1], step[2]) * shorter));
@@ -204,13 +197,14 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
     }
     let within = system.cables.iter().all(|cable| cable.gap(&at) <= TOUCHING);
     let pulls = tension.iter().all(|pull| *pull > -BALANCED);
-    let (_, left) = tensions(system, set, &at);
-    let closed = set
-        .iter()
-        .all(|&line| system.cables[line].gap(&at).abs() <= TOUCHING);
-    let upright = at.theta.abs() < FRAC_PI_2;
-    (within && pulls && closed && upright && left < BALANCED && stable(system, set, &at, &tension))
-        .then_some(at)
+    let closed = |line: &usize| system.cables[*line].gap(&at).abs() <= TOUCHING;
+    let rests = within
+        && pulls
+        && set.iter().all(closed)
+        && at.theta.abs() < FRAC_PI_2
+        && tensions(system, set, &at).1 < BALANCED
+        && stable(system, set, &at, &tension);
+    rests.then_some(at)
 }
 
 /// Whether Σ T_i ∇(n_i, s_i) is not negative along the motions that keep the lines that pull taut.
@@ -218,7 +212,7 @@ fn stable(system: &System, set: &[usize], at: &State, tension: &DVector<f64>) ->
     let mut curvature = Matrix3::zeros();
     let mut held = Matrix3::zeros();
     for (i, &line) in set.iter().enumerate().filter(|(i, _)| tension[*i] > 1e-6) {
-        curvature += bend(system, line, at) * tension[i];
+        curvature += row_gradient(system, line, at) * tension[i];
         let normal = row(system, line, at);
         held += normal * normal.transpose();
     }
@@ -232,12 +226,8 @@ fn stable(system: &System, set: &[usize], at: &State, tension: &DVector<f64>) ->
         let both = (curvature + curvature.transpose()) * 0.5;
         free[i].dot(&(both * free[j]))
     });
-    free.is_empty()
-        || projected
-            .symmetric_eigen()
-            .eigenvalues
-            .iter()
-            .all(|value| *value > -1e-6)
+    let curvatures = || projected.symmetric_eigen().eigenvalues;
+    free.is_empty() || curvatures().iter().all(|value| *value > -1e-6)
 }
 
 /// The tensions ≥ 0 of least sum of squares that balance the buoyancy, and what is left unbalanced.

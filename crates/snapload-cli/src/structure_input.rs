@@ -1,0 +1,92 @@
+//! What the verbs for structures have in common: which case, and where the answers go.
+use crate::case_input::read_text;
+use crate::failure::{Failure, print};
+use crate::json::{Json, room_of};
+use crate::stage::{Room, Stage};
+use serde::Serialize;
+use snapload_structure::{Entries, Structure, told};
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Which structure.
+#[derive(clap::Args)]
+pub(crate) struct StructureArgs {
+    /// Case file in TOML (keys: snapload assess --keys)
+    #[arg(value_name = "CASE.toml")]
+    file: Option<PathBuf>,
+    /// Change one key after the file, such as wave.height=2 or line.1.length=6; may be repeated
+    #[arg(long, value_name = "TABLE.KEY=VALUE")]
+    set: Vec<String>,
+}
+
+impl StructureArgs {
+    /// Reads and checks the case; returns it with its name.
+    pub(crate) fn read(&self) -> Result<(String, Structure), Failure> {
+        let path: &Path = self.file.as_deref().ok_or_else(|| {
+            Failure::bad_input(
+                "no case file; write snapload assess CASE.toml (docs/examples/cylinder.toml is one \
+                 to begin with)",
+            )
+        })?;
+        let name = path.display().to_string();
+        let mut entries = Entries::parse(&name, &read_text(path)?).map_err(Failure::bad_input)?;
+        for text in &self.set {
+            entries.set(text).map_err(Failure::bad_input)?;
+        }
+        let structure = Structure::from_entries(&entries).map_err(Failure::bad_input)?;
+        Ok((name, structure))
+    }
+
+    /// The command that reads it again.
+    pub(crate) fn command(&self, verb: &str) -> String {
+        let file = self.file.as_deref().map(|path| path.display().to_string());
+        let mut command = format!("snapload {verb} {}", file.unwrap_or_default());
+        for set in &self.set {
+            let _ = write!(command, " --set '{set}'");
+        }
+        command
+    }
+}
+
+/// Where the answers of a verb go: a file, JSON, standard output.
+pub(crate) struct Answers {
+    stage: Stage,
+    json: Json,
+    file: Option<(Room, PathBuf)>,
+}
+
+impl Answers {
+    /// Opens the places, so that a bad one is known before anything is computed.
+    pub(crate) fn open(json: Option<&Path>, out: Option<&Path>) -> Result<Self, Failure> {
+        let mut stage = Stage::default();
+        let json = Json::open(&mut stage, json)?;
+        let file = match out {
+            Some(path) => Some((room_of(&mut stage, path)?, path.to_owned())),
+            None => None,
+        };
+        Ok(Self { stage, json, file })
+    }
+
+    /// Writes the file, if it was asked for.
+    pub(crate) fn write(
+        &mut self,
+        fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        match self.file.take() {
+            Some((room, path)) => self.stage.write(room, path, fill),
+            None => Ok(()),
+        }
+    }
+
+    /// Puts all files in their places, and prints a summary and where they are.
+    pub(crate) fn finish(self, json: &impl Serialize, mut text: String) -> Result<(), Failure> {
+        let Some(written) = self.json.write(self.stage, json)? else {
+            return Ok(());
+        };
+        for path in written {
+            text += &told("written", &path.display().to_string());
+        }
+        print(&text)
+    }
+}

@@ -1,0 +1,87 @@
+//! A body on lines that stretch: what they do at a state, and how it is accelerated.
+
+use super::law::Spring;
+use snapload::{State, System, TautSet};
+
+/// A body on springs.
+pub(super) struct SprungBody<'a> {
+    pub(super) system: &'a System,
+    pub(super) springs: &'a [Spring],
+}
+
+/// What one line does at one state.
+pub(super) struct Stretch {
+    /// Unit vector along the line.
+    n: [f64; 2],
+    /// Lever arm.
+    arm: f64,
+    /// δ.
+    stretch: f64,
+    /// δ̇.
+    pub(super) rate: f64,
+    /// k δ + c δ̇.
+    pub(super) force: f64,
+}
+
+impl SprungBody<'_> {
+    pub(super) fn stretch(&self, line: usize, state: &State) -> Stretch {
+        let cable = &self.system.cables[line];
+        let span = cable.span(state);
+        let reach = span[0].hypot(span[1]);
+        let n = span.map(|component| component / reach);
+        let (sine, cosine) = state.theta.sin_cos();
+        let lever = cable.lever(sine, cosine);
+        let arm = lever[0] * n[1] - lever[1] * n[0];
+        // From the gap |d|² − r², which is free of cancellation.
+        let stretch = cable.gap(state) / (reach + cable.length());
+        let rate = n[0] * state.vx + n[1] * state.vy + arm * state.vtheta;
+        Stretch {
+            n,
+            arm,
+            stretch,
+            rate,
+            force: self.springs[line].force(stretch, rate),
+        }
+    }
+
+    /// The lines that pull at a state.
+    pub(super) fn pulling(&self, state: &State) -> TautSet {
+        let pulls = |line: &usize| {
+            let Stretch { stretch, force, .. } = self.stretch(*line, state);
+            stretch > 0.0 && force > 0.0
+        };
+        (0..self.springs.len()).filter(pulls).collect()
+    }
+
+    /// The event function of a line: positive while it goes on as it does, pulling or not.
+    pub(super) fn until_change(&self, line: usize, state: &State, pulls: bool) -> f64 {
+        let Stretch { stretch, force, .. } = self.stretch(line, state);
+        match (pulls, stretch <= 0.0) {
+            (true, _) => force,
+            (false, true) => -stretch,
+            (false, false) => -force,
+        }
+    }
+
+    /// The largest angular frequency sqrt(k w) of a line that pulls; 1 where none is quicker.
+    pub(super) fn quickest(&self, state: &State, pulling: TautSet) -> f64 {
+        let inverse_inertia = self.system.body.inverse_inertia();
+        pulling.iter().fold(1.0, |quickest: f64, line| {
+            let inverse_mass = 1.0 + self.stretch(line, state).arm.powi(2) * inverse_inertia;
+            quickest.max((self.springs[line].rate * inverse_mass).sqrt())
+        })
+    }
+
+    pub(super) fn acceleration(&self, t: f64, state: &State, pulling: TautSet) -> [f64; 3] {
+        let inverse_inertia = self.system.body.inverse_inertia();
+        let free = self.system.free_acceleration(t, state);
+        pulling.iter().fold(free, |[x, y, theta], line| {
+            let Stretch { n, arm, force, .. } = self.stretch(line, state);
+            [
+                x - force * n[0],
+                y - force * n[1],
+                theta - force * arm * inverse_inertia,
+            ]
+        })
+    }
+}

@@ -1,0 +1,104 @@
+//! The law of one line that stretches: a spring with a damper beside it that can only pull.
+
+use crate::physics::prepared::Prepared;
+use snapload::CaseError;
+
+/// Less restitution takes a damper that is all there is of the line.
+const LEAST_RESTITUTION: f64 = 0.01;
+
+/// A line as spring and damper, in the engine's units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// k \[F/L\].
+    pub rate: f64,
+    /// c \[F T/L\].
+    pub damping: f64,
+}
+
+impl Spring {
+    /// The force of spring and damper at the stretch δ = |P − A| − r:
+    ///
+    /// ```text
+    /// T = k δ + c δ̇,    which the line pulls with while δ > 0 and T > 0
+    /// ```
+    ///
+    /// The linear dashpot of T. Schwager and T. Pöschel, *Granular Matter* 9 (2007) 465, which lets
+    /// go where the force is back at zero; with a damper that is before the stretch is.
+    pub fn force(&self, stretch: f64, rate: f64) -> f64 {
+        self.rate * stretch + self.damping * rate
+    }
+}
+
+/// The damping ratio ζ = c/(2 sqrt(k m)) of a spring and damper from which a mass rebounds at e
+/// times its speed, let go of when the force is back at zero:
+///
+/// ```text
+/// e = exp(−2ζ arccos ζ/sqrt(1 − ζ²)),    with arcosh and ζ² − 1 beyond ζ = 1
+/// ```
+///
+/// (Schwager and Pöschel, eq. 17 and 18, in which β/ω₀ is ζ).
+pub fn damping_ratio(restitution: f64) -> f64 {
+    if restitution >= 1.0 {
+        return 0.0;
+    }
+    let rebound = |ratio: f64| {
+        let root = (1.0 - ratio * ratio).abs().sqrt();
+        let angle = if ratio < 1.0 {
+            ratio.acos()
+        } else {
+            ratio.acosh()
+        };
+        // Towards ζ = 1 the angle over the root goes to 1.
+        let quotient = if root < 1e-6 { 1.0 } else { angle / root };
+        (-2.0 * ratio * quotient).exp()
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    while rebound(high) > restitution && high < 1e9 {
+        high *= 2.0;
+    }
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if rebound(middle) > restitution {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The lines of a structure as springs, `stiffer` times as stiff as they are, with dampers that
+/// give its restitution at the effective mass M/w that each line has to stop where the structure
+/// rests.
+///
+/// # Errors
+/// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
+pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
+    let (structure, model) = (&prepared.structure, &prepared.model);
+    if structure.restitution < LEAST_RESTITUTION {
+        let shown = structure.restitution;
+        let allowed = format!("{LEAST_RESTITUTION} or more for lines that stretch");
+        return Err(CaseError::value("run.restitution", shown, allowed).with_hint(
+            "a damper for less pulls many times harder at first touch than the spring ever does",
+        ));
+    }
+    let ratio = damping_ratio(structure.restitution);
+    let rest = model.at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
+    let unit = model.scales.force_n / model.scales.length_m;
+    let spring = |(index, cable): (usize, &snapload::Cable)| {
+        let rate = structure.lines[index].spring_rate_n_m().ok_or_else(|| {
+            let key = format!("line.{}.stiffness", index + 1);
+            let allowed = "a stiffness, which a line that stretches needs";
+            CaseError::value(&key, "(left out)", allowed)
+                .with_hint("give stiffness (EA in N), spring_rate, or a type and diameter")
+        })?;
+        let rate = rate * stiffer / unit;
+        let normal = cable.normal(&rest);
+        let mass = 1.0 / normal.coupling(&normal, model.system.body.inverse_inertia());
+        Ok(Spring {
+            rate,
+            damping: 2.0 * ratio * (rate * mass).sqrt(),
+        })
+    };
+    model.system.cables.iter().enumerate().map(spring).collect()
+}

@@ -1,0 +1,10 @@
+//! Lines that stretch: the alternative to the inextensible line (docs/elastic.md).
+
+mod body;
+mod law;
+mod motion;
+mod record;
+
+pub use law::{Spring, damping_ratio, springs};
+pub use motion::run_elastic;
+pub use record::{ElasticRun, Look, Pull};

@@ -1,0 +1,239 @@
+//! The motion on lines that stretch.
+//!
+//! Between the instants at which a line takes hold or lets go the forces are smooth. So the motion
+//! is integrated from one such instant to the next with the set of pulling lines fixed, by the pair
+//! of order 8 of Dormand and Prince, and the instants are found on its dense output, at [`LOOKS`]
+//! places in each step and then by bisection.
+//!
+//! Library: `differential-equations` (DOP853 with dense output, few dependencies). Its own
+//! detection of events passes over the first step and over two crossings within one, so only its
+//! integrator is used.
+
+use super::body::SprungBody;
+use super::law::Spring;
+use super::record::{ElasticRun, Record};
+use crate::physics::prepared::Prepared;
+use differential_equations::ode::OrdinaryNumericalMethod;
+use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
+use snapload::{CaseError, State, TautSet};
+use std::f64::consts::FRAC_PI_2;
+
+/// Tolerance of a step, relative and absolute, in the engine's units.
+const TOLERANCE: f64 = 1e-11;
+/// Steps are no longer than this part of 1/ω, ω = sqrt(k w) of the stiffest line that pulls: the
+/// dense output, on which lines let go, is of order 7 and would else be less exact than the steps.
+const STEP: f64 = 0.25;
+/// The number of such steps between two looks at whether to stop.
+const TOGETHER: f64 = 4000.0;
+/// The longest time in one go while no line pulls.
+const AT_A_TIME: f64 = 1.0;
+/// Places in a step at which forces are looked at.
+const LOOKS: u32 = 16;
+/// A force below zero by less than this, where a line has just taken hold or let go, is rounding.
+const NOISE: f64 = 1e-12;
+/// A time shorter than this is none.
+const INSTANT: f64 = 10.0 * f64::EPSILON;
+
+/// The components of a state.
+type Components = [f64; 6];
+
+/// The motion with one set of pulling lines, from `begin` on.
+struct Phase<'a> {
+    body: &'a SprungBody<'a>,
+    begin: f64,
+    pulling: TautSet,
+    longest_step: f64,
+}
+
+impl ODE<f64, Components> for Phase<'_> {
+    fn diff(&self, s: f64, y: &Components, dydt: &mut Components) {
+        let state = State::from_components(*y);
+        let [ax, ay, atheta] = self.body.acceleration(self.begin + s, &state, self.pulling);
+        *dydt = [state.vx, state.vy, state.vtheta, ax, ay, atheta];
+    }
+}
+
+/// The integrator, from one time of a phase to another, step by step.
+struct Steps<'a, M> {
+    phase: &'a Phase<'a>,
+    method: M,
+    end: f64,
+}
+
+impl<'a> Phase<'a> {
+    fn steps(
+        &'a self,
+        [start, end]: [f64; 2],
+        y: Components,
+    ) -> Result<
+        Steps<'a, impl OrdinaryNumericalMethod<f64, Components> + Interpolation<f64, Components>>,
+        CaseError,
+    > {
+        let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
+        let mut method = method.h_max(self.longest_step);
+        method.init(self, start, end, &y).map_err(gave_up)?;
+        Ok(Steps {
+            phase: self,
+            method,
+            end,
+        })
+    }
+
+    /// The event function of a line, which is positive while it goes on as the phase has it.
+    fn until_change(&self, line: usize, state: &State) -> f64 {
+        self.body
+            .until_change(line, state, self.pulling.contains(line))
+    }
+
+    /// A line that no longer does what the phase has it do. `fresh` are lines that have just taken
+    /// hold or let go, and whose force is zero but for rounding.
+    fn changed(&self, state: &State, fresh: &mut TautSet) -> Option<usize> {
+        for line in 0..self.body.springs.len() {
+            let left = self.until_change(line, state);
+            if left > 0.0 {
+                *fresh = fresh.without(line);
+            } else if !fresh.contains(line) || left < -NOISE {
+                return Some(line);
+            }
+        }
+        None
+    }
+
+    /// Follows it until a line changes, or for a time; returns when, the state there, and the line.
+    fn follow(
+        &self,
+        time: f64,
+        start: &State,
+        fresh: &mut TautSet,
+        mut see: impl FnMut(f64, &State),
+    ) -> Result<(f64, State, Option<usize>), CaseError> {
+        let mut steps = self.steps([0.0, time], start.components())?;
+        while steps.advance()? {
+            let (before, now) = (steps.method.t_prev(), steps.method.t());
+            let mut last = before;
+            for k in 1..=LOOKS {
+                let s = before + (now - before) * f64::from(k) / f64::from(LOOKS);
+                let Ok(y) = steps.method.interpolate(s) else {
+                    continue;
+                };
+                let state = State::from_components(y);
+                if let Some(line) = self.changed(&state, fresh) {
+                    let s = steps.locate(line, last, s);
+                    // The dense output is less exact than the steps.
+                    let state = self.state_at(s, before, steps.method.y_prev())?;
+                    return Ok((s, state, Some(line)));
+                }
+                see(self.begin + s, &state);
+                last = s;
+            }
+        }
+        Ok((time, State::from_components(*steps.method.y()), None))
+    }
+
+    /// The state at a time, integrated from one before.
+    fn state_at(&self, s: f64, before: f64, y: &Components) -> Result<State, CaseError> {
+        if s <= before {
+            return Ok(State::from_components(*y));
+        }
+        let mut steps = self.steps([before, s], *y)?;
+        while steps.advance()? {}
+        Ok(State::from_components(*steps.method.y()))
+    }
+}
+
+impl<M> Steps<'_, M>
+where
+    M: OrdinaryNumericalMethod<f64, Components> + Interpolation<f64, Components>,
+{
+    /// Makes one step that holds the tolerance; `false` at the end.
+    fn advance(&mut self) -> Result<bool, CaseError> {
+        if (self.end - self.method.t()).abs() <= INSTANT {
+            return Ok(false);
+        }
+        loop {
+            if self.method.t() + self.method.h() > self.end {
+                self.method.set_h(self.end - self.method.t());
+            }
+            self.method.step(self.phase).map_err(gave_up)?;
+            if !matches!(self.method.status(), Status::RejectedStep) {
+                return Ok(true);
+            }
+        }
+    }
+
+    /// When a line changes, by bisection on the dense output.
+    fn locate(&mut self, line: usize, mut low: f64, mut high: f64) -> f64 {
+        while high - low > f64::EPSILON * high.abs().max(1.0) {
+            let middle = 0.5 * (low + high);
+            let state = self.method.interpolate(middle).map(State::from_components);
+            if state.is_ok_and(|state| self.phase.until_change(line, &state) > 0.0) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
+}
+
+/// Runs a structure on lines that stretch, to the end of its duration or until it is turned by a
+/// quarter. `look_s` is the time between the states that are kept; `stop` is asked now and then
+/// whether to end.
+///
+/// # Errors
+/// A [`CaseError`] if there are not as many springs as lines, or the integrator gives up.
+pub fn run_elastic(
+    prepared: &Prepared,
+    springs: &[Spring],
+    look_s: f64,
+    stop: impl Fn() -> bool,
+) -> Result<ElasticRun, CaseError> {
+    let model = &prepared.model;
+    if springs.len() != model.system.cables.len() {
+        let shown = springs.len().to_string();
+        return Err(CaseError::value("springs", shown, "one for each line"));
+    }
+    let body = SprungBody {
+        system: &model.system,
+        springs,
+    };
+    let mut record = Record::new(&model.scales, &body, look_s);
+    let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
+    let mut pulling = body.pulling(&state);
+    record.change(t, &state, TautSet::SLACK, pulling);
+    record.see(t, &state, pulling);
+    let end = model.rules.t_end;
+    while t < end && state.theta.abs() < FRAC_PI_2 && !stop() {
+        let longest_step = STEP / body.quickest(&state, pulling);
+        let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
+        let phase = Phase {
+            body: &body,
+            begin: t,
+            pulling,
+            longest_step,
+        };
+        let see = |t: f64, state: &State| record.see(t, state, pulling);
+        let (s, reached, changed) = phase.follow(until - t, &state, &mut fresh, see)?;
+        state = reached;
+        let Some(line) = changed else {
+            t = until;
+            continue;
+        };
+        let before = pulling;
+        pulling = match pulling.contains(line) {
+            true => pulling.without(line),
+            false => pulling.with(line),
+        };
+        (t, fresh) = (t + s, fresh.with(line));
+        record.see(t, &state, before);
+        record.change(t, &state, before, pulling);
+    }
+    Ok(record.finish(t, state))
+}
+
+fn gave_up(error: Error<f64, Components>) -> CaseError {
+    let shown: String = format!("({error:?})").chars().take(80).collect();
+    let allowed = "lines that the integrator can follow";
+    CaseError::value("line.stiffness", shown, allowed)
+        .with_hint("lower the stiffness, or the duration")
+}

@@ -1,0 +1,159 @@
+//! What is kept of a motion on lines that stretch.
+
+use super::body::SprungBody;
+use crate::physics::model::Scales;
+use crate::physics::snap::number_of_line;
+use serde::Serialize;
+use snapload::{State, TautSet};
+
+/// A line that pulls for a while.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Pull {
+    /// The line, by index from 0.
+    #[serde(serialize_with = "number_of_line")]
+    pub line: usize,
+    /// When it took hold \[s\].
+    pub from_s: f64,
+    /// When it let go, or the run ended \[s\].
+    pub to_s: f64,
+    /// Speed at which it was being stretched when it took hold \[m/s\].
+    pub speed_m_s: f64,
+    /// Speed at which it was getting shorter when it let go; none if it pulls to the end \[m/s\].
+    pub rebound_m_s: Option<f64>,
+    /// The largest tension \[N\].
+    pub peak_n: f64,
+    /// When \[s\].
+    pub peak_s: f64,
+}
+
+/// State and tensions at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// The time \[s\].
+    pub t_s: f64,
+    /// The state, in the engine's units.
+    pub state: State,
+    /// Tension of each line \[N\].
+    pub tension_n: Vec<f64>,
+}
+
+/// A motion on lines that stretch.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ElasticRun {
+    /// Every pull, in the order in which lines took hold.
+    pub pulls: Vec<Pull>,
+    /// The motion at the times asked for.
+    pub looks: Vec<Look>,
+    /// When it ended \[s\].
+    pub end_s: f64,
+    /// The state then, in the engine's units.
+    pub end: State,
+}
+
+impl ElasticRun {
+    /// The largest tension of a line \[N\].
+    pub fn peak_n(&self, line: usize) -> f64 {
+        let pulls = self.pulls.iter().filter(|pull| pull.line == line);
+        pulls.fold(0.0, |peak, pull| pull.peak_n.max(peak))
+    }
+
+    /// The part of the time in which a line does not pull.
+    pub fn slack_fraction(&self, line: usize) -> f64 {
+        let pulls = self.pulls.iter().filter(|pull| pull.line == line);
+        1.0 - pulls.map(|pull| pull.to_s - pull.from_s).sum::<f64>() / self.end_s
+    }
+}
+
+/// Writes down a motion.
+pub(super) struct Record<'a> {
+    scales: &'a Scales,
+    body: &'a SprungBody<'a>,
+    look: f64,
+    next: f64,
+    run: ElasticRun,
+    /// The pull that each line is in, by its place among the pulls.
+    open: Vec<Option<usize>>,
+}
+
+impl<'a> Record<'a> {
+    pub(super) fn new(scales: &'a Scales, body: &'a SprungBody<'a>, look_s: f64) -> Self {
+        Self {
+            scales,
+            body,
+            look: look_s / scales.time_s,
+            next: 0.0,
+            run: ElasticRun::default(),
+            open: vec![None; body.springs.len()],
+        }
+    }
+
+    /// The tension of a line that pulls \[N\].
+    fn tension_n(&self, line: usize, state: &State) -> f64 {
+        self.scales.force_n * self.body.stretch(line, state).force.max(0.0)
+    }
+
+    /// Takes note of a state on the way.
+    pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
+        let t_s = t * self.scales.time_s;
+        for line in pulling.iter() {
+            let tension = self.tension_n(line, state);
+            if let Some(pull) = self.open[line].map(|place| &mut self.run.pulls[place])
+                && tension > pull.peak_n
+            {
+                (pull.peak_n, pull.peak_s) = (tension, t_s);
+            }
+        }
+        if t >= self.next {
+            let tension = |line| match pulling.contains(line) {
+                true => self.tension_n(line, state),
+                false => 0.0,
+            };
+            let tension_n = (0..self.open.len()).map(tension).collect();
+            self.run.looks.push(Look {
+                t_s,
+                state: *state,
+                tension_n,
+            });
+            self.next = t + self.look;
+        }
+    }
+
+    /// Takes note of lines that take hold or let go.
+    pub(super) fn change(&mut self, t: f64, state: &State, before: TautSet, after: TautSet) {
+        let t_s = t * self.scales.time_s;
+        for line in 0..self.open.len() {
+            let speed = self.body.stretch(line, state).rate * self.scales.speed_m_s();
+            match (before.contains(line), after.contains(line)) {
+                (false, true) => {
+                    self.open[line] = Some(self.run.pulls.len());
+                    self.run.pulls.push(Pull {
+                        line,
+                        from_s: t_s,
+                        to_s: t_s,
+                        speed_m_s: speed,
+                        rebound_m_s: None,
+                        peak_n: self.tension_n(line, state),
+                        peak_s: t_s,
+                    });
+                }
+                (true, false) => {
+                    if let Some(place) = self.open[line].take() {
+                        let pull = &mut self.run.pulls[place];
+                        (pull.to_s, pull.rebound_m_s) = (t_s, Some(-speed));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Ends the record; what pulls then pulls to the end.
+    pub(super) fn finish(mut self, t: f64, state: State) -> ElasticRun {
+        self.run.end_s = t * self.scales.time_s;
+        self.run.end = state;
+        for place in self.open.into_iter().flatten() {
+            self.run.pulls[place].to_s = self.run.end_s;
+        }
+        self.run
+    }
+}

@@ -1,0 +1,101 @@
+//! The distribution of the largest of many: Gumbel's, fitted by L-moments.
+
+use serde::Serialize;
+
+/// Euler's constant.
+const EULER: f64 = 0.577_215_664_901_532_9;
+
+/// P(x) = exp(−exp(−(x − ξ)/α)).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gumbel {
+    /// Location ξ.
+    pub location: f64,
+    /// Scale α.
+    pub scale: f64,
+    /// Size of the sample.
+    pub count: usize,
+    /// ln k, for the largest of k as many as the sample's: the location moves on by α ln k.
+    pub log_times: f64,
+}
+
+/// A value with its standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Its standard error.
+    #[serde(rename = "standard_error")]
+    pub error: f64,
+}
+
+impl Gumbel {
+    /// The fit to a sample of at least three values that are not all equal:
+    ///
+    /// ```text
+    /// α = λ₂/ln 2,    ξ = λ₁ − γ α,    λ₁ = b₀,    λ₂ = 2 b₁ − b₀
+    /// ```
+    ///
+    /// with the unbiased sample moments b. Source: J. R. M. Hosking, *J. R. Statist. Soc.* B 52
+    /// (1990) 105.
+    pub fn fit(sample: &[f64]) -> Option<Self> {
+        let count = sample.len();
+        if count < 3 {
+            return None;
+        }
+        let mut sorted = sample.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let n = count as f64;
+        let b0 = sorted.iter().sum::<f64>() / n;
+        let weighted = |(k, x): (usize, &f64)| k as f64 / (n - 1.0) * x;
+        let b1 = sorted.iter().enumerate().map(weighted).sum::<f64>() / n;
+        let scale = (2.0 * b1 - b0) / std::f64::consts::LN_2;
+        (scale > 0.0).then_some(Self {
+            location: b0 - EULER * scale,
+            scale,
+            count,
+            log_times: 0.0,
+        })
+    }
+
+    /// The value that a part `p` of all stays below, with the asymptotic standard error of the fit:
+    ///
+    /// ```text
+    /// x = ξ + α y,    var x = α²/n (1.1128 + 0.4574 y + 0.8046 y²),    y = −ln(−ln p) + ln k
+    /// ```
+    ///
+    /// Source: J. R. M. Hosking, J. R. Wallis and E. F. Wood, *Technometrics* 27 (1985) 251, for
+    /// shape 0.
+    pub fn quantile(&self, p: f64) -> Estimate {
+        self.at(reduced_variate(p))
+    }
+
+    /// The value at a reduced variate of the sample's own distribution, beyond ln k.
+    fn at(&self, y: f64) -> Estimate {
+        let y = y + self.log_times;
+        let variance = 1.1128 + 0.4574 * y + 0.8046 * y * y;
+        Estimate {
+            value: self.location + self.scale * y,
+            error: self.scale * (variance / self.count as f64).sqrt(),
+        }
+    }
+
+    /// The expected value, which is at y = γ + ln k.
+    pub fn mean(&self) -> Estimate {
+        self.at(EULER)
+    }
+
+    /// The distribution of the largest over `times` as long a time, taken as independent:
+    /// ξ + α ln(times).
+    #[must_use]
+    pub fn over_times(&self, times: f64) -> Self {
+        Self {
+            log_times: self.log_times + times.ln(),
+            ..*self
+        }
+    }
+}
+
+/// The reduced variate y = −ln(−ln p).
+pub fn reduced_variate(p: f64) -> f64 {
+    -(-p.ln()).ln()
+}

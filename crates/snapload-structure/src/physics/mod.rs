@@ -1,0 +1,11 @@
+//! The physics of a moored structure: waves, forces, rest, and the two models of a line.
+
+pub(crate) mod elastic;
+pub(crate) mod equilibrium;
+pub(crate) mod gumbel;
+pub(crate) mod model;
+pub(crate) mod prepared;
+pub(crate) mod sea;
+pub(crate) mod snap;
+pub(crate) mod warnings;
+pub(crate) mod wave;

@@ -1,0 +1,168 @@
+//! How hard a snap pulls.
+//!
+//! An inextensible line stops the body at once: the law of impact gives an impulse and a loss of
+//! energy, never a force. A force needs what the engine leaves out, the line's elasticity and its
+//! mass. It is estimated from the impulses of one instant, J_i = p_i/(1 + e) without what the
+//! rebound adds, and does not enter the motion:
+//!
+//! ```text
+//! taken:   E_i = max( J_i v_i/2,  min( J_i² w_i/2M,  Σ J_j v_j/2 ) )
+//! spring:  T = T_0 + sqrt(2 k E)        the line as a spring k = EA/length that takes up the energy E
+//! front:   T = u sqrt(EA μ)             the first instant: the wave that runs into a line with mass, u = 2E/J
+//! peak:    T = T_0 + u ( sqrt(EA μ) + sqrt(k (m + μ length)) ),   m = J²/2E
+//! ```
+//!
+//! with v_i the closing speed, M/w_i the effective mass of the body along the line (w = 1 + s²/I of
+//! docs/model.md section 5, in the engine's units), T_0 the tension at rest, or of a line that was
+//! taut the one it had. A line that closes by itself takes up all of the closing energy, J v/2 = M
+//! v²/2w, and stops m = M/w at u = v. Lines that close together share it as they share the impulse.
+//! A line that was taut, v_i = 0, and has a jolt passed on to it takes up the energy that J_i alone
+//! would give it, and no more than there is.
+//!
+//! The spring is docs/model.md section 10; the front is the momentum balance of an elastic bar
+//! struck at its end (K. F. Graff, *Wave Motion in Elastic Solids* (1975), section 2.4). The peak
+//! is the sum of both, with the line's own mass added to what it stops: of the exact elastic line,
+//! fixed at one end and pulled at the other, it is at most about 1 % short and 10 % over, whatever
+//! the masses. That is found by following the waves to and fro (a test), and of the kind that S.
+//! Timoshenko & J. N. Goodier, *Theory of Elasticity*, give for the longitudinal impact of bars.
+
+use super::prepared::Prepared;
+use crate::structure::LineSi;
+use serde::{Serialize, Serializer};
+use snapload::{Impact, Simulation, Step};
+
+/// A slower snap is the line settling down, not a load: it is neither counted nor listed \[m/s\].
+pub const SLOWEST_M_S: f64 = 0.01;
+
+/// A line snapping taut, or the jolt that another one's snap passes on to a taut line.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Snap {
+    /// When \[s\].
+    pub t_s: f64,
+    /// The line, by index from 0.
+    #[serde(serialize_with = "number_of_line")]
+    pub line: usize,
+    /// Whether the line was taut, and the snap of another was passed on to it.
+    #[serde(rename = "jolt")]
+    pub is_jolt: bool,
+    /// Closing speed v; 0 of a line that was taut \[m/s\].
+    pub speed_m_s: f64,
+    /// Impulse in the line \[N s\].
+    pub impulse_n_s: f64,
+    /// Energy lost \[J\].
+    pub energy_lost_j: f64,
+    /// What the line has to stop, m \[kg\].
+    pub effective_mass_kg: f64,
+    /// At which speed that comes, u \[m/s\]; v where one line snaps by itself.
+    pub effective_speed_m_s: f64,
+    /// Peak tension of the spring; none without a stiffness \[N\].
+    pub energy_peak_n: Option<f64>,
+    /// Tension of the first instant; none without stiffness and mass per length \[N\].
+    pub front_n: Option<f64>,
+    /// Peak tension of the line with its mass, where that is known, else of the spring \[N\].
+    pub peak_n: Option<f64>,
+    /// The peak over the breaking load.
+    pub utilisation: Option<f64>,
+}
+
+impl Snap {
+    /// Whether it is a load, and not a line that settles down: what it stops comes at 1 cm/s or
+    /// more.
+    pub fn counts(&self) -> bool {
+        self.effective_speed_m_s >= SLOWEST_M_S
+    }
+}
+
+/// Lines are counted from 1 for readers, as in a case.
+pub(crate) fn number_of_line<S: Serializer>(index: &usize, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_u64(*index as u64 + 1)
+}
+
+/// The snaps at the end of a step.
+pub(crate) fn snaps_of_step(
+    prepared: &Prepared,
+    simulation: &Simulation,
+    step: &Step,
+) -> Vec<Snap> {
+    let impacts: Vec<Impact> = step.impacts().collect();
+    if impacts.is_empty() {
+        return Vec::new();
+    }
+    let held = simulation.tensions_at_end(step);
+    snaps(prepared, &impacts, |line| {
+        step.taut.contains(line).then(|| held[line])
+    })
+}
+
+/// The snaps that the impacts of one instant are. `held` are the tensions there of the cables that
+/// were taut before it, in the engine's units; none of the others.
+pub fn snaps(
+    prepared: &Prepared,
+    impacts: &[Impact],
+    held: impl Fn(usize) -> Option<f64>,
+) -> Vec<Snap> {
+    let stopping = |impact: &Impact| impact.impulse / (1.0 + prepared.model.system.restitution);
+    let closing = impacts.iter().map(|i| 0.5 * stopping(i) * i.v_n).sum();
+    let one = |impact: &Impact| {
+        snap(
+            prepared,
+            impact,
+            held(impact.cable),
+            stopping(impact),
+            closing,
+        )
+    };
+    impacts.iter().map(one).collect()
+}
+
+/// One of them, with its J and the closing energy of all, in the engine's units.
+fn snap(
+    prepared: &Prepared,
+    impact: &Impact,
+    held: Option<f64>,
+    stopping: f64,
+    closing: f64,
+) -> Snap {
+    let (system, scales) = (&prepared.model.system, &prepared.model.scales);
+    let normal = system.cables[impact.cable].normal(&impact.before);
+    let inverse_mass = normal.coupling(&normal, system.body.inverse_inertia());
+    let passed_on = (0.5 * stopping * stopping * inverse_mass).min(closing);
+    let taken = (0.5 * stopping * impact.v_n).max(passed_on);
+    let energy_j = taken * scales.energy_j();
+    let effective_mass_kg = 0.5 * stopping * stopping / taken * scales.mass_kg;
+    let effective_speed_m_s = (2.0 * energy_j / effective_mass_kg).sqrt();
+    let line = &prepared.structure.lines[impact.cable];
+    let rest_n = prepared.rest.tension_n[impact.cable];
+    let before_n = held.map_or(rest_n, |force| force * scales.force_n);
+    let [energy_peak_n, front_n, peak_n] =
+        peaks(line, before_n, effective_mass_kg, effective_speed_m_s);
+    Snap {
+        t_s: impact.t * scales.time_s,
+        line: impact.cable,
+        is_jolt: held.is_some(),
+        speed_m_s: impact.v_n * scales.speed_m_s(),
+        impulse_n_s: impact.impulse * scales.impulse_n_s(),
+        energy_lost_j: impact.energy_lost * scales.energy_j(),
+        effective_mass_kg,
+        effective_speed_m_s,
+        energy_peak_n,
+        front_n,
+        peak_n,
+        utilisation: peak_n
+            .zip(line.breaking_load_n)
+            .map(|(peak, load)| peak / load),
+    }
+}
+
+/// Spring, front and peak of a line that stops a mass at a speed. EA μ is the product of
+/// k = EA/length and the line's mass.
+fn peaks(line: &LineSi, before_n: f64, stopped_kg: f64, speed_m_s: f64) -> [Option<f64>; 3] {
+    let pull = |rate: f64, mass_kg: f64| speed_m_s * (rate * mass_kg).sqrt();
+    let rate = line.spring_rate_n_m();
+    let spring = rate.map(|rate| before_n + pull(rate, stopped_kg));
+    let with_mass = rate.zip(line.mass_per_length_kg_m.map(|mass| mass * line.length_m));
+    let front = with_mass.map(|(rate, mass)| pull(rate, mass));
+    let bar =
+        with_mass.map(|(rate, mass)| before_n + pull(rate, mass) + pull(rate, stopped_kg + mass));
+    [spring, front, bar.or(spring)]
+}

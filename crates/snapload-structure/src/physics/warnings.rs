@@ -1,0 +1,152 @@
+//! What is outside the range in which the theory holds: rules of thumb, each with its numbers. The
+//! words stand in `templates/warnings.txt`.
+
+use super::equilibrium::Equilibrium;
+use super::wave::LinearWave;
+use crate::structure::{Structure, Water};
+use crate::words::paragraph;
+use askama::Template;
+use serde::Serialize;
+use std::f64::consts::PI;
+
+/// The highest wave of a three-hour sea is near this many significant heights: sqrt(ln 1000 / 2)
+/// for a thousand Rayleigh-distributed waves (M. S. Longuet-Higgins, *J. Mar. Res.* 11 (1952) 245).
+const HIGHEST: f64 = 1.86;
+/// Above this Ursell number waves are not sinusoidal.
+const URSELL: f64 = 26.0;
+/// Above this Keulegan-Carpenter number drag counts beside inertia.
+const KEULEGAN: f64 = 5.0;
+/// A body larger than this part of the wave length changes the waves.
+const DIFFRACTION: f64 = 0.2;
+/// Lines with more than this part of the mass that moves are not massless.
+const LIGHT: f64 = 0.1;
+/// A phase of the wave that is off by this much is no longer small \[rad\].
+const MOST_PHASE: f64 = 0.3;
+
+/// A rule that a case breaks and can be computed all the same.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Warning {
+    /// The rule's name.
+    pub rule: &'static str,
+    /// What is the matter, with the numbers.
+    pub message: String,
+}
+
+#[derive(Template)]
+#[template(path = "warnings.txt")]
+struct Message<'a> {
+    rule: &'static str,
+    a: f64,
+    b: f64,
+    words: &'a str,
+}
+
+/// The warning of a rule with its two numbers and words, where it is broken.
+fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option<Warning> {
+    let message = Message { rule, a, b, words };
+    is.then(|| Warning {
+        rule,
+        message: paragraph(&message),
+    })
+}
+
+/// The warning of a rule that a number be below a limit.
+fn above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warning> {
+    broken(value > limit, rule, [value, limit], words)
+}
+
+/// The rules that a structure breaks, as it rests.
+pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
+    let body = &structure.body;
+    let (z, half) = (rest.place_m[1], body.half_height_m(rest.theta_rad));
+    let (top, above_floor) = (z + half, z - half + structure.site.depth_m);
+    let half = body.height_m / 2.0;
+    let mut found = vec![
+        broken(rest.indeterminate, "shared loads", [0.0; 2], ""),
+        broken(top > 0.0, "submergence", [top, 0.0], ""),
+        broken(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
+        broken(above_floor < half, "floor", [above_floor, 0.0], ""),
+    ];
+    if let Some((highest, wave)) = governing_wave(structure, z) {
+        found.extend(in_waves(structure, top, highest, &wave));
+    }
+    let lines = structure.lines.iter();
+    let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
+    let part = masses.sum::<f64>() / structure.moving_mass_kg();
+    found.push(above(LIGHT, part, "light lines", ""));
+    found.into_iter().flatten().collect()
+}
+
+/// The same in waves, of which the highest is so high.
+fn in_waves(
+    structure: &Structure,
+    top: f64,
+    highest: f64,
+    wave: &LinearWave,
+) -> [Option<Warning>; 6] {
+    let (body, depth, length) = (&structure.body, structure.site.depth_m, wave.length_m());
+    let words = match structure.water {
+        Water::Sea(_) => {
+            format!("the highest wave of three hours, about {HIGHEST} Hs = {highest:.2} m")
+        }
+        _ => format!("the wave, {highest:.2} m"),
+    };
+    let miche = 0.142 * (wave.wave_number_1_m * depth).tanh();
+    let ursell = highest * length * length / depth.powi(3);
+    let trough = -highest / 2.0;
+    let size = body.width_m.max(body.height_m);
+    let stroke = wave.a_x_m_s2 / (wave.omega_rad_s * wave.omega_rad_s);
+    let keulegan = 2.0 * PI * stroke / size;
+    let drag_given = body.drag_area_m2 != 0.0;
+    let drag = above(KEULEGAN, keulegan, "inertia (Keulegan-Carpenter)", "");
+    let period = 2.0 * PI / wave.omega_rad_s;
+    let soft = soft_lines(structure, period);
+    [
+        above(miche, highest / length, "breaking (Miche)", &words),
+        above(URSELL, ursell, "linear theory (Ursell)", &words),
+        broken(
+            top > trough && top <= 0.0,
+            "submergence",
+            [trough, top],
+            &words,
+        ),
+        drag.filter(|_| !drag_given),
+        above(DIFFRACTION, size / length, "diffraction", ""),
+        broken(!soft.is_empty(), "instant snap", [period, 0.0], &soft),
+    ]
+}
+
+/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(M/k). Those
+/// lines for which that is more than a tenth of the waves' period, in words.
+fn soft_lines(structure: &Structure, period_s: f64) -> String {
+    let lines = structure.lines.iter().enumerate();
+    let soft = lines.filter_map(|(index, line)| {
+        let lasts = PI * (structure.moving_mass_kg() / line.spring_rate_n_m()?).sqrt();
+        (lasts > 0.1 * period_s).then(|| format!("{lasts:.2} s in line {}", index + 1))
+    });
+    soft.collect::<Vec<_>>().join(", ")
+}
+
+/// The warning that a body moves so far that the wave's phase where it is differs from that where
+/// it rests.
+pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -> Option<Warning> {
+    let (_, wave) = governing_wave(structure, z_m)?;
+    let phase = wave.wave_number_1_m * excursion_m;
+    let numbers = [excursion_m, phase.to_degrees()];
+    broken(phase > MOST_PHASE, "phase", numbers, "")
+}
+
+/// The wave by which a structure is judged: the regular one, or the highest of a sea at its peak
+/// period; with its height.
+fn governing_wave(structure: &Structure, z_m: f64) -> Option<(f64, LinearWave)> {
+    let (height, omega) = match structure.water {
+        Water::Still => return None,
+        Water::Wave(wave) => (wave.height_m, wave.omega_rad_s()),
+        Water::Sea(sea) => {
+            let height = HIGHEST * sea.significant_height_m;
+            (height, 2.0 * PI / sea.peak_period_s)
+        }
+    };
+    let wave = LinearWave::new(&structure.site, height / 2.0, omega, z_m);
+    Some((height, wave))
+}

@@ -1,0 +1,124 @@
+//! The answers as JSON: SI units, each in the name of its key.
+
+use super::verdict::end_words;
+use crate::physics::elastic::damping_ratio;
+use crate::physics::gumbel::Gumbel;
+use crate::runs::assess::Assessment;
+use crate::runs::both::BothModels;
+use crate::runs::outcome::Outcome;
+use crate::runs::seas::Seas;
+use serde_json::{Value, json};
+
+impl Assessment {
+    /// All of it; `name` is that of the case.
+    pub fn to_json(&self, name: &str) -> Value {
+        let structure = &self.prepared.structure;
+        let (rest, groups) = (&self.prepared.rest, &self.prepared.model.groups);
+        let utilisations = self.outcome.utilisations(structure);
+        let line = |index: usize| {
+            let line = &structure.lines[index];
+            let mut row = json!(self.outcome.lines[index]);
+            row["line"] = json!(index + 1);
+            row["name"] = json!(line.name);
+            row["length_m"] = json!(line.length_m);
+            row["stiffness_n"] = json!(line.stiffness_n);
+            row["mass_per_length_kg_m"] = json!(line.mass_per_length_kg_m);
+            row["breaking_load_n"] = json!(line.breaking_load_n);
+            row["rest_tension_n"] = json!(rest.tension_n[index]);
+            row["utilisation"] = json!(utilisations[index]);
+            row
+        };
+        let group = |index: usize| groups.wave.map(|wave| wave[index]);
+        json!({
+            "case": name,
+            "verdict": self.verdict(),
+            "trust": {
+                "words": self.trust_words(),
+                "horizon_s": self.horizon_s(),
+                "neighbours": self.neighbours.len(),
+                "peak_tension_quantiles_n": self.spread(),
+            },
+            "warnings": self.warnings,
+            "rest": {
+                "x_m": rest.place_m[0], "z_m": rest.place_m[1], "theta_rad": rest.theta_rad,
+                "indeterminate": rest.indeterminate,
+            },
+            "units": self.prepared.model.scales,
+            "groups": {
+                "r": groups.r, "a": groups.a, "b": groups.b, "inertia": groups.inertia,
+                "f_o": group(0), "nu": group(1), "omega": group(2),
+            },
+            "end": { "t_s": self.outcome.end_s, "reason": end_words(self.outcome.stop) },
+            "lines": (0..structure.lines.len()).map(line).collect::<Vec<_>>(),
+            "snaps": self.snaps.iter().filter(|snap| snap.counts()).collect::<Vec<_>>(),
+            "neighbour_peaks_n": self.neighbours.iter().map(Outcome::peak_n).collect::<Vec<_>>(),
+        })
+    }
+}
+
+impl Seas {
+    /// All of it; `name` is that of the case.
+    pub fn to_json(&self, name: &str) -> Value {
+        let gumbel = |fit: Gumbel| {
+            json!({
+                "location": fit.location + fit.scale * fit.log_times, "scale": fit.scale,
+                "records": fit.count, "mean": fit.mean(), "median": fit.quantile(0.5),
+                "quantile_90": fit.quantile(0.9),
+            })
+        };
+        json!({
+            "case": name,
+            "records": self.records.len(),
+            "words": self.words(),
+            "peak_tension_in_three_hours_n": self.peak_in_three_hours().map(gumbel),
+            "fastest_snap_in_three_hours_m_s": self.speed_in_three_hours().map(gumbel),
+            "probability": self.failing().map(|share| json!({
+                "failing": share.count, "of": share.of, "part": share.part(),
+                "interval_95": share.interval(),
+            })),
+            "snaps_in_three_hours": self.snaps_in_three_hours(),
+            "slack_fraction": self.slack_fractions(),
+            "peaks_n": self.peaks_n(),
+            "fastest_m_s": self.speeds_m_s(),
+        })
+    }
+}
+
+impl BothModels {
+    /// All of it; `name` is that of the case.
+    pub fn to_json(&self, name: &str) -> Value {
+        let structure = &self.prepared.structure;
+        let lines = self.springs.iter().enumerate().map(|(index, spring)| {
+            let [rate, damping] = self.si(spring);
+            json!({
+                "line": index + 1,
+                "spring_rate_n_m": rate,
+                "damping_n_s_m": damping,
+                "slack_fraction": self.elastic.slack_fraction(index),
+                "peak_n": self.elastic.peak_n(index),
+                "breaking_load_n": structure.lines[index].breaking_load_n,
+            })
+        });
+        let snaps = self.snaps.iter().map(|snap| {
+            json!({
+                "line": snap.line + 1, "t_s": snap.t_s, "speed_m_s": snap.speed_m_s,
+                "energy_peak_n": snap.energy_peak_n,
+            })
+        });
+        json!({
+            "case": name,
+            "stiffer": self.stiffer,
+            "restitution": structure.restitution,
+            "damping_ratio": damping_ratio(structure.restitution),
+            "end_s": self.elastic.end_s,
+            "took_s": self.elastic_took_s,
+            "lines": lines.collect::<Vec<_>>(),
+            "pulls": self.elastic.pulls,
+            "inextensible": {
+                "snaps": snaps.collect::<Vec<_>>(),
+                "slack_fraction": self.slack_fraction,
+                "took_s": self.inextensible_took_s,
+            },
+        })
+    }
+}

@@ -1,0 +1,7 @@
+//! What is said of a run: the verdict, a few lines of text, JSON.
+
+mod json;
+mod summary;
+mod verdict;
+
+pub use verdict::{Standing, Verdict, end_words};

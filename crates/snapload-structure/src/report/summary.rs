@@ -1,0 +1,152 @@
+//! The answers in a few lines of text.
+
+use super::verdict::end_words;
+use crate::physics::elastic::{Pull, Spring, damping_ratio};
+use crate::physics::equilibrium::Equilibrium;
+use crate::physics::model::Scales;
+use crate::physics::snap::{SLOWEST_M_S, Snap};
+use crate::physics::warnings::Warning;
+use crate::physics::wave::LinearWave;
+use crate::runs::assess::{Assessment, quantile};
+use crate::runs::both::BothModels;
+use crate::runs::outcome::Outcome;
+use crate::runs::seas::Seas;
+use crate::structure::{Structure, Water};
+use crate::words::laid_out;
+use askama::Template;
+
+/// The number of pulls and snaps that are listed; JSON has them all.
+const LISTED: usize = 12;
+
+#[derive(Template)]
+#[template(path = "assess.txt")]
+struct AssessText<'a> {
+    name: &'a str,
+    structure: &'a Structure,
+    rest: &'a Equilibrium,
+    scales: &'a Scales,
+    wave: Option<(&'a LinearWave, [f64; 3])>,
+    outcome: &'a Outcome,
+    utilisations: Vec<Option<f64>>,
+    end: &'static str,
+    warnings: &'a [Warning],
+    trust: String,
+    verdict: String,
+}
+
+#[derive(Template)]
+#[template(path = "seas.txt")]
+struct SeasText<'a> {
+    name: &'a str,
+    structure: &'a Structure,
+    seas: &'a Seas,
+    speeds_m_s: [f64; 3],
+}
+
+#[derive(Template)]
+#[template(path = "elastic.txt")]
+struct ElasticText<'a> {
+    name: &'a str,
+    both: &'a BothModels,
+    e: f64,
+    zeta: f64,
+    /// Spring rate, damping, part of the time slack on either model, and peak of each line.
+    lines: Vec<[f64; 5]>,
+    rows: Vec<String>,
+    all: usize,
+}
+
+impl Assessment {
+    /// The answer in a few lines; `name` is that of the case.
+    pub fn summary(&self, name: &str) -> String {
+        let prepared = &self.prepared;
+        laid_out(&AssessText {
+            name,
+            structure: &prepared.structure,
+            rest: &prepared.rest,
+            scales: &prepared.model.scales,
+            wave: prepared.model.regular_wave(),
+            outcome: &self.outcome,
+            utilisations: self.outcome.utilisations(&prepared.structure),
+            end: end_words(self.outcome.stop),
+            warnings: &self.warnings,
+            trust: self.trust_words(),
+            verdict: self.verdict().words,
+        })
+    }
+}
+
+impl Seas {
+    /// The answer in a few lines; `name` is that of the case.
+    pub fn summary(&self, name: &str) -> String {
+        let speeds = self.all_speeds_m_s();
+        laid_out(&SeasText {
+            name,
+            structure: &self.prepared.structure,
+            seas: self,
+            speeds_m_s: [0.5, 0.99, 1.0].map(|part| quantile(&speeds, part).unwrap_or(0.0)),
+        })
+    }
+}
+
+impl BothModels {
+    /// Spring rate \[N/m\] and damping \[N s/m\] of a line that stretches.
+    pub fn si(&self, spring: &Spring) -> [f64; 2] {
+        let scales = &self.prepared.model.scales;
+        let unit = scales.force_n / scales.length_m;
+        [spring.rate * unit, spring.damping * unit * scales.time_s]
+    }
+
+    /// The answer in a few lines, with the first pulls and snaps side by side; `name` is that of
+    /// the case.
+    pub fn summary(&self, name: &str) -> String {
+        let (pulls, snaps) = (&self.elastic.pulls, &self.snaps);
+        let row = |row: usize| {
+            let left = pulls.get(row).map_or(String::new(), pull_words);
+            let right = snaps.get(row).map_or(String::new(), snap_words);
+            format!("{left:<43}{right}")
+        };
+        let all = pulls.len().max(snaps.len());
+        let lines = self.springs.iter().enumerate().map(|(line, spring)| {
+            let [rate, damping] = self.si(spring);
+            let (slack, peak) = (self.elastic.slack_fraction(line), self.elastic.peak_n(line));
+            [rate, damping, slack, self.slack_fraction[line], peak]
+        });
+        let e = self.prepared.structure.restitution;
+        laid_out(&ElasticText {
+            name,
+            both: self,
+            e,
+            zeta: damping_ratio(e),
+            lines: lines.collect(),
+            rows: (0..all.min(LISTED)).map(row).collect(),
+            all,
+        })
+    }
+}
+
+fn pull_words(pull: &Pull) -> String {
+    let rebound = pull
+        .rebound_m_s
+        .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
+    format!(
+        "  {:>4}{:>8.3}{:>8.3}{:>8.3}{:>8.0}{rebound:>6}",
+        pull.line + 1,
+        pull.from_s,
+        pull.to_s,
+        pull.speed_m_s,
+        pull.peak_n / 1e3
+    )
+}
+
+fn snap_words(snap: &Snap) -> String {
+    let peak = snap
+        .energy_peak_n
+        .map_or("-".to_owned(), |peak| format!("{:.0}", peak / 1e3));
+    format!(
+        "{:>6}{:>8.3}{:>8.3}{peak:>8}",
+        snap.line + 1,
+        snap.t_s,
+        snap.speed_m_s
+    )
+}

@@ -1,0 +1,178 @@
+//! The answer in words, and how far it can be trusted.
+
+use crate::physics::gumbel::Gumbel;
+use crate::physics::snap::Snap;
+use crate::runs::assess::{Assessment, quantile, sorted};
+use crate::runs::outcome::Outcome;
+use crate::runs::seas::Seas;
+use crate::structure::Water;
+use crate::words::paragraph;
+use askama::Template;
+use serde::Serialize;
+use snapload::Stop;
+use snapload::analysis::{HorizonCause, Share, Trust};
+
+/// How it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Standing {
+    /// No line's breaking load is reached.
+    Holds,
+    /// A line's breaking load is reached.
+    Breaks,
+    /// The body turned over or touched the floor.
+    Exceeds,
+    /// A tension or a breaking load is not known.
+    Unknown,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// In one word.
+    pub standing: Standing,
+    /// In a sentence or two.
+    pub words: String,
+}
+
+/// Why a run stopped, as an engineer would say it.
+pub fn end_words(stop: Stop) -> &'static str {
+    match stop {
+        Stop::EndTime => "ran to the end of the time",
+        Stop::RotationLimit => "stopped where the body had turned by 90 degrees",
+        Stop::UpperBound => "stopped where the body touched the floor",
+        Stop::ImpactLimit => "stopped at the largest number of snaps allowed",
+        Stop::Settled | Stop::SlidingStart => "stopped",
+    }
+}
+
+/// Fewer neighbours do not tell what 90 % of them do.
+const FEW: usize = 10;
+
+#[derive(Template)]
+#[template(path = "verdict.txt")]
+struct VerdictWords<'a> {
+    standing: Standing,
+    outcome: &'a Outcome,
+    end: &'static str,
+    slack: bool,
+    /// The lines that would break, each with its utilisation and how.
+    broken: Vec<(usize, f64, &'static str)>,
+    /// The line with the largest utilisation that is known.
+    worst: (usize, f64),
+    transient_s: f64,
+    /// The hardest snap that is not judged, where it is harder than those that are.
+    early: Option<&'a Snap>,
+}
+
+#[derive(Template)]
+#[template(path = "trust.txt")]
+struct TrustWords<'a> {
+    trust: &'a Trust,
+    horizon_s: Option<f64>,
+    spread_kn: Option<[f64; 3]>,
+    /// Whether the neighbours' peaks differ by more than rounding would have them.
+    scattered: bool,
+    count: usize,
+    failing: usize,
+    irregular: bool,
+}
+
+#[derive(Template)]
+#[template(path = "seas-words.txt")]
+struct SeasWords {
+    fit: Option<Gumbel>,
+    exceeding: usize,
+    cut_short: usize,
+    records: usize,
+    max_snaps: u64,
+    tensions_known: bool,
+    fastest_m_s: f64,
+    median_m_s: f64,
+    failing: Option<Share>,
+}
+
+impl Assessment {
+    /// Whether the lines go slack, how hard they snap, and whether one breaks.
+    pub fn verdict(&self) -> Verdict {
+        let (structure, outcome) = (&self.prepared.structure, &self.outcome);
+        let lines = (1..)
+            .zip(&outcome.lines)
+            .zip(outcome.utilisations(structure));
+        let known: Vec<_> = lines
+            .filter_map(|((number, line), u)| Some((number, line, u?)))
+            .collect();
+        let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+        let broken = known
+            .iter()
+            .filter(|(_, _, u)| *u >= 1.0)
+            .map(|(number, line, u)| {
+                let in_a_snap = line.peak_n.is_some_and(|peak| peak >= line.held_n);
+                let how = if in_a_snap { "in a snap" } else { "while taut" };
+                (*number, *u, how)
+            });
+        let broken: Vec<_> = broken.collect();
+        let all_known = known.len() == outcome.lines.len();
+        let standing = if outcome.stop.exceeds() {
+            Standing::Exceeds
+        } else if !broken.is_empty() {
+            Standing::Breaks
+        } else if outcome.stop == Stop::ImpactLimit || !all_known {
+            Standing::Unknown
+        } else {
+            Standing::Holds
+        };
+        let early = self
+            .snaps
+            .iter()
+            .filter(|snap| snap.t_s < structure.transient_s);
+        let hardest = early.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
+        let harder = |snap: &&Snap| snap.speed_m_s > outcome.speed_m_s() && snap.counts();
+        let words = VerdictWords {
+            standing,
+            outcome,
+            end: end_words(outcome.stop),
+            slack: outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
+            worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
+            broken,
+            transient_s: structure.transient_s,
+            early: hardest.filter(harder),
+        };
+        Verdict {
+            standing,
+            words: paragraph(&words),
+        }
+    }
+
+    /// How far the run can be trusted, with the numbers.
+    pub fn trust_words(&self) -> String {
+        let spread = self.spread();
+        paragraph(&TrustWords {
+            scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
+            trust: &self.trust,
+            horizon_s: self.horizon_s(),
+            spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
+            count: self.neighbours.len(),
+            failing: self.neighbours.iter().filter(|n| n.stop.exceeds()).count(),
+            irregular: matches!(self.prepared.structure.water, Water::Sea(_)),
+        })
+    }
+}
+
+impl Seas {
+    /// The answer in a sentence or two.
+    pub fn words(&self) -> String {
+        let speeds = sorted(self.speeds_m_s().into_iter());
+        paragraph(&SeasWords {
+            fit: self.peak_in_three_hours(),
+            exceeding: self.exceeding(),
+            cut_short: self.cut_short(),
+            records: self.records.len(),
+            max_snaps: self.prepared.structure.max_snaps,
+            tensions_known: self.prepared.structure.tensions_known(),
+            fastest_m_s: speeds.last().copied().unwrap_or(0.0),
+            median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
+            failing: self.failing(),
+        })
+    }
+}

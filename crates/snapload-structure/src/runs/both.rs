@@ -1,0 +1,70 @@
+//! The same case on lines that stretch and on lines that do not.
+
+use super::outcome::add_slack;
+use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
+use crate::physics::prepared::Prepared;
+use crate::physics::snap::{Snap, snaps_of_step};
+use snapload::CaseError;
+use std::time::Instant;
+
+/// The same case on both models of a line.
+#[derive(Clone, Debug)]
+pub struct BothModels {
+    /// Structure, place of rest, model.
+    pub prepared: Prepared,
+    /// Lines were taken this many times as stiff as they are.
+    pub stiffer: f64,
+    /// The lines that stretch.
+    pub springs: Vec<Spring>,
+    /// The motion on them.
+    pub elastic: ElasticRun,
+    /// Time that its computation took \[s\].
+    pub elastic_took_s: f64,
+    /// The snaps of lines that do not stretch, without slow ones and jolts.
+    pub snaps: Vec<Snap>,
+    /// The part of the time in which each of those is slack.
+    pub slack_fraction: Vec<f64>,
+    /// Time that their computation took \[s\].
+    pub inextensible_took_s: f64,
+}
+
+/// Runs a structure on lines `stiffer` times as stiff as they are, and on lines that do not
+/// stretch; the motion on the former is kept every `every_s` seconds.
+///
+/// # Errors
+/// A [`CaseError`] if a line has no stiffness, or the integrator gives up.
+pub fn both_models(
+    prepared: Prepared,
+    stiffer: f64,
+    every_s: f64,
+) -> Result<BothModels, CaseError> {
+    let springs = springs(&prepared, stiffer)?;
+    let clock = Instant::now();
+    let elastic = run_elastic(&prepared, &springs, every_s, || false)?;
+    let elastic_took_s = clock.elapsed().as_secs_f64();
+    let clock = Instant::now();
+    let (snaps, slack_fraction) = inextensible(&prepared)?;
+    Ok(BothModels {
+        prepared,
+        stiffer,
+        springs,
+        elastic,
+        elastic_took_s,
+        snaps,
+        slack_fraction,
+        inextensible_took_s: clock.elapsed().as_secs_f64(),
+    })
+}
+
+/// The snaps of lines that do not stretch, and the part of the time in which each is slack.
+fn inextensible(prepared: &Prepared) -> Result<(Vec<Snap>, Vec<f64>), CaseError> {
+    let mut simulation = prepared.begin(1.0)?;
+    let (mut snaps, mut slack) = (Vec::new(), vec![0.0; prepared.structure.lines.len()]);
+    while let Some(step) = simulation.step() {
+        add_slack(&mut slack, &step);
+        let found = snaps_of_step(prepared, &simulation, &step).into_iter();
+        snaps.extend(found.filter(|snap| snap.counts() && !snap.is_jolt));
+    }
+    let end = simulation.time().max(f64::MIN_POSITIVE);
+    Ok((snaps, slack.into_iter().map(|time| time / end).collect()))
+}

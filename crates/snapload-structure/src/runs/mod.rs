@@ -1,0 +1,8 @@
+//! What is run: one case with its neighbours, many records of a sea, other waves, both models of a
+//! line.
+
+pub(crate) mod assess;
+pub(crate) mod both;
+pub(crate) mod outcome;
+pub(crate) mod scan;
+pub(crate) mod seas;

@@ -1,0 +1,169 @@
+//! What one run comes to.
+
+use crate::physics::prepared::Prepared;
+use crate::physics::snap::{Snap, snaps_of_step};
+use crate::structure::Structure;
+use serde::Serialize;
+use snapload::{CaseError, Simulation, Step, Stop};
+
+/// What one run comes to for one line.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct LineOutcome {
+    /// Snaps of [`crate::SLOWEST_M_S`] and above, after the transient as all that follows.
+    pub snaps: u64,
+    /// The fastest \[m/s\].
+    #[serde(rename = "fastest_snap_m_s")]
+    pub speed_m_s: f64,
+    /// Jolts that snaps of other lines passed on to it while it was taut, as far as they count.
+    #[serde(skip)]
+    pub jolts: u64,
+    /// The largest estimate of tension in a snap or a jolt \[N\].
+    #[serde(rename = "peak_tension_n")]
+    pub peak_n: Option<f64>,
+    /// The largest tension while the line stays taut \[N\].
+    #[serde(rename = "held_tension_n")]
+    pub held_n: f64,
+    /// The part of the whole time without tension.
+    pub slack_fraction: f64,
+}
+
+/// What one run comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// By line.
+    pub lines: Vec<LineOutcome>,
+    /// How it ended.
+    pub stop: Stop,
+    /// When it ended \[s\].
+    pub end_s: f64,
+    /// Peak tensions of all snaps that count \[N\].
+    pub peaks_n: Vec<f64>,
+    /// Their speeds \[m/s\].
+    pub speeds_m_s: Vec<f64>,
+}
+
+impl Outcome {
+    /// Runs a structure in waves so many times as high and keeps what it comes to.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if it can not start.
+    pub fn of(prepared: &Prepared, height: f64) -> Result<Self, CaseError> {
+        let mut simulation = prepared.begin(height)?;
+        let mut tally = Tally::new(prepared);
+        while let Some(step) = simulation.step() {
+            tally.follow(&simulation, &step);
+        }
+        let stop = simulation.stop().unwrap_or(Stop::EndTime);
+        Ok(tally.finish(simulation.time(), stop))
+    }
+
+    /// The largest estimate of tension in a snap of any line \[N\].
+    pub fn peak_n(&self) -> Option<f64> {
+        let peaks = self.lines.iter().filter_map(|line| line.peak_n);
+        peaks.reduce(f64::max)
+    }
+
+    /// The fastest snap of any line \[m/s\].
+    pub fn speed_m_s(&self) -> f64 {
+        let speeds = self.lines.iter().map(|line| line.speed_m_s);
+        speeds.fold(0.0, f64::max)
+    }
+
+    /// Snaps of all lines.
+    pub fn snaps(&self) -> u64 {
+        self.lines.iter().map(|line| line.snaps).sum()
+    }
+
+    /// The largest tension of each line over its breaking load, where that is known.
+    pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
+        let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {
+            let no_snap = (outcome.snaps + outcome.jolts == 0).then_some(0.0);
+            let peak = outcome.peak_n.or(no_snap)?;
+            Some(peak.max(outcome.held_n) / line.breaking_load_n?)
+        };
+        self.lines.iter().zip(&structure.lines).map(one).collect()
+    }
+}
+
+/// Sums up a run, step by step.
+pub(super) struct Tally<'a> {
+    prepared: &'a Prepared,
+    lines: Vec<LineOutcome>,
+    /// Time without tension, in the engine's units.
+    slack: Vec<f64>,
+    peaks_n: Vec<f64>,
+    speeds_m_s: Vec<f64>,
+}
+
+impl<'a> Tally<'a> {
+    pub(super) fn new(prepared: &'a Prepared) -> Self {
+        let count = prepared.structure.lines.len();
+        Self {
+            prepared,
+            lines: vec![LineOutcome::default(); count],
+            slack: vec![0.0; count],
+            peaks_n: Vec::new(),
+            speeds_m_s: Vec::new(),
+        }
+    }
+
+    /// Takes note of a step; returns the snaps at its end.
+    pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
+        add_slack(&mut self.slack, step);
+        let scales = &self.prepared.model.scales;
+        let transient_s = self.prepared.structure.transient_s;
+        if step.t_end * scales.time_s >= transient_s {
+            let tensions = simulation.largest_tensions(step);
+            for (line, tension) in self.lines.iter_mut().zip(tensions) {
+                line.held_n = line.held_n.max(tension * scales.force_n);
+            }
+        }
+        let snaps = snaps_of_step(self.prepared, simulation, step);
+        for snap in snaps
+            .iter()
+            .filter(|snap| snap.counts() && snap.t_s >= transient_s)
+        {
+            self.count(snap);
+        }
+        snaps
+    }
+
+    /// Counts a snap that is judged.
+    fn count(&mut self, snap: &Snap) {
+        let line = &mut self.lines[snap.line];
+        if snap.is_jolt {
+            line.jolts += 1;
+        } else {
+            line.snaps += 1;
+            line.speed_m_s = line.speed_m_s.max(snap.speed_m_s);
+            self.speeds_m_s.push(snap.speed_m_s);
+        }
+        if let Some(peak) = snap.peak_n {
+            line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
+            self.peaks_n.push(peak);
+        }
+    }
+
+    /// What the run comes to that ended at a time, in the engine's units.
+    pub(super) fn finish(mut self, end: f64, stop: Stop) -> Outcome {
+        for (line, slack) in self.lines.iter_mut().zip(&self.slack) {
+            line.slack_fraction = if end > 0.0 { slack / end } else { 0.0 };
+        }
+        Outcome {
+            lines: self.lines,
+            stop,
+            end_s: end * self.prepared.model.scales.time_s,
+            peaks_n: self.peaks_n,
+            speeds_m_s: self.speeds_m_s,
+        }
+    }
+}
+
+/// Adds a step to the time that each line is slack.
+pub(super) fn add_slack(slack: &mut [f64], step: &Step) {
+    for (line, slack) in slack.iter_mut().enumerate() {
+        if !step.taut.contains(line) {
+            *slack += step.t_end - step.t_start;
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Many records of one sea: how hard the lines snap in it, as a distribution.
+
+use super::assess::sorted;
+use super::outcome::Outcome;
+use crate::physics::gumbel::Gumbel;
+use crate::physics::prepared::Prepared;
+use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
+use rayon::prelude::*;
+use snapload::analysis::Share;
+use snapload::{CaseError, Stop};
+
+/// What one record comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeaOutcome {
+    /// Its seed.
+    pub seed: u64,
+    /// The rest.
+    pub outcome: Outcome,
+}
+
+/// What many records come to.
+#[derive(Clone, Debug)]
+pub struct Seas {
+    /// The structure, with the first seed.
+    pub prepared: Prepared,
+    /// By seed.
+    pub records: Vec<SeaOutcome>,
+}
+
+/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow
+/// it; `watch` is told of each that is done, from any thread.
+///
+/// # Errors
+/// A [`CaseError`] if the case has no sea, or the structure rests nowhere.
+pub fn seas(structure: Structure, count: u32, watch: impl Fn() + Sync) -> Result<Seas, CaseError> {
+    let Water::Sea(sea) = structure.water else {
+        let allowed = "an irregular sea, to draw records from";
+        return Err(CaseError::value("[sea]", "(left out)", allowed).with_hint(
+            "write [sea] with hs and tp in place of [wave]; one regular wave is for snapload assess",
+        ));
+    };
+    let prepared = Prepared::new(structure)?;
+    let record = |index: u64| {
+        let seed = sea.seed + index;
+        let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea }), 1.0)?;
+        watch();
+        Ok(SeaOutcome { seed, outcome })
+    };
+    let records: Result<_, CaseError> = (0..u64::from(count)).into_par_iter().map(record).collect();
+    Ok(Seas {
+        records: records?,
+        prepared,
+    })
+}
+
+impl Seas {
+    /// What every record comes to.
+    fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
+        self.records.iter().map(|record| &record.outcome)
+    }
+
+    /// The largest tension of each record in a snap, 0 where none snaps; none if tensions are not
+    /// known \[N\].
+    pub fn peaks_n(&self) -> Option<Vec<f64>> {
+        let peaks = self
+            .outcomes()
+            .map(|outcome| outcome.peak_n().unwrap_or(0.0));
+        let known = self.prepared.structure.tensions_known();
+        known.then(|| peaks.collect())
+    }
+
+    /// The fastest snap of each record \[m/s\].
+    pub fn speeds_m_s(&self) -> Vec<f64> {
+        self.outcomes().map(Outcome::speed_m_s).collect()
+    }
+
+    /// The distribution of the largest tension in three hours, if the records are long enough to
+    /// have snaps in all of them \[N\].
+    pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
+        self.in_three_hours(&self.peaks_n()?)
+    }
+
+    /// The same of the fastest snap \[m/s\].
+    pub fn speed_in_three_hours(&self) -> Option<Gumbel> {
+        self.in_three_hours(&self.speeds_m_s())
+    }
+
+    /// Records that ended before their time, of whatever reason.
+    pub(crate) fn cut_short(&self) -> usize {
+        self.outcomes()
+            .filter(|outcome| outcome.stop != Stop::EndTime)
+            .count()
+    }
+
+    /// Records in which the body turned over or touched the floor.
+    pub(crate) fn exceeding(&self) -> usize {
+        self.outcomes()
+            .filter(|outcome| outcome.stop.exceeds())
+            .count()
+    }
+
+    /// A fit to records without snaps would be one to zeros, and one to records that ended early is
+    /// of less time.
+    fn in_three_hours(&self, largest: &[f64]) -> Option<Gumbel> {
+        let structure = &self.prepared.structure;
+        let judged = structure.duration_s - structure.transient_s;
+        let snapping = largest.iter().all(|value| *value > 0.0);
+        if judged <= 0.0 || !snapping || self.cut_short() > 0 {
+            return None;
+        }
+        Gumbel::fit(largest).map(|fit| fit.over_times(THREE_HOURS_S / judged))
+    }
+
+    /// The share of records in which a line's breaking load is reached, or the body turns over or
+    /// touches the floor; none if tensions or breaking loads are not known.
+    pub fn failing(&self) -> Option<Share> {
+        let fails = |outcome: &Outcome| -> Option<bool> {
+            let all = outcome.utilisations(&self.prepared.structure).into_iter();
+            let all: Option<Vec<f64>> = all.collect();
+            Some(outcome.stop.exceeds() || all?.into_iter().any(|u| u >= 1.0))
+        };
+        let failed: Option<Vec<bool>> = self.outcomes().map(fails).collect();
+        failed.map(|failed| Share {
+            count: failed.iter().filter(|failed| **failed).count(),
+            of: self.records.len(),
+        })
+    }
+
+    /// Part of the time that each line is slack, the mean over records.
+    pub fn slack_fractions(&self) -> Vec<f64> {
+        let records = self.records.len().max(1) as f64;
+        let slack = |line: usize| {
+            let all = self
+                .outcomes()
+                .map(|outcome| outcome.lines[line].slack_fraction);
+            all.sum::<f64>() / records
+        };
+        (0..self.prepared.structure.lines.len())
+            .map(slack)
+            .collect()
+    }
+
+    /// Snaps of all lines in three hours, the mean over records.
+    pub fn snaps_in_three_hours(&self) -> f64 {
+        let snaps: u64 = self.outcomes().map(Outcome::snaps).sum();
+        snaps as f64 * THREE_HOURS_S / self.judged_s().max(f64::MIN_POSITIVE)
+    }
+
+    /// The time of all records together that is judged \[s\].
+    pub fn judged_s(&self) -> f64 {
+        let transient = self.prepared.structure.transient_s;
+        self.outcomes()
+            .map(|outcome| (outcome.end_s - transient).max(0.0))
+            .sum()
+    }
+
+    /// Speeds of all snaps, sorted \[m/s\].
+    pub fn all_speeds_m_s(&self) -> Vec<f64> {
+        sorted(
+            self.outcomes()
+                .flat_map(|outcome| outcome.speeds_m_s.iter().copied()),
+        )
+    }
+
+    /// Tensions of all snaps, sorted \[N\].
+    pub fn all_peaks_n(&self) -> Vec<f64> {
+        sorted(
+            self.outcomes()
+                .flat_map(|outcome| outcome.peaks_n.iter().copied()),
+        )
+    }
+}

@@ -1,0 +1,45 @@
+//! Templates as text: paragraphs, and labels with their words. The words stand in `templates/`.
+
+use askama::Template;
+
+/// Columns of the words beside a label.
+const WIDTH: usize = 98;
+
+/// The words of a template as one paragraph.
+pub(crate) fn paragraph(template: &impl Template) -> String {
+    let text = template.to_string();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The lines of a template, of which those below the first that have a bar are a label and its
+/// words.
+pub(crate) fn laid_out(template: &impl Template) -> String {
+    let text = template.to_string();
+    let (heading, rows) = text.split_once('\n').unwrap_or((&text, ""));
+    let row = |row: &str| match row.split_once('|') {
+        Some((label, words)) => told(label, words),
+        None => format!("{row}\n"),
+    };
+    format!("{heading}\n{}", rows.lines().map(row).collect::<String>())
+}
+
+/// A label and its words, broken to a width that reads well.
+pub fn told(label: &str, words: &str) -> String {
+    let mut text = format!("  {label:<10}");
+    let mut column = 0;
+    for word in words.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width > WIDTH {
+            text.push_str("\n            ");
+            column = 0;
+        }
+        if column > 0 {
+            text.push(' ');
+            column += 1;
+        }
+        text.push_str(word);
+        column += width;
+    }
+    text.push('\n');
+    text
+}
