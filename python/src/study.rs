@@ -3,13 +3,15 @@
 use crate::case::{Case, to_value};
 use crate::errors::{of_program, of_study};
 use crate::interrupt::interruptible;
-use crate::table::Table;
+use crate::table::{Table, array_of, field_of};
+use arrow_array::RecordBatch;
+use arrow_schema::Schema;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use snapload::Value;
 use snapload_study::{
-    Axis, Grid, Identity, Opened, Plan, StudyError, Watch, identity_of, read_all,
+    Axis, Grid, Identity, Opened, Plan, StudyError, Watch, columns_of_files, read_all,
 };
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -184,8 +186,22 @@ type Origin = (String, String, u64, u64);
 /// The rows of a Parquet file, and of which study they are.
 #[pyfunction]
 pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<(Table, Option<Origin>)> {
-    let read = py.detach(|| read_all(&path).map(|read| (read, identity_of(&path))));
-    let ((schema, batches), identity) = read.map_err(of_study)?;
+    let fields = columns_of_files()
+        .into_iter()
+        .map(|(name, holds)| field_of(name, holds));
+    let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
+    let mut batches = Vec::new();
+    let read = py.detach(|| {
+        read_all(&path, |columns| {
+            let columns = columns.into_iter().map(array_of).collect();
+            batches.push(RecordBatch::try_new(Arc::clone(&schema), columns));
+        })
+    });
+    let identity = read.map_err(of_study)?;
+    let batches = batches
+        .into_iter()
+        .collect::<Result<_, _>>()
+        .map_err(of_program)?;
     let identity = identity.map(|identity| {
         (
             identity.study,

@@ -4,13 +4,18 @@ use crate::errors::of_program;
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, RecordBatch, RecordBatchIterator};
+use arrow_array::{
+    Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator,
+    StringArray,
+};
 use arrow_schema::ffi::FFI_ArrowSchema;
-use arrow_schema::{DataType, SchemaRef};
+use arrow_schema::{DataType, Field, SchemaRef};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList};
+use snapload_study::{Holds, Values};
+use std::sync::Arc;
 
 /// Columns of equal length.
 #[pyclass(frozen, module = "snapload._engine")]
@@ -109,6 +114,27 @@ impl Table {
                 ))
             }
         }
+    }
+}
+
+/// A column of a study's file.
+pub(crate) fn field_of(name: &str, holds: Holds) -> Field {
+    let kind = match holds {
+        Holds::Numbers => DataType::Float64,
+        Holds::Counts => DataType::Int64,
+        Holds::Flags => DataType::Boolean,
+        Holds::Words => DataType::Utf8,
+    };
+    Field::new(name, kind, name != "row")
+}
+
+/// Its values.
+pub(crate) fn array_of(values: Values) -> ArrayRef {
+    match values {
+        Values::Numbers(list) => Arc::new(Float64Array::from(list)),
+        Values::Counts(list) => Arc::new(Int64Array::from(list)),
+        Values::Flags(list) => Arc::new(BooleanArray::from(list)),
+        Values::Words(list) => Arc::new(StringArray::from(list)),
     }
 }
 

@@ -10,6 +10,7 @@ mod error;
 mod grid;
 mod list;
 mod metadata;
+mod parquet_file;
 #[cfg(feature = "pictures")]
 mod picture;
 mod plan;
@@ -25,6 +26,7 @@ pub use error::StudyError;
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
+pub use parquet_file::{Holds, Values};
 #[cfg(feature = "pictures")]
 pub use picture::StudyPicture;
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
@@ -34,4 +36,4 @@ pub use store::{Opened, Store, chunk, folder_of};
 pub use study::{Drawn, Study};
 pub use sweep::{Finished, Watch, sweep};
 pub use table::{Column, columns, reason};
-pub use whole::{Shown, Tally, ends, identity_of, merge, read_all, read_shown};
+pub use whole::{Shown, Tally, columns_of_files, ends, identity_of, merge, read_all, read_shown};

@@ -1,13 +1,11 @@
 //! A list of cases in a CSV or Parquet file, read where it is needed and never as a whole.
 
 use crate::StudyError;
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch};
-use arrow_cast::{CastOptions, cast_with_options};
-use arrow_schema::{DataType, Schema};
+use crate::parquet_file::{Reader as ParquetReader, Values};
 use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use parquet::basic::ConvertedType;
+use parquet::errors::Result as ParquetResult;
+use parquet::schema::types::Type;
 use sha2::{Digest, Sha256};
 use snapload::{CaseError, Value, key_named};
 use std::fs::File;
@@ -51,10 +49,10 @@ impl List {
             .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
         let (names, count, format) = if parquet {
             let file = File::open(path).map_err(|error| input(&error))?;
-            let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+            let reader = ParquetReader::open(file)
                 .map_err(|error| input(&format!("it is no Parquet file ({error})")))?;
-            let count = reader.metadata().file_metadata().num_rows();
-            let names = named_columns(path, reader.schema())?;
+            let count = reader.about().num_rows();
+            let names = named_columns(path, &reader)?;
             (names, count.unsigned_abs(), Format::Parquet)
         } else {
             let (names, marks, count) = index(path).map_err(|error| input(&error))?;
@@ -135,32 +133,35 @@ impl List {
 
     fn read_parquet(&self, range: &Range<u64>) -> Result<Vec<ListRow>, String> {
         let file = File::open(&self.path).map_err(|error| error.to_string())?;
-        let length = (range.end - range.start) as usize;
-        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
-            .and_then(|reader| {
-                reader
-                    .with_offset(range.start as usize)
-                    .with_limit(length)
-                    .with_batch_size(length)
-                    .build()
-            })
-            .map_err(|error| error.to_string())?;
-        let mut rows = Vec::with_capacity(length);
-        for batch in reader {
-            self.take_batch(&batch.map_err(|error| error.to_string())?, &mut rows)?;
-        }
-        Ok(rows)
+        let read = || -> ParquetResult<Vec<ListRow>> {
+            let reader = ParquetReader::open(file)?;
+            let places: Vec<usize> = (0..self.keys.len()).collect();
+            let (mut rows, mut first) = (Vec::new(), 0);
+            for (group, length) in reader.groups().enumerate() {
+                let end = first + length;
+                let wanted =
+                    range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
+                if !wanted.is_empty() {
+                    let columns = reader.read(group, &places, wanted)?;
+                    rows.extend(self.rows_of(&columns));
+                }
+                first = end;
+            }
+            Ok(rows)
+        };
+        read().map_err(|error| error.to_string())
     }
 
-    fn take_batch(&self, batch: &RecordBatch, rows: &mut Vec<ListRow>) -> Result<(), String> {
-        let columns = batch.columns().iter().map(plain);
-        let columns: Vec<ArrayRef> = columns.collect::<Result<_, String>>()?;
-        for row in 0..batch.num_rows() {
-            let cells = self.keys.iter().zip(&columns);
-            let entries = cells.filter_map(|(key, column)| Some((*key, cell(column, row)?)));
-            rows.push(Ok(entries.collect()));
-        }
-        Ok(())
+    fn rows_of(&self, columns: &[Values]) -> Vec<ListRow> {
+        let cells = |row| {
+            let cells = self.keys.iter().zip(columns);
+            Ok(cells
+                .filter_map(|(key, column)| Some((*key, cell(column, row)?)))
+                .collect())
+        };
+        (0..columns.first().map_or(0, Values::len))
+            .map(cells)
+            .collect()
     }
 }
 
@@ -206,18 +207,31 @@ fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
 }
 
 /// The names of the columns of a Parquet file, if each is of a type that a key could have.
-fn named_columns(path: &Path, schema: &Schema) -> Result<Vec<String>, StudyError> {
-    let fields = schema.fields().iter().map(|field| {
-        let (name, kind) = (field.name(), field.data_type());
-        target(kind).map(|_| name.clone()).ok_or_else(|| {
-            let allowed = "numbers, texts, or true and false";
+fn named_columns(path: &Path, reader: &ParquetReader) -> Result<Vec<String>, StudyError> {
+    let fields = reader.fields().map(|(field, holds)| {
+        let (name, allowed) = (field.name(), "numbers, texts, or true and false");
+        holds.map(|_| name.to_owned()).ok_or_else(|| {
             let (shown, file) = (CaseError::value(name, "", allowed).key, path.display());
+            let kind = shown_type(field);
             StudyError::Input(format!(
                 "{file}: column {shown} holds {kind}; allowed: {allowed}"
             ))
         })
     });
     fields.collect()
+}
+
+/// What a column holds that no key could, in the format's own words.
+fn shown_type(field: &Type) -> String {
+    let about = field.get_basic_info();
+    match (about.logical_type_ref(), about.converted_type()) {
+        (Some(kind), _) => format!("{kind:?}"),
+        (None, ConvertedType::NONE) if field.is_primitive() => {
+            field.get_physical_type().to_string()
+        }
+        (None, ConvertedType::NONE) => "columns of its own".to_owned(),
+        (None, kind) => kind.to_string(),
+    }
 }
 
 /// The keys that the columns are named after, each once.
@@ -252,48 +266,23 @@ fn value(cell: &str) -> Option<Value> {
     })
 }
 
-/// Which of the four types of values a column becomes.
-fn target(kind: &DataType) -> Option<DataType> {
-    match kind {
-        DataType::Boolean => Some(DataType::Boolean),
-        kind if kind.is_integer() => Some(DataType::Int64),
-        kind if kind.is_floating() || kind.is_decimal() => Some(DataType::Float64),
-        DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => Some(DataType::Utf8),
-        DataType::Dictionary(_, values) => target(values),
-        // A column of nothing but empty cells.
-        DataType::Null => Some(DataType::Boolean),
-        _ => None,
+fn cell(column: &Values, row: usize) -> Option<Value> {
+    match column {
+        Values::Numbers(list) => list[row].map(Value::Number),
+        Values::Counts(list) => list[row].map(Value::Integer),
+        Values::Flags(list) => list[row].map(Value::Bool),
+        Values::Words(list) => list[row].clone().map(Value::Text),
     }
-}
-
-fn plain(column: &ArrayRef) -> Result<ArrayRef, String> {
-    let kind = target(column.data_type()).unwrap_or(DataType::Utf8);
-    // A number that does not fit is to be refused, not to be left out.
-    let options = CastOptions {
-        safe: false,
-        ..CastOptions::default()
-    };
-    cast_with_options(column, &kind, &options).map_err(|error| error.to_string())
-}
-
-fn cell(column: &ArrayRef, row: usize) -> Option<Value> {
-    if column.is_null(row) {
-        return None;
-    }
-    Some(match column.data_type() {
-        DataType::Boolean => Value::Bool(column.as_boolean().value(row)),
-        DataType::Int64 => Value::Integer(column.as_primitive::<Int64Type>().value(row)),
-        DataType::Float64 => Value::Number(column.as_primitive::<Float64Type>().value(row)),
-        _ => Value::Text(column.as_string::<i32>().value(row).to_owned()),
-    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use arrow_array::types::Int8Type;
-    use arrow_array::{DictionaryArray, Float32Array, UInt16Array};
-    use parquet::arrow::ArrowWriter;
+    use half::f16;
+    use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
+    use parquet::data_type::{FloatType, Int32Type, Int64Type};
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::parser::parse_message_type;
     use std::io::Write;
     use std::sync::Arc;
 
@@ -325,35 +314,84 @@ mod tests {
         }
     }
 
+    /// A file with a column each of the types that other programs write, two groups of so many rows.
+    fn parquet(rows: usize) -> tempfile::NamedTempFile {
+        let columns = "message schema {
+            optional float f_o;
+            required binary body (STRING);
+            required int32 max_impacts (INTEGER(16,false));
+            optional int64 e (DECIMAL(6,3));
+            required fixed_len_byte_array(2) omega (DECIMAL(4,1));
+            required fixed_len_byte_array(2) c (FLOAT16);
+            optional int32 a (UNKNOWN);
+        }";
+        let schema = Arc::new(parse_message_type(columns).unwrap());
+        let mut file = tempfile::Builder::new();
+        let file = file.suffix(".parquet").tempfile().unwrap();
+        let mut writer = SerializedFileWriter::new(&file, schema, Arc::default()).unwrap();
+        for start in [0, rows] {
+            let rows = start..start + rows;
+            let mut group = writer.next_row_group().unwrap();
+            macro_rules! put {
+                ($kind:ty, $values:expr, $there:expr) => {
+                    let mut column = group.next_column().unwrap().unwrap();
+                    let values: Vec<_> = $values.collect();
+                    let written = column.typed::<$kind>().write_batch(&values, $there, None);
+                    written.unwrap();
+                    column.close().unwrap();
+                };
+            }
+            let there: Vec<i16> = rows.clone().map(|k| i16::from(k % 3 > 0)).collect();
+            let nowhere = vec![0; there.len()];
+            let fixed = |bytes: [u8; 2]| FixedLenByteArray::from(ByteArray::from(bytes.to_vec()));
+            let odd = rows.clone().filter(|k| k % 3 > 0);
+            put!(FloatType, odd.clone().map(|k| k as f32), Some(&there));
+            put!(
+                ByteArrayType,
+                rows.clone().map(|_| ByteArray::from(b"point".to_vec())),
+                None
+            );
+            put!(Int32Type, rows.clone().map(|k| k as i32), None);
+            put!(Int64Type, odd.map(|k| k as i64), Some(&there));
+            put!(
+                FixedLenByteArrayType,
+                rows.clone().map(|k| fixed((-(k as i16)).to_be_bytes())),
+                None
+            );
+            put!(
+                FixedLenByteArrayType,
+                rows.clone()
+                    .map(|_| fixed(f16::from_f64(0.25).to_le_bytes())),
+                None
+            );
+            put!(Int32Type, std::iter::empty(), Some(&nowhere));
+            group.close().unwrap();
+        }
+        writer.close().unwrap();
+        file
+    }
+
     #[test]
     fn a_parquet_file_is_read_from_anywhere() {
-        let f_o = Float32Array::from_iter((0..300).map(|k| (k % 3 > 0).then_some(k as f32)));
-        let body = DictionaryArray::<Int8Type>::from_iter((0..300).map(|_| "point"));
-        let columns: [(&str, ArrayRef); 3] = [
-            ("f_o", Arc::new(f_o)),
-            ("body", Arc::new(body)),
-            (
-                "max_impacts",
-                Arc::new(UInt16Array::from_iter_values(0..300)),
-            ),
-        ];
-        let batch = RecordBatch::try_from_iter(columns).unwrap();
-        let file = tempfile::Builder::new()
-            .suffix(".parquet")
-            .tempfile()
-            .unwrap();
-        let mut writer = ArrowWriter::try_new(&file, batch.schema(), None).unwrap();
-        writer.write(&batch).unwrap();
-        writer.close().unwrap();
+        let file = parquet(200);
         let list = List::open(file.path()).unwrap();
-        let rows = list.read(123..125).unwrap();
-        let rest = |k: i64| [("body", "point".into()), ("max_impacts", Value::Integer(k))];
-        assert_eq!(rows[0], Ok(rest(123).to_vec()));
-        assert_eq!(rows[1].as_ref().unwrap()[0], ("f_o", Value::Number(124.0)));
-        assert_eq!(
-            (list.count(), rows[1].as_ref().unwrap()[1..].to_vec()),
-            (300, rest(124).to_vec())
-        );
+        assert_eq!(list.count(), 400);
+        for range in [123..125, 198..203, 399..400, 0..400] {
+            let rows = list.read(range.clone()).unwrap();
+            for (row, k) in rows.into_iter().zip(range) {
+                let mut wanted = vec![
+                    ("body", "point".into()),
+                    ("max_impacts", Value::Integer(k as i64)),
+                    ("omega", Value::Number(-(k as f64) / 10.0)),
+                    ("c", Value::Number(0.25)),
+                ];
+                if k % 3 > 0 {
+                    wanted.insert(0, ("f_o", Value::Number(k as f64)));
+                    wanted.insert(3, ("e", Value::Number(k as f64 / 1000.0)));
+                }
+                assert_eq!(row, Ok(wanted));
+            }
+        }
     }
 
     #[test]

@@ -1,11 +1,9 @@
 //! The columns of a study's file.
 
 use crate::Row;
-use arrow_array::{ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::{ArrowError, DataType, Field, Schema, SchemaRef};
+use crate::parquet_file::{Field, Holds, Values};
 use snapload::analysis::{Certainty, Horizon};
 use snapload::{FirstImpact, KEYS, Kind, Outcome, Stop, Value};
-use std::sync::Arc;
 
 /// How a column's values are taken from a run.
 #[derive(Clone, Copy)]
@@ -120,87 +118,101 @@ pub fn reason(stop: Stop) -> &'static str {
     stop.name()
 }
 
-/// Names and types: `row`, the keys, what the runs come to, `error`.
-pub(crate) fn schema() -> SchemaRef {
-    let key_type = |kind: &Kind| match kind {
-        Kind::Number { .. } => DataType::Float64,
-        Kind::Count { .. } => DataType::Int64,
-        Kind::Flag => DataType::Boolean,
-        Kind::Choice(_) => DataType::Utf8,
+/// The columns in their order: `row`, the keys, what the runs come to, `error`.
+pub(crate) fn fields() -> Vec<Field> {
+    let field = |name, holds| Field {
+        name,
+        holds,
+        required: name == "row",
     };
-    let take_type = |take: Take| match take {
-        Take::Number(_) => DataType::Float64,
-        Take::Count(_) => DataType::Int64,
-        Take::Flag(_) => DataType::Boolean,
-        Take::Word(_) => DataType::Utf8,
+    let key_holds = |kind: &Kind| match kind {
+        Kind::Number { .. } => Holds::Numbers,
+        Kind::Count { .. } => Holds::Counts,
+        Kind::Flag => Holds::Flags,
+        Kind::Choice(_) => Holds::Words,
     };
-    let mut fields = vec![Field::new("row", DataType::Int64, false)];
-    fields.extend(
-        KEYS.iter()
-            .map(|key| Field::new(key.name, key_type(&key.kind), true)),
-    );
-    fields.extend(
-        COLUMNS
-            .iter()
-            .map(|c| Field::new(c.name, take_type(c.take), true)),
-    );
-    fields.push(Field::new("error", DataType::Utf8, true));
-    Arc::new(Schema::new(fields))
+    let take_holds = |take: Take| match take {
+        Take::Number(_) => Holds::Numbers,
+        Take::Count(_) => Holds::Counts,
+        Take::Flag(_) => Holds::Flags,
+        Take::Word(_) => Holds::Words,
+    };
+    let keys = KEYS.iter().map(|key| field(key.name, key_holds(&key.kind)));
+    let ends = COLUMNS.iter().map(|c| field(c.name, take_holds(c.take)));
+    std::iter::once(field("row", Holds::Counts))
+        .chain(keys)
+        .chain(ends)
+        .chain([field("error", Holds::Words)])
+        .collect()
 }
 
 /// Rows as columns.
-pub(crate) fn batch(rows: &[Row]) -> Result<RecordBatch, ArrowError> {
-    let index = rows.iter().map(|row| signed(row.index));
-    let mut arrays: Vec<ArrayRef> = vec![Arc::new(Int64Array::from_iter_values(index))];
+pub(crate) fn columns_of(rows: &[Row]) -> Vec<Values> {
+    let index = rows.iter().map(|row| Some(signed(row.index)));
+    let mut columns = vec![Values::Counts(index.collect())];
     for (k, key) in KEYS.iter().enumerate() {
-        arrays.push(key_array(
-            &key.kind,
-            rows.iter().map(|row| row.keys[k].as_ref()),
-        ));
+        let values = rows.iter().map(|row| row.keys[k].as_ref());
+        columns.push(key_values(&key.kind, values));
     }
     for column in &COLUMNS {
-        arrays.push(run_array(column.take, rows));
+        columns.push(run_values(column.take, rows));
     }
     let errors = rows
         .iter()
         .map(|row| row.outcome.as_ref().err().map(ToString::to_string));
-    arrays.push(Arc::new(StringArray::from_iter(errors)));
-    RecordBatch::try_new(schema(), arrays)
+    columns.push(Values::Words(errors.collect()));
+    columns
 }
 
 /// The values of a key. A value of another type, in a row with an error, is left out: the error tells it.
-fn key_array<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -> ArrayRef {
+fn key_values<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -> Values {
     match kind {
-        Kind::Number { .. } => Arc::new(Float64Array::from_iter(values.map(|v| match v? {
-            Value::Number(number) => Some(*number),
-            Value::Integer(number) => Some(*number as f64),
-            _ => None,
-        }))),
-        Kind::Count { .. } => Arc::new(Int64Array::from_iter(values.map(|v| match v? {
-            Value::Integer(number) => Some(*number),
-            _ => None,
-        }))),
-        Kind::Flag => Arc::new(BooleanArray::from_iter(values.map(|v| match v? {
-            Value::Bool(flag) => Some(*flag),
-            _ => None,
-        }))),
-        Kind::Choice(_) => Arc::new(StringArray::from_iter(values.map(|v| match v? {
-            Value::Text(text) => Some(text),
-            _ => None,
-        }))),
+        Kind::Number { .. } => Values::Numbers(
+            values
+                .map(|v| match v? {
+                    Value::Number(number) => Some(*number),
+                    Value::Integer(number) => Some(*number as f64),
+                    _ => None,
+                })
+                .collect(),
+        ),
+        Kind::Count { .. } => Values::Counts(
+            values
+                .map(|v| match v? {
+                    Value::Integer(number) => Some(*number),
+                    _ => None,
+                })
+                .collect(),
+        ),
+        Kind::Flag => Values::Flags(
+            values
+                .map(|v| match v? {
+                    Value::Bool(flag) => Some(*flag),
+                    _ => None,
+                })
+                .collect(),
+        ),
+        Kind::Choice(_) => Values::Words(
+            values
+                .map(|v| match v? {
+                    Value::Text(text) => Some(text.clone()),
+                    _ => None,
+                })
+                .collect(),
+        ),
     }
 }
 
-fn run_array(take: Take, rows: &[Row]) -> ArrayRef {
+fn run_values(take: Take, rows: &[Row]) -> Values {
     let runs = rows.iter().map(|row| {
         let (outcome, certainty) = (row.outcome.as_ref().ok()?, row.certainty);
         Some(Run { outcome, certainty })
     });
     match take {
-        Take::Number(of) => Arc::new(Float64Array::from_iter(runs.map(|run| of(&run?)))),
-        Take::Count(of) => Arc::new(Int64Array::from_iter(runs.map(|r| of(&r?).map(signed)))),
-        Take::Flag(of) => Arc::new(BooleanArray::from_iter(runs.map(|run| of(&run?)))),
-        Take::Word(of) => Arc::new(StringArray::from_iter(runs.map(|run| Some(of(&run?))))),
+        Take::Number(of) => Values::Numbers(runs.map(|run| of(&run?)).collect()),
+        Take::Count(of) => Values::Counts(runs.map(|run| of(&run?).map(signed)).collect()),
+        Take::Flag(of) => Values::Flags(runs.map(|run| of(&run?)).collect()),
+        Take::Word(of) => Values::Words(runs.map(|run| Some(of(&run?).to_owned())).collect()),
     }
 }
 

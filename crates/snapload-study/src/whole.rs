@@ -1,19 +1,12 @@
 //! Files of rows: written, joined in one pass, and read again.
 
 use crate::metadata::Identity;
-use crate::table::{batch, schema};
+use crate::parquet_file::{Holds, Reader, Values, Writer};
+use crate::table::{columns_of, fields};
 use crate::{Column, Row, StudyError};
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch};
-use arrow_schema::{DataType, SchemaRef};
-use arrow_select::coalesce::BatchCoalescer;
-use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use parquet::arrow::{ArrowWriter, ProjectionMask};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::properties::WriterProperties;
-use parquet::file::reader::{FileReader, SerializedFileReader};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -24,21 +17,17 @@ const GROUP: usize = 1 << 16;
 
 /// Rows as the bytes of a file of their own.
 pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let write = |bytes: &mut Vec<u8>| -> ParquetResult<()> {
-        let mut writer = ArrowWriter::try_new(bytes, schema(), Some(properties(identity)?))?;
-        writer.write(&batch(rows)?)?;
-        writer.close()?;
-        Ok(())
+    let write = || {
+        let mut writer = Writer::new(Vec::new(), &fields(), properties(identity)?)?;
+        writer.write(&columns_of(rows))?;
+        writer.into_inner()
     };
-    write(&mut bytes).map_err(to_io)?;
-    Ok(bytes)
+    write().map_err(to_io)
 }
 
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
     Ok(WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
-        .set_max_row_group_row_count(Some(GROUP))
         .set_created_by(format!("snapload {}", identity.version))
         .set_key_value_metadata(Some(identity.to_metadata()))
         .build())
@@ -50,25 +39,29 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
     let wrong = |error: ParquetError| StudyError::write(out, to_io(error));
     let file = File::create(out).map_err(|error| StudyError::write(out, error))?;
     let properties = properties(identity).map_err(wrong)?;
-    let mut writer =
-        ArrowWriter::try_new(BufWriter::new(file), schema(), Some(properties)).map_err(wrong)?;
-    let mut groups = BatchCoalescer::new(schema(), GROUP);
+    let fields = fields();
+    let mut writer = Writer::new(BufWriter::new(file), &fields, properties).map_err(wrong)?;
+    let mut waiting: Vec<Values> = fields
+        .iter()
+        .map(|field| Values::none(field.holds))
+        .collect();
     for part in parts {
-        for batch in open(part)?.build().map_err(|e| StudyError::read(part, e))? {
-            let batch = batch.map_err(|error| StudyError::read(part, error))?;
-            groups
-                .push_batch(batch)
-                .map_err(|error| StudyError::read(part, error))?;
-            while let Some(group) = groups.next_completed_batch() {
+        read_groups(part, None, |columns| {
+            for (list, more) in waiting.iter_mut().zip(columns) {
+                list.append(more);
+            }
+            while waiting[0].len() >= GROUP {
+                let group: Vec<_> = waiting
+                    .iter_mut()
+                    .map(|list| list.take_first(GROUP))
+                    .collect();
                 writer.write(&group).map_err(wrong)?;
             }
-        }
+            Ok(())
+        })?;
     }
-    groups
-        .finish_buffered_batch()
-        .map_err(|error| wrong(error.into()))?;
-    if let Some(group) = groups.next_completed_batch() {
-        writer.write(&group).map_err(wrong)?;
+    if waiting[0].len() > 0 {
+        writer.write(&waiting).map_err(wrong)?;
     }
     let mut buffer = writer.into_inner().map_err(wrong)?;
     buffer
@@ -77,18 +70,21 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
         .map_err(|error| StudyError::write(out, error))
 }
 
-fn open(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, StudyError> {
+fn open(path: &Path) -> Result<Reader, StudyError> {
     let file = File::open(path).map_err(|error| StudyError::read(path, error))?;
-    ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| StudyError::read(path, error))
+    Reader::open(file).map_err(|error| StudyError::read(path, error))
 }
 
 /// What a file says of itself, if it is one of this program's and has as many rows as it says.
 pub fn identity_of(path: &Path) -> Option<Identity> {
-    let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
-    let file = reader.metadata().file_metadata();
-    let identity = Identity::from_metadata(file.key_value_metadata()?)?;
+    identity(&open(path).ok()?)
+}
+
+fn identity(reader: &Reader) -> Option<Identity> {
+    let about = reader.about();
+    let identity = Identity::from_metadata(about.key_value_metadata()?)?;
     let rows = identity.rows.end.checked_sub(identity.rows.start)?;
-    (u64::try_from(file.num_rows()) == Ok(rows)).then_some(identity)
+    (u64::try_from(about.num_rows()) == Ok(rows)).then_some(identity)
 }
 
 /// The system's error where there is one, such as a full disk.
@@ -182,23 +178,30 @@ pub fn ends(path: &Path) -> Result<Tally, StudyError> {
     let mut tally = Tally::default();
     let mut row = identity_of(path).map_or(0, |identity| identity.rows.start);
     read_columns(path, &["end", "certain", "error"], |columns| {
-        let (ends, errors) = (columns[0].as_string::<i32>(), columns[2].as_string::<i32>());
-        for certain in columns[1].as_boolean().iter().flatten() {
+        let [
+            Values::Words(ends),
+            Values::Flags(certain),
+            Values::Words(errors),
+        ] = &columns[..]
+        else {
+            return;
+        };
+        for certain in certain.iter().flatten() {
             tally.judged += 1;
-            tally.certain += u64::from(certain);
+            tally.certain += u64::from(*certain);
         }
         for (end, error) in ends.iter().zip(errors) {
             if let Some(end) = end {
                 match tally.ends.get_mut(end) {
                     Some(count) => *count += 1,
-                    None => _ = tally.ends.insert(end.to_owned(), 1),
+                    None => _ = tally.ends.insert(end.clone(), 1),
                 }
             }
             if let Some(error) = error {
                 tally.errors += 1;
                 tally
                     .first_error
-                    .get_or_insert_with(|| (row, error.to_owned()));
+                    .get_or_insert_with(|| (row, error.clone()));
             }
             row += 1;
         }
@@ -230,57 +233,82 @@ pub fn read_shown(
 ) -> Result<(), StudyError> {
     let mut row = 0;
     read_columns(path, &[column.name, "error"], |columns| {
-        let (values, errors) = (&columns[0], columns[1].as_string::<i32>());
-        for k in 0..values.len() {
-            let shown = match values.data_type() {
-                _ if errors.is_valid(k) => Shown::Fault,
-                _ if values.is_null(k) => Shown::Nothing,
-                DataType::Float64 => Shown::Number(values.as_primitive::<Float64Type>().value(k)),
-                DataType::Int64 => {
-                    Shown::Number(values.as_primitive::<Int64Type>().value(k) as f64)
+        let [values, Values::Words(errors)] = &columns[..] else {
+            return;
+        };
+        for (k, error) in errors.iter().enumerate() {
+            let shown = match values {
+                _ if error.is_some() => Some(Shown::Fault),
+                Values::Numbers(list) => list[k].map(Shown::Number),
+                Values::Counts(list) => list[k].map(|n| Shown::Number(n as f64)),
+                Values::Flags(list) => {
+                    list[k].map(|flag| Shown::Word(if flag { "true" } else { "false" }))
                 }
-                DataType::Boolean if values.as_boolean().value(k) => Shown::Word("true"),
-                DataType::Boolean => Shown::Word("false"),
-                _ => Shown::Word(values.as_string::<i32>().value(k)),
+                Values::Words(list) => list[k].as_deref().map(Shown::Word),
             };
-            visit(row, shown);
+            visit(row, shown.unwrap_or(Shown::Nothing));
             row += 1;
         }
     })
 }
 
-/// All columns of a file, as it is: a file of a study, or any other.
+/// What the columns of a study's file are called and hold, in their order.
+pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
+    fields()
+        .iter()
+        .map(|field| (field.name, field.holds))
+        .collect()
+}
+
+/// The identity of a study's file, and its columns, some tens of thousands of rows at a time; nothing if it is another
+/// file.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the file can not be read.
-pub fn read_all(path: &Path) -> Result<(SchemaRef, Vec<RecordBatch>), StudyError> {
-    let reader = open(path)?;
-    let schema = reader.schema().clone();
-    let batches = reader
-        .build()
-        .map_err(|error| StudyError::read(path, error))?;
-    let batches: Result<Vec<RecordBatch>, _> = batches.collect();
-    Ok((
-        schema,
-        batches.map_err(|error| StudyError::read(path, error))?,
-    ))
+pub fn read_all(
+    path: &Path,
+    mut visit: impl FnMut(Vec<Values>),
+) -> Result<Option<Identity>, StudyError> {
+    let Some(identity) = identity(&open(path)?) else {
+        return Ok(None);
+    };
+    read_groups(path, None, |columns| {
+        visit(columns);
+        Ok(())
+    })?;
+    Ok(Some(identity))
 }
 
 fn read_columns(
     path: &Path,
     names: &[&str],
-    mut visit: impl FnMut(&[ArrayRef]),
+    mut visit: impl FnMut(&[Values]),
+) -> Result<(), StudyError> {
+    read_groups(path, Some(names), |columns| {
+        visit(&columns);
+        Ok(())
+    })
+}
+
+/// Reads the columns of these names, or all that a study's file has, group by group of the rows.
+fn read_groups(
+    path: &Path,
+    names: Option<&[&str]>,
+    mut visit: impl FnMut(Vec<Values>) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
     let reader = open(path)?;
-    let mask = ProjectionMask::columns(reader.parquet_schema(), names.iter().copied());
-    let reader = reader.with_projection(mask).build();
-    for batch in reader.map_err(|error| StudyError::read(path, error))? {
-        let batch = batch.map_err(|error| StudyError::read(path, error))?;
-        let columns = names.iter().filter_map(|name| batch.column_by_name(name));
-        let columns: Vec<ArrayRef> = columns.cloned().collect();
-        if columns.len() == names.len() {
-            visit(&columns);
-        }
+    let wanted = names.map_or_else(
+        || fields().iter().map(|field| field.name).collect(),
+        <[&str]>::to_vec,
+    );
+    let place = |name: &&str| {
+        let found = reader.fields().position(|(field, _)| field.name() == *name);
+        found.ok_or_else(|| StudyError::read(path, format!("it has no column {name}")))
+    };
+    let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
+    for (group, rows) in reader.groups().enumerate() {
+        let columns = reader.read(group, &places, 0..rows);
+        visit(columns.map_err(|error| StudyError::read(path, error))?)?;
     }
     Ok(())
 }

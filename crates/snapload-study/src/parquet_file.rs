@@ -1,0 +1,366 @@
+//! Columns of Parquet files: written, and read from any row.
+//!
+//! The Parquet project's own readers and writers of columns do this without Arrow, whose code for every type there is
+//! takes longer to compile than all else that the command line depends on.
+
+use half::f16;
+use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::column::reader::{ColumnReader, get_typed_column_reader};
+use parquet::data_type::{
+    BoolType, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType, Int32Type,
+    Int64Type,
+};
+use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::FileMetaData;
+use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::{Type, TypePtr};
+use std::fs::File;
+use std::io::Write;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    /// Doubles.
+    Numbers,
+    /// Whole numbers.
+    Counts,
+    /// True and false.
+    Flags,
+    /// Texts.
+    Words,
+}
+
+/// The values of a column, each of which may be missing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Doubles.
+    Numbers(Vec<Option<f64>>),
+    /// Whole numbers.
+    Counts(Vec<Option<i64>>),
+    /// True and false.
+    Flags(Vec<Option<bool>>),
+    /// Texts.
+    Words(Vec<Option<String>>),
+}
+
+/// The same for each kind of values.
+macro_rules! of_each {
+    ($values:expr, $list:ident => $do:expr) => {
+        match $values {
+            Values::Numbers($list) => $do,
+            Values::Counts($list) => $do,
+            Values::Flags($list) => $do,
+            Values::Words($list) => $do,
+        }
+    };
+}
+
+impl Values {
+    /// None yet.
+    pub(crate) fn none(holds: Holds) -> Self {
+        match holds {
+            Holds::Numbers => Self::Numbers(Vec::new()),
+            Holds::Counts => Self::Counts(Vec::new()),
+            Holds::Flags => Self::Flags(Vec::new()),
+            Holds::Words => Self::Words(Vec::new()),
+        }
+    }
+
+    /// How many.
+    pub(crate) fn len(&self) -> usize {
+        of_each!(self, list => list.len())
+    }
+
+    /// Adds others of the same kind.
+    pub(crate) fn append(&mut self, others: Self) {
+        match (self, others) {
+            (Self::Numbers(list), Self::Numbers(more)) => list.extend(more),
+            (Self::Counts(list), Self::Counts(more)) => list.extend(more),
+            (Self::Flags(list), Self::Flags(more)) => list.extend(more),
+            (Self::Words(list), Self::Words(more)) => list.extend(more),
+            _ => {}
+        }
+    }
+
+    /// Takes the first so many out.
+    pub(crate) fn take_first(&mut self, count: usize) -> Self {
+        match self {
+            Self::Numbers(list) => Self::Numbers(list.drain(..count).collect()),
+            Self::Counts(list) => Self::Counts(list.drain(..count).collect()),
+            Self::Flags(list) => Self::Flags(list.drain(..count).collect()),
+            Self::Words(list) => Self::Words(list.drain(..count).collect()),
+        }
+    }
+}
+
+/// The name of a column, what it holds, and whether each row has a value.
+pub(crate) struct Field {
+    pub name: &'static str,
+    pub holds: Holds,
+    pub required: bool,
+}
+
+fn schema(fields: &[Field]) -> Result<TypePtr> {
+    let column = |field: &Field| {
+        let (physical, logical) = match field.holds {
+            Holds::Numbers => (Physical::DOUBLE, None),
+            Holds::Counts => (Physical::INT64, None),
+            Holds::Flags => (Physical::BOOLEAN, None),
+            Holds::Words => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let repetition = if field.required {
+            Repetition::REQUIRED
+        } else {
+            Repetition::OPTIONAL
+        };
+        let column = Type::primitive_type_builder(field.name, physical)
+            .with_repetition(repetition)
+            .with_logical_type(logical);
+        Ok(Arc::new(column.build()?))
+    };
+    let columns = fields.iter().map(column).collect::<Result<_>>()?;
+    let whole = Type::group_type_builder("schema").with_fields(columns);
+    Ok(Arc::new(whole.build()?))
+}
+
+/// A file that is written, one group of rows after the other.
+pub(crate) struct Writer<W: Write + Send>(SerializedFileWriter<W>);
+
+impl<W: Write + Send> Writer<W> {
+    pub(crate) fn new(out: W, fields: &[Field], properties: WriterProperties) -> Result<Self> {
+        SerializedFileWriter::new(out, schema(fields)?, Arc::new(properties)).map(Self)
+    }
+
+    /// Writes a group of rows, given by its columns.
+    pub(crate) fn write(&mut self, columns: &[Values]) -> Result<()> {
+        let mut group = self.0.next_row_group()?;
+        for values in columns {
+            let column = group.next_column()?;
+            let mut column =
+                column.ok_or_else(|| ParquetError::General("too many columns".to_owned()))?;
+            match values {
+                Values::Numbers(list) => put::<DoubleType, _>(&mut column, list, |n| *n)?,
+                Values::Counts(list) => put::<Int64Type, _>(&mut column, list, |n| *n)?,
+                Values::Flags(list) => put::<BoolType, _>(&mut column, list, |flag| *flag)?,
+                Values::Words(list) => {
+                    put::<ByteArrayType, _>(&mut column, list, |word| {
+                        word.as_bytes().to_vec().into()
+                    })?;
+                }
+            }
+            column.close()?;
+        }
+        group.close()?;
+        Ok(())
+    }
+
+    /// Ends the file.
+    pub(crate) fn into_inner(self) -> Result<W> {
+        self.0.into_inner()
+    }
+}
+
+fn put<D: DataType, V>(
+    column: &mut SerializedColumnWriter<'_>,
+    list: &[Option<V>],
+    write: impl Fn(&V) -> D::T,
+) -> Result<()> {
+    let values: Vec<D::T> = list.iter().flatten().map(write).collect();
+    let there: Vec<i16> = list
+        .iter()
+        .map(|value| i16::from(value.is_some()))
+        .collect();
+    column
+        .typed::<D>()
+        .write_batch(&values, Some(&there), None)?;
+    Ok(())
+}
+
+/// A file that is read.
+pub(crate) struct Reader(SerializedFileReader<File>);
+
+impl Reader {
+    pub(crate) fn open(file: File) -> Result<Self> {
+        SerializedFileReader::new(file).map(Self)
+    }
+
+    /// What the file says of itself.
+    pub(crate) fn about(&self) -> &FileMetaData {
+        self.0.metadata().file_metadata()
+    }
+
+    /// The names of the columns, and what each holds; none where that is no kind of [`Values`].
+    pub(crate) fn fields(&self) -> impl Iterator<Item = (&Type, Option<Holds>)> {
+        let fields = self.about().schema().get_fields().iter();
+        fields.map(|field| (&**field, holds(field)))
+    }
+
+    /// How many rows each group has.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = u64> {
+        let groups = self.0.metadata().row_groups().iter();
+        groups.map(|group| group.num_rows().unsigned_abs())
+    }
+
+    /// Values of columns, given by their places, in some rows of a group.
+    pub(crate) fn read(
+        &self,
+        group: usize,
+        columns: &[usize],
+        rows: Range<u64>,
+    ) -> Result<Vec<Values>> {
+        let fields: Vec<(&Type, Option<Holds>)> = self.fields().collect();
+        let group = self.0.get_row_group(group)?;
+        let read = |&place: &usize| match fields.get(place) {
+            Some((field, Some(_))) => get(group.get_column_reader(place)?, field, &rows),
+            _ => Err(ParquetError::General(format!(
+                "column {} can not be read",
+                place + 1
+            ))),
+        };
+        columns.iter().map(read).collect()
+    }
+}
+
+/// What a column holds, for those that hold numbers, texts, or true and false.
+fn holds(field: &Type) -> Option<Holds> {
+    use ConvertedType as As;
+    let about = field.get_basic_info();
+    if !field.is_primitive() || about.repetition() == Repetition::REPEATED {
+        return None;
+    }
+    match (
+        field.get_physical_type(),
+        about.converted_type(),
+        about.logical_type_ref(),
+    ) {
+        (Physical::BOOLEAN, ..) => Some(Holds::Flags),
+        (Physical::FLOAT | Physical::DOUBLE, ..) => Some(Holds::Numbers),
+        (_, As::DECIMAL, _) => Some(Holds::Numbers),
+        (Physical::FIXED_LEN_BYTE_ARRAY, _, Some(LogicalType::Float16)) => Some(Holds::Numbers),
+        // The unknown type is that of a column of nothing but empty cells.
+        (Physical::INT32 | Physical::INT64, As::NONE, None | Some(LogicalType::Unknown)) => {
+            Some(Holds::Counts)
+        }
+        (Physical::INT32 | Physical::INT64, kind, _) if is_whole(kind) => Some(Holds::Counts),
+        (Physical::BYTE_ARRAY, As::UTF8 | As::JSON, _) => Some(Holds::Words),
+        _ => None,
+    }
+}
+
+fn is_whole(kind: ConvertedType) -> bool {
+    use ConvertedType as As;
+    let signed = matches!(kind, As::INT_8 | As::INT_16 | As::INT_32 | As::INT_64);
+    signed || matches!(kind, As::UINT_8 | As::UINT_16 | As::UINT_32 | As::UINT_64)
+}
+
+fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> {
+    use ConvertedType as As;
+    let kind = field.get_basic_info().converted_type();
+    let scale = 10_f64.powi(if kind == As::DECIMAL {
+        field.get_scale()
+    } else {
+        0
+    });
+    let decimal = |bytes: &[u8]| Ok(whole(bytes)? as f64 / scale);
+    Ok(match reader {
+        ColumnReader::BoolColumnReader(_) => {
+            Values::Flags(list::<BoolType, _>(reader, rows, |flag| Ok(*flag))?)
+        }
+        ColumnReader::FloatColumnReader(_) => {
+            Values::Numbers(list::<FloatType, _>(reader, rows, |n| Ok(f64::from(*n)))?)
+        }
+        ColumnReader::DoubleColumnReader(_) => {
+            Values::Numbers(list::<DoubleType, _>(reader, rows, |n| Ok(*n))?)
+        }
+        ColumnReader::Int32ColumnReader(_) => match kind {
+            As::DECIMAL => Values::Numbers(list::<Int32Type, _>(reader, rows, |n| {
+                Ok(f64::from(*n) / scale)
+            })?),
+            As::UINT_8 | As::UINT_16 | As::UINT_32 => {
+                Values::Counts(list::<Int32Type, _>(reader, rows, |n| {
+                    Ok(i64::from(*n as u32))
+                })?)
+            }
+            _ => Values::Counts(list::<Int32Type, _>(reader, rows, |n| Ok(i64::from(*n)))?),
+        },
+        ColumnReader::Int64ColumnReader(_) => match kind {
+            As::DECIMAL => Values::Numbers(list::<Int64Type, _>(reader, rows, |n| {
+                Ok(*n as f64 / scale)
+            })?),
+            As::UINT_64 => Values::Counts(list::<Int64Type, _>(reader, rows, |n| {
+                let n = *n as u64;
+                i64::try_from(n).map_err(|_| too_large(n))
+            })?),
+            _ => Values::Counts(list::<Int64Type, _>(reader, rows, |n| Ok(*n))?),
+        },
+        ColumnReader::ByteArrayColumnReader(_) if kind == As::DECIMAL => {
+            Values::Numbers(list::<ByteArrayType, _>(reader, rows, |n| {
+                decimal(n.data())
+            })?)
+        }
+        ColumnReader::ByteArrayColumnReader(_) => {
+            Values::Words(list::<ByteArrayType, _>(reader, rows, |word| {
+                Ok(word.as_utf8()?.to_owned())
+            })?)
+        }
+        ColumnReader::FixedLenByteArrayColumnReader(_) if kind == As::DECIMAL => {
+            Values::Numbers(list::<FixedLenByteArrayType, _>(reader, rows, |n| {
+                decimal(n.data())
+            })?)
+        }
+        ColumnReader::FixedLenByteArrayColumnReader(_) => {
+            Values::Numbers(list::<FixedLenByteArrayType, _>(reader, rows, |n| {
+                let bytes = n.data().try_into();
+                let bytes = bytes.map_err(|_| {
+                    ParquetError::General("half a double takes two bytes".to_owned())
+                })?;
+                Ok(f16::from_le_bytes(bytes).to_f64())
+            })?)
+        }
+        ColumnReader::Int96ColumnReader(_) => {
+            return Err(ParquetError::General(
+                "a point in time is no number".to_owned(),
+            ));
+        }
+    })
+}
+
+/// The whole number of bytes in two's complement, the highest first.
+fn whole(bytes: &[u8]) -> Result<i128> {
+    let negative = bytes.first().is_some_and(|byte| *byte > 0x7f);
+    let start = if negative { -1_i128 } else { 0 };
+    bytes.iter().try_fold(start, |number, byte| {
+        let shifted = number.checked_mul(256);
+        shifted
+            .map(|n| n | i128::from(*byte))
+            .ok_or_else(|| too_large(number))
+    })
+}
+
+fn too_large(number: impl std::fmt::Display) -> ParquetError {
+    ParquetError::General(format!("{number} is too large a number"))
+}
+
+fn list<D: DataType, V>(
+    reader: ColumnReader,
+    rows: &Range<u64>,
+    read: impl Fn(&D::T) -> Result<V>,
+) -> Result<Vec<Option<V>>> {
+    let (skip, count) = (rows.start as usize, (rows.end - rows.start) as usize);
+    let mut reader = get_typed_column_reader::<D>(reader);
+    reader.skip_records(skip)?;
+    let (mut values, mut there) = (Vec::new(), Vec::new());
+    let (found, ..) = reader.read_records(count, Some(&mut there), None, &mut values)?;
+    let mut values = values.iter();
+    // A column in which no value may be missing does not say which are there.
+    there.resize(found, 1);
+    let list = there.into_iter().map(|level: i16| match level {
+        0 => Ok(None),
+        _ => values.next().map(&read).transpose(),
+    });
+    list.collect()
+}
