@@ -51,7 +51,7 @@ pub use model::taut_set::{MAX_CABLES, Mode, PerCable, TautSet};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};
-pub use motion::simulation::{Simulation, Step};
+pub use motion::simulation::{Simulation, Step, Steps};
 pub use motion::start::{START_TOLERANCE, StartError};
 pub use motion::step_map::{Deviation, Matrix, StepMap};
 pub use motion::tangent::Tangent;

@@ -4,7 +4,9 @@ mod common;
 
 use common::{keys_of_oracle, oracle};
 use serde_json::Value as Json;
-use snapload::{Case, Dual, Impact, Parameters, Precise, Real, Simulation, State, named_cases};
+use snapload::{
+    Case, Dual, Impact, Parameters, Precise, Real, Simulation, State, Steps, named_cases,
+};
 
 type Digits = Precise<4>;
 
@@ -14,7 +16,7 @@ fn case(oracle: &Json) -> Case {
         .expect("a legal case")
 }
 
-fn impacts<T: Real>(mut simulation: Simulation<T>, most: usize) -> Vec<Impact<T>> {
+fn impacts<T: Steps>(mut simulation: Simulation<T>, most: usize) -> Vec<Impact<T>> {
     let mut all = Vec::new();
     while let Some(step) = simulation.step() {
         all.extend(step.impacts());

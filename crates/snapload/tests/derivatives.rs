@@ -4,7 +4,7 @@
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
     Body, BodyKind, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise,
-    Real, Rules, Shape, Simulation, State, System, Tangent,
+    Real, Rules, Shape, Simulation, State, Steps, System, Tangent,
 };
 
 type Digits = Precise<4>;
@@ -46,7 +46,7 @@ fn differences(run: impl Fn(Digits) -> Vec<Impact<Digits>>) -> Vec<[f64; QUANTIT
         .collect()
 }
 
-fn first_impacts<T: Real>(mut simulation: Simulation<T>, count: usize) -> Vec<Impact<T>> {
+fn first_impacts<T: Steps>(mut simulation: Simulation<T>, count: usize) -> Vec<Impact<T>> {
     let mut impacts = Vec::new();
     while impacts.len() < count {
         impacts.extend(simulation.step().expect("it goes on").impacts());
@@ -228,7 +228,7 @@ fn towards_a_graze(depth: f64) -> (System, State) {
     (system, start)
 }
 
-fn first_impact<T: Real>(
+fn first_impact<T: Steps>(
     system: &System,
     start: State<T>,
     number: impl Fn(f64) -> T + Copy,

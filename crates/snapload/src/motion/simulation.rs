@@ -1,5 +1,7 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
+use crate::arithmetic::dual::Dual;
+use crate::arithmetic::precise::Precise;
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::rules::Rules;
@@ -126,6 +128,26 @@ impl<T: Real> Kernel for NextStep<'_, T> {
     }
 }
 
+/// Numbers over which a motion can be stepped. The step over doubles is compiled here, once: it is the whole engine,
+/// which every crate that steps would otherwise compile anew.
+pub trait Steps: Real {
+    /// [`Simulation::step`].
+    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
+        dispatch_over::<Self, _>(NextStep(simulation))
+    }
+}
+
+impl Steps for f64 {
+    #[inline(never)]
+    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
+        dispatch_over::<Self, _>(NextStep(simulation))
+    }
+}
+
+impl<T: Real, const N: usize> Steps for Dual<T, N> {}
+
+impl<const WORDS: usize> Steps for Precise<WORDS> {}
+
 impl<T: Real> Step<T> {
     /// The impacts at the end of the stretch: one for each cable with an impulse.
     pub fn impacts(&self) -> impl Iterator<Item = Impact<T>> + '_ {
@@ -233,8 +255,11 @@ impl<T: Real> Simulation<T> {
 
     /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
     /// the motion has stopped.
-    pub fn step(&mut self) -> Option<Step<T>> {
-        dispatch_over::<T, _>(NextStep(self))
+    pub fn step(&mut self) -> Option<Step<T>>
+    where
+        T: Steps,
+    {
+        T::step(self)
     }
 
     #[inline(always)]
