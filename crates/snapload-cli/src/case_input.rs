@@ -185,6 +185,7 @@ pub(crate) fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseErr
 fn read_file(path: &Path, aside: &[&str]) -> Result<(Vec<Entry>, toml::Table), Failure> {
     let text = read_text(path)?;
     let shown = path.display();
+    #[cfg(feature = "structure")]
     if snapload_structure::is_structure(&text) {
         return Err(Failure::BadInput(format!(
             "{shown}: this is the case of a structure in metres and kilograms\nhint: write snapload assess {shown}"

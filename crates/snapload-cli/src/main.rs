@@ -1,24 +1,31 @@
 //! The command line of snapload: reads a case, runs it, and writes down what happened.
+#[cfg(feature = "structure")]
 mod assess;
 mod case_input;
 mod cases;
 mod completions;
 mod critical;
 mod doubt;
+#[cfg(feature = "structure")]
 mod elastic;
+#[cfg(feature = "explore")]
 mod explore;
 mod failure;
 mod interrupt;
 mod json;
 mod keys;
 mod merge;
+#[cfg(feature = "structure")]
 mod moordyn;
 mod pictures;
 mod progress;
+#[cfg(feature = "reproduce")]
 mod reproduce;
 mod run;
+#[cfg(feature = "structure")]
 mod seas;
 mod stage;
+#[cfg(feature = "structure")]
 mod structure_input;
 mod study_input;
 mod study_picture;
@@ -67,16 +74,22 @@ enum Verb {
     /// Join the parts of a study that was swept on several machines
     Merge(merge::Args),
     /// Reproduce the chapter's tables, figures and claims as one report
+    #[cfg(feature = "reproduce")]
     Reproduce(reproduce::Args),
     /// Assess a structure in metres and kilograms: do its lines go slack, snap, break?
+    #[cfg(feature = "structure")]
     Assess(assess::Args),
     /// Run a structure in many records of an irregular sea: the distribution of snaps and tensions
+    #[cfg(feature = "structure")]
     Seas(seas::Args),
     /// Run a structure on lines that stretch, beside the same on lines that do not
+    #[cfg(feature = "structure")]
     Elastic(elastic::Args),
     /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
+    #[cfg(feature = "structure")]
     Moordyn(moordyn::Args),
     /// Open a page in the browser on which a run moves and answers to every slider
+    #[cfg(feature = "explore")]
     Explore(explore::Args),
     /// List the built-in cases
     Cases,
@@ -95,11 +108,17 @@ fn main() -> ExitCode {
         Verb::Verify(args) => verify::run(&args),
         Verb::Sweep(args) => sweep::run(&args),
         Verb::Merge(args) => merge::run(&args),
+        #[cfg(feature = "reproduce")]
         Verb::Reproduce(args) => reproduce::run(&args),
+        #[cfg(feature = "structure")]
         Verb::Assess(args) => assess::run(&args),
+        #[cfg(feature = "structure")]
         Verb::Seas(args) => seas::run(&args),
+        #[cfg(feature = "structure")]
         Verb::Elastic(args) => elastic::run(&args),
+        #[cfg(feature = "structure")]
         Verb::Moordyn(args) => moordyn::run(&args),
+        #[cfg(feature = "explore")]
         Verb::Explore(args) => explore::run(&args),
         Verb::Cases => cases::run(),
         Verb::Keys => keys::run(),
