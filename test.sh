@@ -52,5 +52,13 @@ cp -f "$target/debug/lib_engine.so" python/snapload/_engine.abi3.so
 export PYTHONPATH=$PWD/python PYTHONDONTWRITEBYTECODE=1
 "$python" -m ruff check python docs/conf.py
 "$python" -m ruff format --check python docs/conf.py
-"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees"
+# The manual runs its notebooks beside the tests of the package; what it says, it says at the end.
+"$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees" \
+  >"$target/manual.log" 2>&1 &
+manual=$!
+trap 'kill "$manual" 2>/dev/null || true' EXIT
 "$python" -m pytest
+wait "$manual" || {
+  cat "$target/manual.log"
+  exit 1
+}
