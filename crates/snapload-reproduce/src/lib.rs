@@ -4,85 +4,33 @@
 //! [`Study`] computes all runs, each once, in two readings: the chapter's own studies ended a run that
 //! begins to slide; the motion really slides on. [`Report`] makes files of it.
 
-pub mod claims;
-mod configurations;
+mod claims;
 mod figures;
-mod html;
+mod page;
 mod source;
 mod story;
 mod study;
 mod tables;
 
-pub use figures::{Figure, Row, Source, figures};
-pub use source::Number;
-pub use story::{Step, story};
-pub use study::{
-    Both, CaseRuns, CriticalCurve, CriticalPoint, CriticalRow, NormCurve, Progress, Reading, Study,
-};
+pub use study::{Progress, Study};
 
 use claims::Claim;
-use snapload::CaseError;
-use snapload_figures::FigureError;
-use std::fmt;
 
 /// Why the report could not be made: a fault of the program.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A figure could not be drawn.
-    Figure(FigureError),
+    #[error("a figure can not be drawn: {0}")]
+    Figure(#[from] snapload_figures::FigureError),
     /// A case is not legal.
-    Case(CaseError),
-}
-
-impl fmt::Display for ReportError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Figure(error) => write!(f, "a figure can not be drawn: {error}"),
-            Self::Case(error) => write!(f, "a case can not be run: {error}"),
-        }
-    }
-}
-
-impl std::error::Error for ReportError {}
-
-impl From<FigureError> for ReportError {
-    fn from(error: FigureError) -> Self {
-        Self::Figure(error)
-    }
-}
-
-impl From<CaseError> for ReportError {
-    fn from(error: CaseError) -> Self {
-        Self::Case(error)
-    }
-}
-
-/// The section in a claim's id: `6.4.1` of `6.4.1-03`.
-fn section_of(claim: &Claim) -> &'static str {
-    claim
-        .id
-        .rsplit_once('-')
-        .map_or(claim.id, |(section, _)| section)
-}
-
-/// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where we do.
-fn claims_json(claims: &[Claim]) -> String {
-    let rows: Vec<serde_json::Value> = claims
-        .iter()
-        .map(|claim| {
-            let evidence = [claim.evidence.as_str(), claim.remark.as_str()].join(" ");
-            serde_json::json!({
-                "id": claim.id,
-                "section": claim.section,
-                "claim": claim.claim,
-                "verdict": claim.verdict.words(),
-                "evidence": evidence.trim_end(),
-            })
-        })
-        .collect();
-    let mut text = serde_json::Value::from(rows).to_string();
-    text.push('\n');
-    text
+    #[error("a case can not be run: {0}")]
+    Case(#[from] snapload::CaseError),
+    /// The list of figures can not be read.
+    #[error("the list of figures can not be read: {0}")]
+    List(#[from] toml::de::Error),
+    /// The list of figures or the page asks for something that was not computed.
+    #[error("the report asks for {0}, which was not computed")]
+    Missing(String),
 }
 
 /// The report: its page, and the data beside it.
@@ -98,33 +46,40 @@ impl Report {
     /// # Errors
     /// [`ReportError`] only for a fault of the program.
     pub fn new(study: &Study) -> Result<Self, ReportError> {
-        let rows = figures(study)?;
+        let rows = figures::figures(study)?;
         let mut claims = claims::claims(study)?;
         // In the chapter's order, section by section.
-        claims.sort_by_key(section_of);
+        claims.sort_by_key(|claim| claim.section);
         let mut files = vec![
-            (
-                "report.html".to_owned(),
-                html::page(study, &rows, &claims).into_bytes(),
-            ),
-            (
-                "table-6-1.csv".to_owned(),
-                tables::csv_6_1(study).into_bytes(),
-            ),
-            (
-                "table-6-2.csv".to_owned(),
-                tables::csv_6_2(study).into_bytes(),
-            ),
+            ("report.html".to_owned(), page::page(study, &rows, &claims)?),
+            ("table-6-1.csv".to_owned(), tables::csv_6_1(study)),
+            ("table-6-2.csv".to_owned(), tables::csv_6_2(study)),
+            ("claims.json".to_owned(), claims_json(&claims)),
         ];
-        files.push(("claims.json".to_owned(), claims_json(&claims).into_bytes()));
-        for figure in rows.iter().flat_map(|row| &row.figures) {
+        for figure in rows.into_iter().flat_map(|row| row.figures) {
             let place = format!("figures/{}", figure.picture.name);
-            files.push((
-                format!("{place}.svg"),
-                figure.picture.svg().as_bytes().to_vec(),
-            ));
-            files.push((format!("{place}.csv"), figure.data.clone().into_bytes()));
+            files.push((format!("{place}.svg"), figure.picture.svg().to_owned()));
+            files.push((format!("{place}.csv"), figure.data));
         }
-        Ok(Self { files })
+        let bytes = |(place, text): (String, String)| (place, text.into_bytes());
+        Ok(Self {
+            files: files.into_iter().map(bytes).collect(),
+        })
     }
+}
+
+/// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where we do.
+fn claims_json(claims: &[Claim]) -> String {
+    let row = |claim: &Claim| {
+        let evidence = format!("{} {}", claim.evidence, claim.remark);
+        serde_json::json!({
+            "id": claim.id,
+            "section": claim.section,
+            "claim": claim.claim,
+            "verdict": claim.verdict.words(),
+            "evidence": evidence.trim_end(),
+        })
+    };
+    let rows: serde_json::Value = claims.iter().map(row).collect();
+    format!("{rows}\n")
 }

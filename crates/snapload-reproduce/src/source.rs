@@ -4,15 +4,43 @@ use crate::study::{CriticalRow, NEIGHBOURS, Reading};
 
 /// A number (or a word) of the report, with what makes it again.
 #[derive(Clone, Debug)]
-pub struct Number {
-    /// What stands before it, such as `θ = `.
-    pub name: &'static str,
+pub(crate) struct Number {
     /// As the report shows it.
-    pub shown: String,
+    pub(crate) shown: String,
+    /// In full precision, as the tables beside the report have it.
+    pub(crate) exact: String,
     /// The command.
-    pub command: String,
+    pub(crate) command: String,
     /// The place in the JSON that the command prints, in the language of jq.
-    pub key: String,
+    pub(crate) key: String,
+}
+
+impl Number {
+    /// A number, shown with so many decimals.
+    pub(crate) fn new(value: f64, places: usize, command: &str, key: impl Into<String>) -> Self {
+        Self {
+            shown: decimals(value, places),
+            ..Self::word(value.to_string(), command, key)
+        }
+    }
+
+    /// A word, or a whole number.
+    pub(crate) fn word(text: impl ToString, command: &str, key: impl Into<String>) -> Self {
+        Self {
+            shown: text.to_string(),
+            exact: text.to_string(),
+            command: command.to_owned(),
+            key: key.into(),
+        }
+    }
+
+    /// `yes` or `no`.
+    pub(crate) fn answer(yes: bool, command: &str, key: impl Into<String>) -> Self {
+        Self {
+            exact: yes.to_string(),
+            ..Self::word(if yes { "yes" } else { "no" }, command, key)
+        }
+    }
 }
 
 /// The command that prints the run of a built-in case as JSON.
@@ -41,9 +69,6 @@ fn scan(row: &CriticalRow, reading: Reading) -> String {
 
 /// The command that makes claims, tables and figures.
 pub(crate) const REPORT: &str = "snapload reproduce --out reproduction";
-
-/// Where `snapload run` tells the number of snaps; an impulse passed into a taut cable is none.
-pub(crate) const SNAPS: &str = "[.impacts[] | select(.v_n > 0)] | length";
 
 /// A number with so many decimals and a true minus.
 pub(crate) fn decimals(value: f64, places: usize) -> String {

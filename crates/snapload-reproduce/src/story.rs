@@ -1,95 +1,84 @@
 //! A run told step by step, from its log of events.
 
-use snapload::{TautSet, Trajectory};
+use snapload::{ModeInterval, Trajectory};
 
 /// Shorter stretches of a mode are told together as bouncing.
 const SHORT: f64 = 0.02;
 
 /// A sentence of the story.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub(crate) struct Step {
     /// Which of the run's modes it begins with.
-    pub mode: usize,
+    pub(crate) mode: usize,
     /// When it begins.
-    pub t: f64,
+    pub(crate) t: f64,
     /// What happens.
-    pub what: String,
+    pub(crate) what: String,
 }
-
-/// Bouncing in short stretches: the first of them, when, and how often a cable was taut.
-type Bouncing = (usize, f64, usize);
 
 /// The story.
-pub fn story(run: &Trajectory) -> Vec<Step> {
-    let mut told: Vec<Step> = Vec::new();
-    let mut bouncing: Option<Bouncing> = None;
-    for (k, mode) in run.modes().iter().enumerate() {
-        let long = mode.t_end - mode.t_start >= SHORT;
-        let began = mode.t_start;
-        if !long {
-            let (first, since, times) = bouncing.unwrap_or((k, began, 0));
-            bouncing = Some((first, since, times + usize::from(!mode.taut.is_empty())));
-            continue;
-        }
-        told.extend(bouncing.take().map(|bouncing| bounces(bouncing, began)));
-        told.push(Step {
-            mode: k,
-            t: began,
-            what: begins(run, mode.taut, began, mode.t_end),
-        });
-    }
-    told.extend(bouncing.map(|bouncing| bounces(bouncing, run.end().t)));
-    told
+pub(crate) fn story(run: &Trajectory) -> Vec<Step> {
+    let long = |mode: &ModeInterval| mode.t_end - mode.t_start >= SHORT;
+    let mut first = 0;
+    let stretches = run.modes().chunk_by(|p, q| !long(p) && !long(q));
+    stretches
+        .map(|modes| {
+            let step = Step {
+                mode: first,
+                t: modes[0].t_start,
+                what: if long(&modes[0]) {
+                    begins(run, &modes[0])
+                } else {
+                    let next = run.modes().get(first + modes.len());
+                    bounces(modes, next.map_or(run.end().t, |mode| mode.t_start))
+                },
+            };
+            first += modes.len();
+            step
+        })
+        .collect()
 }
 
-fn bounces((mode, t, times): Bouncing, until: f64) -> Step {
-    let taut = match times {
+/// Short stretches, up to the beginning of a long one.
+fn bounces(modes: &[ModeInterval], until: f64) -> String {
+    let taut = match modes.iter().filter(|mode| !mode.taut.is_empty()).count() {
         0 => String::new(),
         1 => ", once with a cable taut for a moment".to_owned(),
-        _ => format!(", {times} times with a cable taut for a moment"),
+        times => format!(", {times} times with a cable taut for a moment"),
     };
-    let lasts = match until - t {
+    let lasts = match until - modes[0].t_start {
         short if short < 1e-3 => "less than 0.001".to_owned(),
         long => format!("{long:.3}"),
     };
-    Step {
-        mode,
-        t,
-        what: format!("bounces in short flights for {lasts}{taut}"),
-    }
+    format!("bounces in short flights for {lasts}{taut}")
 }
 
-fn begins(run: &Trajectory, taut: TautSet, from: f64, to: f64) -> String {
-    let snaps = run
-        .impacts()
-        .iter()
-        .filter(|impact| impact.t > from && impact.t <= to && impact.v_n > 0.0)
-        .count();
-    let y = run.at(from).state.y;
-    let names: Vec<&str> = taut
-        .iter()
-        .map(|cable| if cable == 0 { "right" } else { "left" })
-        .collect();
-    let what = match taut.len() {
-        0 => format!("flies free of both cables, with {snaps} snaps"),
-        1 => {
-            let until = match run.impacts().iter().find(|i| i.t == to && i.v_n > 0.0) {
-                Some(hit) if !taut.contains(hit.cable) => {
-                    ", until it strikes the other boundary and leaves this one"
-                }
-                _ => "",
+fn begins(run: &Trajectory, mode: &ModeInterval) -> String {
+    let (from, to) = (mode.t_start, mode.t_end);
+    let snaps = || run.impacts().iter().filter(|impact| impact.v_n > 0.0);
+    let what = match (mode.taut.len(), mode.taut.iter().next()) {
+        (1, Some(cable)) => {
+            let name = ["right", "left"][cable.min(1)];
+            let hit = snaps().find(|impact| impact.t == to);
+            let until = match hit.filter(|hit| !mode.taut.contains(hit.cable)) {
+                Some(_) => ", until it strikes the other boundary and leaves this one",
+                None => "",
             };
-            format!("slides with the {} cable taut{until}", names[0])
+            format!("slides with the {name} cable taut{until}")
+        }
+        (0, _) => {
+            let count = snaps()
+                .filter(|impact| impact.t > from && impact.t <= to)
+                .count();
+            format!("flies free of both cables, with {count} snaps")
         }
         _ => "rocks with both cables taut".to_owned(),
     };
+    let (y, lasts) = (run.at(from).state.y, to - from);
     let end = if to == run.end().t {
         ", to the end of the run"
     } else {
         ""
     };
-    format!(
-        "at height y = {y:.4}, {what}; this lasts {:.3}{end}",
-        to - from
-    )
+    format!("at height y = {y:.4}, {what}; this lasts {lasts:.3}{end}")
 }

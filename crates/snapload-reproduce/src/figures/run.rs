@@ -1,0 +1,153 @@
+//! Figures of single runs: Figs 6.1-6.26, 6.43 and 6.45.
+
+use super::{About, Listed, Row, Shows, Source};
+use crate::ReportError;
+use crate::study::{CaseRuns, Reading, Study};
+use crate::tables::outcome;
+use serde::Deserialize;
+use snapload::{Case, named_case};
+use snapload_figures::{Plot, Range, RunPlot, RunPlots};
+
+/// A figure of a run of Table 6.1.
+#[derive(Deserialize)]
+pub(super) struct RunFigure {
+    case: String,
+    view: View,
+    /// The size of a path's window, in that of Figs 6.1-6.6.
+    #[serde(default = "one")]
+    window: f64,
+    /// Whether the time axis differs from that of the row.
+    #[serde(default)]
+    own_time_axis: bool,
+    #[serde(default)]
+    remark: String,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[derive(Clone, Copy, Deserialize, PartialEq)]
+#[serde(rename_all = "lowercase")]
+enum View {
+    Path,
+    Rotation,
+    Snaps,
+}
+
+impl View {
+    /// Where its points and its picture stand among what `snapload run --out` writes.
+    fn place(self) -> &'static str {
+        match self {
+            Self::Path => "x and y in motion.csv; trajectory.svg",
+            Self::Rotation => "t and theta in motion.csv; rotation.svg",
+            Self::Snaps => "t and v_n in impacts.csv; snaps.svg",
+        }
+    }
+}
+
+/// The window that Figs 6.1-6.6 share: x from, x to, y from, y to.
+const WINDOW: [f64; 4] = [-0.8, 0.8, -0.05, 0.8];
+
+/// How far the axes of the figures of a row reach at least.
+#[derive(Clone, Copy)]
+pub(super) struct Axes {
+    t: f64,
+    v_n: f64,
+}
+
+impl Axes {
+    pub(super) fn shared(study: &Study, row: &Row<Listed>) -> Result<Self, ReportError> {
+        let mut axes = Self { t: 0.0, v_n: 0.0 };
+        for figure in &row.figures {
+            if let Shows::Run(figure) = &figure.shows {
+                let run = &figure.case(study)?.runs.chapter;
+                axes.v_n = axes.v_n.max(run.norms().rho1);
+                if !figure.own_time_axis {
+                    axes.t = axes.t.max(run.end().t);
+                }
+            }
+        }
+        Ok(axes)
+    }
+}
+
+impl RunFigure {
+    fn case<'a>(&self, study: &'a Study) -> Result<&'a CaseRuns, ReportError> {
+        let case = study.case(&self.case);
+        case.ok_or_else(|| ReportError::Missing(format!("the case {}", self.case)))
+    }
+
+    pub(super) fn draw(
+        &self,
+        name: &str,
+        study: &Study,
+        axes: Axes,
+    ) -> Result<(Plot, About), ReportError> {
+        let (plot, what) = match self.view {
+            View::Path => (RunPlot::Trajectory, "Path of the body's centre"),
+            View::Rotation => (RunPlot::Rotation, "Rotation against time"),
+            View::Snaps => (
+                RunPlot::Snaps,
+                "Normal velocity before each snap against time",
+            ),
+        };
+        let case = self.case(study)?;
+        let mut plot = RunPlots::new(&case.runs.chapter).plot(plot);
+        if self.view == View::Path {
+            let [left, right, bottom, top] = WINDOW.map(|side| side * self.window);
+            plot.x.range = Range::Fixed(left, right);
+            plot.y.range = Range::Fixed(bottom, top);
+        } else if !self.own_time_axis {
+            plot.x.range = Range::AtLeast(0.0, axes.t);
+        }
+        if self.view == View::Snaps {
+            // With room for a whole marker at the top.
+            plot.y.range = Range::AtLeast(0.0, 1.05 * axes.v_n);
+        }
+        let (p, code, remark) = (&case.parameters, case.code, &self.remark);
+        let caption = format!(
+            "{what}, case {code}: r = {}, e = {}, a = {}, b = {}, f_o = {}, Ω = {}.{remark}",
+            p.r, p.e, p.a, p.b, p.f_o, p.omega
+        );
+        let option = Reading::Chapter.option();
+        let command = format!("snapload run --case {code}{option} --out {name}");
+        let about = About {
+            caption,
+            numbers: ["Ends: ", "t = "]
+                .into_iter()
+                .zip(outcome(case, Reading::Chapter))
+                .collect(),
+            sources: Source::whole(command, self.view.place()),
+        };
+        Ok((plot, about))
+    }
+}
+
+/// The path of the sliding or the rocking example.
+#[derive(Deserialize)]
+pub(super) struct Example {
+    case: String,
+    /// What the chapter calls it.
+    chapter: String,
+}
+
+impl Example {
+    pub(super) fn draw(&self, name: &str) -> Result<(Plot, About), ReportError> {
+        let Self { case, chapter } = self;
+        let run = Case::new(named_case(case)?.parameters)?.run();
+        let caption = format!(
+            "Path of the body's centre in the {case} ({chapter}), the settling rule off: I start, S sliding \
+             starts, G the other boundary is struck while one cable is taut, R rocking starts, E the end at \
+             t = {}, where it still rocks.",
+            run.end().t
+        );
+        let command = format!("snapload run --case {case} --out {name}");
+        let about = About {
+            caption,
+            numbers: Vec::new(),
+            sources: Source::whole(command, View::Path.place()),
+        };
+        Ok((RunPlots::new(&run).plot(RunPlot::Trajectory), about))
+    }
+}

@@ -1,0 +1,329 @@
+//! The report as one page of HTML that needs nothing else: the words of `data/page.html`, and what was
+//! computed where these name it in braces.
+
+use crate::ReportError;
+use crate::claims::{Claim, Verdict};
+use crate::figures::{Figure, Row};
+use crate::source::{Number, REPORT, critical, decimals, probability, run};
+use crate::story::story;
+use crate::study::{Both, CaseRuns, CriticalRow, NEIGHBOURS, Reading, Study};
+use crate::tables::{EXCEEDING, critical_outcome, outcome, published_exceeds, rows_6_1};
+use maud::{Markup, PreEscaped, html};
+use snapload::{Trajectory, anchor_height};
+
+/// The symbols that plain text writes with an underscore, set as such.
+const SYMBOLS: [(&str, &str); 8] = [
+    ("|θ|_max", "|<i>θ</i>|<sub>max</sub>"),
+    ("f_cr", "<i>f</i><sub>cr</sub>"),
+    ("f_o", "<i>f</i><sub>o</sub>"),
+    ("f_x", "<i>f</i><sub>x</sub>"),
+    ("f_y", "<i>f</i><sub>y</sub>"),
+    ("v_n", "<i>v</i><sub>n</sub>"),
+    ("y_max", "<i>y</i><sub>max</sub>"),
+    ("I_c", "<i>I</i><sub>c</sub>"),
+];
+
+const VERDICTS: [Verdict; 3] = [
+    Verdict::Reproduced,
+    Verdict::NotReproduced,
+    Verdict::NotDecidable,
+];
+
+/// Plain text with its symbols set as such.
+fn symbols(text: &str) -> Markup {
+    let escaped = html! { (text) }.into_string();
+    let set = |text: String, (plain, marked): &(&str, &str)| text.replace(plain, marked);
+    PreEscaped(SYMBOLS.iter().fold(escaped, set))
+}
+
+/// The page.
+pub(crate) fn page(
+    study: &Study,
+    figures: &[Row<Figure>],
+    claims: &[Claim],
+) -> Result<String, ReportError> {
+    let mut page = Page {
+        study,
+        figures,
+        claims,
+        commands: Vec::new(),
+    };
+    let mut text = String::new();
+    for line in include_str!("../data/page.html").lines().map(str::trim) {
+        // Between words a break of the line is a space, between tags it is nothing.
+        let between_tags = text.ends_with('>') && line.starts_with(['<', '{']);
+        if !text.is_empty() && !between_tags {
+            text.push(' ');
+        }
+        for (k, part) in line.split(['{', '}']).enumerate() {
+            if k % 2 == 0 {
+                text.push_str(part);
+            } else {
+                text.push_str(&page.computed(part)?.into_string());
+            }
+        }
+    }
+    Ok(text)
+}
+
+/// What the page is made of, and the commands that it mentioned so far.
+struct Page<'a> {
+    study: &'a Study,
+    figures: &'a [Row<Figure>],
+    claims: &'a [Claim],
+    commands: Vec<String>,
+}
+
+impl Page<'_> {
+    /// What stands on the page under a name in braces.
+    fn computed(&mut self, name: &str) -> Result<Markup, ReportError> {
+        let found = self.word(name).or_else(|| self.block(name));
+        found.ok_or_else(|| ReportError::Missing(format!("“{name}”")))
+    }
+
+    /// A number or a word within a sentence.
+    fn word(&mut self, name: &str) -> Option<Markup> {
+        let rows = &self.study.critical;
+        let computed = |row: &CriticalRow| Some(row.computed.chapter.first?.f_o - row.published);
+        let differences = || rows.iter().filter_map(computed).map(f64::abs);
+        let exceeds = |row: &&CriticalRow| published_exceeds(row, &row.computed.chapter);
+        let count = match name {
+            "version" => return Some(html! { (env!("CARGO_PKG_VERSION")) }),
+            "report" => return Some(html! { (REPORT) }),
+            "statements" => self.claims.len(),
+            "published" => rows.len(),
+            "equal" => differences().filter(|d| *d < 0.005).count(),
+            "close" => differences().filter(|d| *d < 0.035).count(),
+            "exceeding" => rows.iter().filter(exceeds).count(),
+            "decidable" => rows
+                .iter()
+                .filter(|row| row.decidable(Reading::Chapter))
+                .count(),
+            "neighbours" => NEIGHBOURS as usize,
+            symbol if SYMBOLS.iter().any(|(plain, _)| *plain == symbol) => {
+                return Some(symbols(symbol));
+            }
+            words => {
+                // How many claims came to a verdict.
+                let verdict = VERDICTS
+                    .into_iter()
+                    .find(|verdict| verdict.words() == words)?;
+                let claims = self.claims.iter().filter(|claim| claim.verdict == verdict);
+                let key = format!("claims.json: map(select(.verdict == \"{words}\")) | length");
+                return Some(self.link(&Number::word(claims.count(), REPORT, key)));
+            }
+        };
+        Some(html! { (count) })
+    }
+
+    /// A part of the page.
+    fn block(&mut self, name: &str) -> Option<Markup> {
+        let (study, figures, claims) = (self.study, self.figures, self.claims);
+        Some(match name {
+            "style" => PreEscaped(include_str!("../data/report.css").to_owned()),
+            "contents of figures" => html! {
+                @for row in figures {
+                    li {
+                        (row.title) ": "
+                        @for Figure { number, picture, .. } in &row.figures {
+                            a href={ "#" (picture.name) } { "Fig. " (number) } " "
+                        }
+                    }
+                }
+            },
+            "contents of claims" => html! {
+                @for (section, _) in sections(claims) { a href={ "#claims-" (section) } { (section) } " " }
+            },
+            "rows of 6.1" => self.table_6_1(),
+            "rows of 6.2" => html! {
+                @for row in &study.critical {
+                    @for reading in Reading::BOTH { (self.critical(row, reading)) }
+                }
+            },
+            "figures" => html! {
+                @for Row { title, columns, figures } in figures {
+                    section {
+                        h2 { (title) }
+                        div class={ "figures of-" (columns) } {
+                            @for figure in figures { (self.figure(figure)) }
+                        }
+                    }
+                }
+            },
+            "story of sliding" => self.story("sliding-example", &study.sliding),
+            "story of rocking" => self.story("rocking-example", &study.rocking),
+            "claims" => html! {
+                @for (section, claims) in sections(claims) {
+                    tbody id={ "claims-" (section) } {
+                        tr { th colspan="4" scope="rowgroup" { "Section " (section) } }
+                        @for claim in claims { (self.claim(claim)) }
+                    }
+                }
+            },
+            "commands" => html! {
+                @for (k, text) in self.commands.iter().enumerate() {
+                    li id={ "command-" (k + 1) } { (command(text)) }
+                }
+            },
+            _ => return None,
+        })
+    }
+
+    /// The number of a command in the list at the end, which begins with the first mentioned.
+    fn place(&mut self, command: &str) -> usize {
+        let known = self.commands.iter().position(|text| text == command);
+        1 + known.unwrap_or_else(|| {
+            self.commands.push(command.to_owned());
+            self.commands.len() - 1
+        })
+    }
+
+    /// A number as a link to the command that makes it again.
+    fn link(&mut self, number: &Number) -> Markup {
+        let Number { command, key, .. } = number;
+        let place = self.place(command);
+        html! {
+            a.number href={ "#command-" (place) } title={ (command) " → " (key) } data-key=(key) { (number.shown) }
+        }
+    }
+
+    /// A reference such as \[12\], which paper shows too.
+    fn cite(&mut self, command: &str) -> Markup {
+        let place = self.place(command);
+        html! { a.cite href={ "#command-" (place) } title=(command) { "[" (place) "]" } }
+    }
+
+    fn table_6_1(&mut self) -> Markup {
+        let study = self.study;
+        let [chapter, sliding_on] = Reading::BOTH;
+        let same = |Both {
+                        chapter,
+                        sliding_on,
+                    }: &Both<Trajectory>| {
+            chapter.end() == sliding_on.end() && chapter.norms() == sliding_on.norms()
+        };
+        html! {
+            @for series in rows_6_1().chunk_by(|(p, _), (q, _)| p == q) {
+                tbody {
+                    tr { th colspan="18" scope="rowgroup" { "Series " (symbols(series[0].0)) } }
+                    @for case in series.iter().filter_map(|(_, code)| study.case(code)) {
+                        // One line where both readings come to the same, else two.
+                        @if same(&case.runs) {
+                            (self.outcome(case, "none", &Reading::BOTH))
+                        } @else {
+                            (self.outcome(case, "ends", &[chapter]))
+                            (self.outcome(case, "goes on", &[sliding_on]))
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn outcome(&mut self, case: &CaseRuns, sliding: &str, readings: &[Reading]) -> Markup {
+        let p = &case.parameters;
+        html! {
+            tr {
+                th scope="row" { (case.code) }
+                td { (p.r) } td { (decimals(anchor_height(p.r, p.a), 3)) } td { (p.e) } td { (p.a) } td { (p.b) }
+                td { (p.f_o) } td { (p.omega) } td { (sliding) }
+                @for number in outcome(case, readings[0]) { td { (self.link(&number)) } }
+                td { @for reading in readings { (self.cite(&run(case.code, *reading))) " " } }
+            }
+        }
+    }
+
+    fn critical(&mut self, row: &CriticalRow, reading: Reading) -> Markup {
+        html! {
+            tr {
+                th scope="row" { (row.shape) }
+                td { (row.r) } td { (row.size[0]) } td { (row.size[1]) }
+                td { (decimals(row.published, 2)) } td { (reading.either("ends", "goes on")) }
+                @for number in critical_outcome(row, reading) {
+                    td class=[(number.key == EXCEEDING).then_some("long")] {
+                        @if !number.shown.is_empty() { (self.link(&number)) }
+                    }
+                }
+                td { (self.cite(&critical(row, reading))) " " (self.cite(&probability(row, reading))) }
+            }
+        }
+    }
+
+    fn figure(&mut self, figure: &Figure) -> Markup {
+        let (picture, about) = (&figure.picture, &figure.about);
+        let data = format!("figures/{}.csv", picture.name);
+        html! {
+            figure id=(picture.name) {
+                (PreEscaped(picture.svg()))
+                figcaption {
+                    b { "Fig. " (figure.number) ". " } (symbols(&about.caption))
+                    @for (k, (name, number)) in about.numbers.iter().enumerate() {
+                        @if k > 0 { "," }
+                        " " (name) (self.link(number))
+                    }
+                    @if !about.numbers.is_empty() { "." }
+                    @for source in &about.sources {
+                        div.source {
+                            (self.cite(&source.command)) " "
+                            @if !source.part.is_empty() { (source.part) ": " }
+                            (command(&source.command)) " → " code { (source.place) }
+                        }
+                    }
+                    div.source { "Data: " a href=(data) { (data) } }
+                }
+            }
+        }
+    }
+
+    fn story(&mut self, code: &str, told: &Trajectory) -> Markup {
+        let made = run(code, Reading::SlidingOn);
+        html! {
+            ol {
+                @for step in story(told) {
+                    @let key = format!(".modes[{}].t_start", step.mode);
+                    li { "t = " (self.link(&Number::new(step.t, 4, &made, key))) ": " (step.what) "." }
+                }
+            }
+            div.source { (self.cite(&made)) " " (command(&made)) " → " code { ".modes, .impacts" } }
+        }
+    }
+
+    fn claim(&mut self, claim: &Claim) -> Markup {
+        let id = claim.id;
+        let class = match claim.verdict {
+            Verdict::Reproduced => "yes",
+            Verdict::NotReproduced => "no",
+            Verdict::NotDecidable => "open",
+        };
+        let key = format!("claims.json: .[] | select(.id == \"{id}\").evidence");
+        html! {
+            tr id={ "claim-" (id) } {
+                td { a.number href={ "#claim-" (id) } { (id) } }
+                td class="long" { (symbols(claim.claim)) }
+                td { span class={ "verdict " (class) } { (claim.verdict.words()) } }
+                td class="long" {
+                    (self.link(&Number::word(&claim.evidence, REPORT, key))) " " (self.cite(REPORT))
+                    @if !claim.remark.is_empty() { br; i { (symbols(&claim.remark)) } }
+                }
+            }
+        }
+    }
+}
+
+/// The sections in their order, with their claims.
+fn sections(claims: &[Claim]) -> impl Iterator<Item = (&str, &[Claim])> {
+    let sections = claims.chunk_by(|p, q| p.section == q.section);
+    sections.map(|claims| (claims[0].section, claims))
+}
+
+/// A command that is broken into lines between its words only, never after a hyphen.
+fn command(text: &str) -> Markup {
+    html! {
+        code.command {
+            @for (k, word) in text.split(' ').enumerate() {
+                @if k > 0 { " " }
+                span { (word) }
+            }
+        }
+    }
+}
