@@ -182,7 +182,7 @@ class Case(KeyValues):
         )
         head = "<tr><th>key</th><th>value</th><th>unit</th><th></th></tr>"
         return (
-            f"<details open><summary>{escape(self._engine.told())}</summary>"
+            f"<details open><summary>{escape(self._engine.in_words())}</summary>"
             f"<table><thead>{head}</thead><tbody>{rows}</tbody></table></details>"
         )
 

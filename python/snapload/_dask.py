@@ -63,7 +63,7 @@ def sweep_on(
             store.keep(start, stop, future.result())
             submit()
             if tell is not None:
-                tell(stop - start)
+                tell(store.safe())
         store.finish()
     finally:
         dask.cancel(list(places), force=True)

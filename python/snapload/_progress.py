@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable[[int], object] | None]:
-    """A bar that appears after half a second; gives what is told how many more are done."""
+    """A bar that appears after half a second; gives what is told how many are done."""
     if not shown:
         yield None
         return
@@ -19,4 +19,4 @@ def bar(what: str, whole: int, shown: bool, begun: int = 0) -> Iterator[Callable
         from tqdm.auto import tqdm
     # Without `disable` there would be a bar in log files, too.
     with tqdm(total=whole, initial=begun, desc=what, delay=0.5, leave=False, disable=None) as shown_bar:
-        yield shown_bar.update
+        yield lambda done: shown_bar.update(done - shown_bar.n)

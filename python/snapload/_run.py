@@ -330,12 +330,12 @@ class Run:
         return f"<Run of {self.case!r}: {self.end.reason} at t = {self.end.t:.4f}, {len(self.impacts)} impacts>"
 
     def _repr_html_(self) -> str:
-        rows, label = [], ""
-        for line in str(self).splitlines():
-            label, text = line[:10].strip(), line[10:].strip()
+        rows = []
+        for label, text in self._engine.summary_lines():
+            lines = escape(text).replace("\n", "<br>")
             rows.append(
-                f"<tr><th style='text-align:left;vertical-align:top'>{escape(label)}</th>"
-                f"<td style='text-align:left'>{escape(text)}</td></tr>"
+                f"<tr><th style='text-align:left;vertical-align:top'>{label}</th>"
+                f"<td style='text-align:left'>{lines}</td></tr>"
             )
         return f"<table>{''.join(rows)}</table>"
 

@@ -1,11 +1,12 @@
 //! A case, from keys and values of Python.
 
-use crate::errors::of_case;
+use crate::errors::{of_case, of_work};
 use crate::interrupt::interruptible;
-use crate::run::{Run, doubt};
+use crate::run::{Run, read_uncertainty};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use pyo3::{IntoPyObjectExt, intern};
+use snapload::analysis::Progress;
 use snapload::{CaseError, Parameters, Value, check_entry, key_named};
 use snapload_report::{Trusted, case_in_words};
 use std::sync::Arc;
@@ -74,7 +75,7 @@ impl Case {
     }
 
     /// Name, and where the case differs from the standard one.
-    pub(crate) fn told(&self) -> String {
+    pub(crate) fn in_words(&self) -> String {
         case_in_words(&self.name, self.parameters())
     }
 
@@ -87,21 +88,15 @@ impl Case {
         members: u32,
         seed: u64,
     ) -> PyResult<Run> {
-        let doubt = doubt(&self.case, uncertainty, tolerance)?;
+        let uncertainty = read_uncertainty(&self.case, uncertainty, tolerance)?;
         let case = Arc::clone(&self.case);
-        let trusted = interruptible(py, None, move |pulse| {
-            Trusted::run(
-                &case,
-                doubt,
-                members,
-                seed,
-                |_| pulse.beat(),
-                || pulse.beat(),
-            )
+        let trusted = interruptible(py, None, move |watch| {
+            let on_progress = |progress: Progress| watch.go_on(progress);
+            Trusted::run(&case, uncertainty, members, seed, &on_progress)
         })?;
         Ok(Run {
             case: self.clone(),
-            trusted: Arc::new(trusted.map_err(of_case)?),
+            trusted: Arc::new(trusted.map_err(of_work)?),
         })
     }
 }

@@ -1,9 +1,9 @@
 //! The critical force, and the probability of exceeding the limits.
 
 use crate::case::Case;
-use crate::errors::of_case;
+use crate::errors::{of_case, of_work};
 use crate::interrupt::interruptible;
-use crate::run::{doubt, to_json};
+use crate::run::{read_uncertainty, to_json};
 use pyo3::prelude::*;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan};
 use snapload_report::{CriticalRow, Probability};
@@ -13,8 +13,10 @@ use snapload_report::{CriticalRow, Probability};
 pub(crate) fn critical_force(py: Python<'_>, case: &Case, step: f64, max: f64) -> PyResult<String> {
     let scan = ForceScan::new(step, max).map_err(of_case)?;
     let parameters = *case.parameters();
-    let found = interruptible(py, None, move |_| CriticalForce::scan(&parameters, scan))?;
-    to_json(&CriticalRow(found.map_err(of_case)?))
+    let found = interruptible(py, None, move |watch| {
+        CriticalForce::scan(&parameters, scan, &|progress| watch.go_on(progress))
+    })?;
+    to_json(&CriticalRow::new(found.map_err(of_work)?))
 }
 
 /// The probability of exceeding at every amplitude, as JSON.
@@ -35,15 +37,18 @@ pub(crate) fn probability(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let scan = ForceScan::new(step, max).map_err(of_case)?;
-    let doubt = doubt(&case.case, uncertainty, tolerance)?;
+    let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
     let parameters = *case.parameters();
-    let curve = interruptible(py, progress, move |pulse| {
-        ExceedanceCurve::scan(&parameters, scan, &doubt, members, seed, |_| pulse.beat())
+    let curve = interruptible(py, progress, move |watch| {
+        ExceedanceCurve::scan(
+            &parameters,
+            scan,
+            &uncertainty,
+            members,
+            seed,
+            &|progress| watch.go_on(progress),
+        )
     })?;
-    let curve = curve.map_err(of_case)?;
-    to_json(&Probability {
-        curve,
-        members,
-        seed,
-    })
+    let curve = curve.map_err(of_work)?;
+    to_json(&Probability::new(&curve, members, seed))
 }

@@ -1,8 +1,9 @@
 //! Errors of the library as Python's, with the same words.
 
 use pyo3::PyErr;
-use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError, PyValueError};
 use snapload::CaseError;
+use snapload::analysis::Unfinished;
 use snapload_study::StudyError;
 use std::fmt::Display;
 
@@ -11,16 +12,21 @@ pub(crate) fn of_case(error: CaseError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// A value that is not allowed, or work that was interrupted.
+pub(crate) fn of_work(error: Unfinished) -> PyErr {
+    match error {
+        Unfinished::Case(error) => of_case(error),
+        Unfinished::Cancelled(cancelled) => PyKeyboardInterrupt::new_err(cancelled.to_string()),
+    }
+}
+
 /// A study that is not allowed, or that can not be read or written.
 pub(crate) fn of_study(error: StudyError) -> PyErr {
     match error {
-        // The words are the command's; an option is a keyword here.
-        StudyError::Input(words) => PyValueError::new_err(
-            words
-                .replace("--resume", "resume=True")
-                .replace("--out", "out"),
-        ),
-        StudyError::Failed(words) => PyOSError::new_err(words),
+        StudyError::Failed(message) => PyOSError::new_err(message),
+        StudyError::Occupied(there) => PyValueError::new_err(there.in_words("resume=True", "out")),
+        StudyError::Cancelled(cancelled) => of_work(cancelled.into()),
+        other => PyValueError::new_err(other.to_string()),
     }
 }
 

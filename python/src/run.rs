@@ -1,22 +1,25 @@
 //! A run, and what is known of it.
 
 use crate::case::Case;
-use crate::errors::{of_case, of_program};
+use crate::errors::{of_case, of_program, of_work};
 use crate::interrupt::interruptible;
-use crate::table::Table;
+use crate::table::{Table, array_of};
 use arrow_array::builder::{Int64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use arrow_schema::{Field, Schema};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{Ensemble, START_KEYS, Uncertainty};
-use snapload::{CaseError, Playback, Value};
+use snapload::analysis::{
+    Cancelled, Counter, Ensemble, Progress, Uncertainty, unwatched, verify as verify_run,
+};
+use snapload::{CaseError, ModeInterval, Playback, Value};
+use snapload_report::tables::{IMPACTS, ImpactRow, MOTION, impact_rows};
 use snapload_report::{
     CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
-    TrustRow, Trusted, Verified, VerifiedRow, components, summary,
+    TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -39,9 +42,6 @@ struct Head<'a> {
     norms: NormsRow,
 }
 
-/// The numbers of a [`MotionRow`].
-const COMPONENTS: usize = 10;
-
 #[pymethods]
 impl Run {
     /// How it ended, norms, outcome and trust, as JSON.
@@ -50,7 +50,7 @@ impl Run {
         to_json(&Head {
             case: CaseEcho(self.case.parameters()),
             end: EndRow::new(run.end()),
-            state: components(&run.end().state),
+            state: run.end().state.components(),
             outcome: OutcomeRow::new(&self.trusted),
             trust: TrustRow::new(&self.trusted),
             norms: NormsRow::new(run.norms()),
@@ -61,7 +61,7 @@ impl Run {
     #[pyo3(signature = (dt=None))]
     fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
-        let report = Report::new(self.case.parameters(), &self.trusted, sampling, &|_| ());
+        let report = Report::new(self.case.parameters(), &self.trusted, sampling, &unwatched);
         to_json(&report)
     }
 
@@ -70,67 +70,20 @@ impl Run {
         summary(&self.case.name, self.case.parameters(), &self.trusted, &[])
     }
 
+    /// The same as labels and texts.
+    fn summary_lines(&self) -> Vec<(&'static str, String)> {
+        summary_lines(&self.case.name, self.case.parameters(), &self.trusted)
+    }
+
     /// The impacts, a row an impact and cable.
     fn impacts(&self) -> PyResult<Table> {
-        let impacts = self.trusted.run.impacts();
-        let number = |of: &dyn Fn(&snapload::Impact) -> f64| -> ArrayRef {
-            Arc::new(Float64Array::from_iter_values(impacts.iter().map(of)))
-        };
-        let cables = impacts.iter().map(|impact| impact.cable as i64 + 1);
-        let mut columns: Vec<(String, &str, &str, ArrayRef)> = vec![
-            ("t".into(), "T", "time", number(&|i| i.t)),
-            (
-                "cable".into(),
-                "",
-                "cable, 1 or 2",
-                Arc::new(Int64Array::from_iter_values(cables)),
-            ),
-            (
-                "v_n".into(),
-                "L/T",
-                "normal velocity just before; 0 where an impulse was passed on",
-                number(&|i| i.v_n),
-            ),
-            (
-                "impulse".into(),
-                "m L/T",
-                "impulse in the cable",
-                number(&|i| i.impulse),
-            ),
-            (
-                "energy_lost".into(),
-                "F L",
-                "energy lost",
-                number(&|i| i.energy_lost),
-            ),
-        ];
-        for (k, name) in START_KEYS.into_iter().enumerate() {
-            let unit = UNITS[k];
-            columns.push((
-                format!("before_{name}"),
-                unit,
-                "just before",
-                number(&|i| i.before.components()[k]),
-            ));
-        }
-        for (k, name) in START_KEYS.into_iter().enumerate() {
-            let unit = UNITS[k];
-            columns.push((
-                format!("after_{name}"),
-                unit,
-                "just after",
-                number(&|i| i.after.components()[k]),
-            ));
-        }
-        let digits: ArrayRef =
-            Arc::new(Float64Array::from_iter_values(self.trusted.trust.digits()));
-        columns.push((
-            "digits".into(),
-            "1",
-            "decimal digits expected to be right",
-            digits,
-        ));
-        table(columns)
+        let Trusted { run, trust, .. } = &*self.trusted;
+        let rows: Vec<ImpactRow> = impact_rows(run, trust.digits()).collect();
+        let columns = IMPACTS.iter().map(|column| {
+            let values = array_of(column.values(rows.iter().map(Some)));
+            (column.name, column.unit, column.meaning, values)
+        });
+        table(columns.collect())
     }
 
     /// The mode intervals.
@@ -143,38 +96,20 @@ impl Run {
             }
             taut.append(true);
         }
-        let names = modes.iter().map(|mode| mode.taut.mode().name());
-        let starts = modes.iter().map(|mode| mode.t_start);
-        let ends = modes.iter().map(|mode| mode.t_end);
+        let names = StringArray::from_iter_values(modes.iter().map(|mode| mode.taut.mode().name()));
+        let times = |of: fn(&ModeInterval) -> f64| -> ArrayRef {
+            Arc::new(Float64Array::from_iter_values(modes.iter().map(of)))
+        };
+        let (starts, ends) = (times(|mode| mode.t_start), times(|mode| mode.t_end));
         table(vec![
-            (
-                "mode".into(),
-                "",
-                "slack, sliding or rocking",
-                Arc::new(StringArray::from_iter_values(names)),
-            ),
-            (
-                "taut".into(),
-                "",
-                "the taut cables",
-                Arc::new(taut.finish()),
-            ),
-            (
-                "t_start".into(),
-                "T",
-                "from",
-                Arc::new(Float64Array::from_iter_values(starts)),
-            ),
-            (
-                "t_end".into(),
-                "T",
-                "to",
-                Arc::new(Float64Array::from_iter_values(ends)),
-            ),
+            ("mode", "", "slack, sliding or rocking", Arc::new(names)),
+            ("taut", "", "the taut cables", Arc::new(taut.finish())),
+            ("t_start", "T", "from", starts),
+            ("t_end", "T", "to", ends),
         ])
     }
 
-    /// The motion at times, given as doubles: ten doubles a time, in the order of `motion_names`.
+    /// The motion at times, given as doubles: ten doubles a time, in the order of `MOTION`.
     fn motion_at<'py>(
         &self,
         py: Python<'py>,
@@ -191,9 +126,6 @@ impl Run {
     }
 }
 
-/// Of the components of a state.
-const UNITS: [&str; 6] = ["L", "L", "rad", "L/T", "L/T", "rad/T"];
-
 impl Run {
     fn sampling(&self, dt: f64) -> PyResult<Sampling> {
         let end = self.trusted.run.end().t;
@@ -209,29 +141,32 @@ impl Run {
 
     fn play<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyByteArray>> {
         let trusted = Arc::clone(&self.trusted);
-        let bytes = interruptible(py, None, move |pulse| {
+        let bytes = interruptible(py, None, move |watch| {
+            let on_progress = |progress: Progress| watch.go_on(progress);
+            let counter = Counter::new("playing", 0, times.len() as u64, &on_progress);
             let mut playback = Playback::new(&trusted.run);
-            let mut bytes = Vec::with_capacity(8 * COMPONENTS * times.len());
+            let mut bytes = Vec::with_capacity(8 * MOTION.len() * times.len());
             for t in times {
-                let row = MotionRow::new(&playback.at(t)).numbers();
+                let MotionRow(row) = MotionRow::new(&playback.at(t));
                 bytes.extend(row.into_iter().flat_map(f64::to_ne_bytes));
-                pulse.beat();
+                counter.add(1)?;
             }
-            bytes
+            Ok(bytes)
         })?;
+        let bytes = bytes.map_err(|cancelled: Cancelled| of_work(cancelled.into()))?;
         Ok(PyByteArray::new(py, &bytes))
     }
 }
 
 /// A table whose columns say their unit and what they mean, in the words of CF.
-fn table(columns: Vec<(String, &str, &str, ArrayRef)>) -> PyResult<Table> {
+fn table(columns: Vec<(&str, &str, &str, ArrayRef)>) -> PyResult<Table> {
     let fields = columns.iter().map(|(name, unit, meaning, array)| {
         let words = [("units", *unit), ("long_name", *meaning)];
         let words = words.into_iter().filter(|(_, word)| !word.is_empty());
         let words: HashMap<String, String> = words
             .map(|(key, word)| (key.to_owned(), word.to_owned()))
             .collect();
-        Field::new(name, array.data_type().clone(), false).with_metadata(words)
+        Field::new(*name, array.data_type().clone(), false).with_metadata(words)
     });
     let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
     let arrays = columns.into_iter().map(|(.., array)| array).collect();
@@ -244,37 +179,31 @@ pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
 }
 
 /// What of a case is in doubt: nothing, so much of every start value, or a size for every key that is.
-pub(crate) fn doubt(
+pub(crate) fn read_uncertainty(
     case: &snapload::Case,
-    uncertainty: Option<&Bound<'_, PyAny>>,
+    given: Option<&Bound<'_, PyAny>>,
     tolerance: f64,
 ) -> PyResult<Uncertainty> {
-    let mut doubt = Uncertainty {
+    let mut uncertain = Uncertainty {
         tolerance: positive("tolerance", tolerance)?,
         ..Uncertainty::default()
     };
-    let mut set = |name: &str, size: f64| {
-        let within = |error: CaseError| PyValueError::new_err(format!("uncertainty: {error}"));
-        doubt.set(name, size).map_err(within)
+    let mut set = |key: Option<&str>, size: f64| {
+        let set = uncertain.set_for(case.parameters(), key, size);
+        set.map_err(|error| PyValueError::new_err(format!("uncertainty: {error}")))
     };
-    let Some(uncertainty) = uncertainty else {
-        return Ok(doubt);
+    let Some(given) = given else {
+        return Ok(uncertain);
     };
-    let Ok(sizes) = uncertainty.cast::<PyDict>() else {
-        let size = uncertainty.extract()?;
-        START_KEYS.iter().try_for_each(|key| set(key, size))?;
-        return Ok(doubt);
+    let Ok(sizes) = given.cast::<PyDict>() else {
+        set(None, given.extract()?)?;
+        return Ok(uncertain);
     };
     for (name, size) in sizes.iter() {
-        let (name, size): (String, f64) = (name.extract()?, size.extract()?);
-        if START_KEYS.contains(&name.as_str()) && !case.parameters().moves_by(&name) {
-            return Err(PyValueError::new_err(format!(
-                "uncertainty of {name}: this case has no such quantity"
-            )));
-        }
-        set(&name, size)?;
+        let name: String = name.extract()?;
+        set(Some(&name), size.extract()?)?;
     }
-    Ok(doubt)
+    Ok(uncertain)
 }
 
 fn positive(key: &str, value: f64) -> PyResult<f64> {
@@ -299,10 +228,12 @@ pub(crate) fn ensemble(
     seed: u64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let doubt = doubt(&case.case, uncertainty, Uncertainty::default().tolerance)?;
-    let ensemble = Ensemble::about(&case.case, &doubt, members, seed);
-    let tally = interruptible(py, progress, move |pulse| ensemble.tally(|| pulse.beat()))?;
-    let shares = tally.map_err(of_case)?.shares();
+    let uncertainty = read_uncertainty(&case.case, uncertainty, Uncertainty::default().tolerance)?;
+    let ensemble = Ensemble::about(&case.case, &uncertainty, members, seed);
+    let tally = interruptible(py, progress, move |watch| {
+        ensemble.tally(&|progress| watch.go_on(progress))
+    })?;
+    let shares = tally.map_err(of_work)?.shares();
     let rows: Vec<ShareRow> = shares.into_iter().map(ShareRow::new).collect();
     to_json(&rows)
 }
@@ -318,10 +249,12 @@ pub(crate) fn verify(
 ) -> PyResult<(String, String)> {
     let tolerance = positive("tolerance", tolerance)?;
     let theirs = Arc::clone(&case.case);
-    let found = interruptible(py, progress, move |pulse| {
-        snapload::analysis::verify(&theirs, digits, tolerance, |_| pulse.beat())
+    let found = interruptible(py, progress, move |watch| {
+        verify_run(&theirs, digits, tolerance, &|progress| {
+            watch.go_on(progress)
+        })
     })?;
-    let verified = Verified::new(&case.case, found.map_err(of_case)?, tolerance);
+    let verified = Verified::new(&case.case, found.map_err(of_work)?, tolerance);
     let row: VerifiedRow<'_> = verified.row();
-    Ok((to_json(&row)?, verified.told(&case.told())))
+    Ok((to_json(&row)?, verified.in_words(&case.in_words())))
 }

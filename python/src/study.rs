@@ -10,8 +10,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use snapload::Value;
+use snapload::analysis::Progress;
 use snapload_study::{
-    Axis, Grid, Identity, Opened, Plan, StudyError, Watch, columns_of_files, read_all,
+    Axis, Ending, Grid, Identity, Opened, Plan, StudyError, columns_of_files, read_all,
 };
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -58,10 +59,10 @@ impl Study {
         threads: Option<usize>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let study = Arc::clone(&self.study);
-        let bytes = interruptible(py, None, move |pulse| {
-            on_threads(threads, || {
-                snapload_study::chunk(&study, start..stop, &|| pulse.beat())
-            })
+        let bytes = interruptible(py, None, move |watch| {
+            let on_progress = |progress: Progress| watch.go_on(progress);
+            let chunk = || snapload_study::chunk(&study, start..stop, &on_progress);
+            on_threads(threads, chunk)
         })?;
         Ok(PyBytes::new(py, &bytes.map_err(of_study)?))
     }
@@ -76,18 +77,12 @@ impl Study {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<()> {
         let (study, store) = (Arc::clone(&self.study), store.take()?);
-        let finished = interruptible(py, progress, move |pulse| {
-            // Whoever interrupts unwinds the work at its next case; what was saved before is safe.
-            let done = || pulse.beat();
-            on_threads(threads, || {
-                let watch = Watch {
-                    done: &done,
-                    stop: &|| false,
-                };
-                snapload_study::sweep(&study, store, &watch)
-            })
+        let swept = interruptible(py, progress, move |watch| {
+            let on_progress = |progress: Progress| watch.go_on(progress);
+            let sweep = || snapload_study::sweep(&study, store, Ending::AtNextCase, &on_progress);
+            on_threads(threads, sweep)
         })?;
-        finished.map(drop).map_err(of_study)
+        swept.map_err(of_study)
     }
 }
 

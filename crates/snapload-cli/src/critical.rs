@@ -1,16 +1,15 @@
 //! `snapload critical`: the smallest force amplitude at which the limits are exceeded, and all others.
+use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
-use crate::doubt::DoubtArgs;
 use crate::failure::{Failure, print};
 use crate::json::Json;
-use crate::progress::Progress;
 use crate::stage::Stage;
+use crate::uncertainty::UncertaintyArgs;
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
-use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Uncertainty};
-use snapload::{Parameters, Value, key_named};
+use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress};
+use snapload::{CaseError, Value};
 use snapload_report::{CriticalRow, Probability};
-use snapload_study::{Grid, reason};
+use snapload_study::Axis;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -48,7 +47,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", conflicts_with = "over", value_parser = clap::value_parser!(u32).range(1..))]
     ensemble: Option<u32>,
     #[command(flatten)]
-    uncertainty: DoubtArgs,
+    uncertainty: UncertaintyArgs,
     /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
@@ -67,183 +66,126 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
     let mut stage = Stage::default();
     let json = Json::open(&mut stage, args.json.as_deref())?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
     let answer = match &args.over {
         None => {
             let parameters = input.case.parameters();
-            let row =
-                CriticalRow(CriticalForce::scan(parameters, scan).map_err(Failure::bad_input)?);
+            let row = CriticalForce::scan(parameters, scan, &on_progress)?;
+            let seed = args.uncertainty.seed();
             let curve = args.ensemble.map(|members| {
-                probability(
-                    parameters,
-                    scan,
-                    &uncertainty,
-                    members,
-                    args.uncertainty.seed(),
-                )
+                ExceedanceCurve::scan(parameters, scan, &uncertainty, members, seed, &on_progress)
+                    .map(|curve| Probability::new(&curve, members, seed))
             });
-            Answer::One(row, curve.transpose()?)
+            Answer::One {
+                row: CriticalRow::new(row),
+                curve: curve.transpose()?,
+            }
         }
-        Some(over) => Answer::Many(Many::compute(&input, &Over::parse(over)?, scan)?),
+        Some(text) => over(&input, text, scan, &on_progress)
+            .map_err(|failure| failure.with_prefix("--over"))?,
     };
+    drop(bar);
     let Some(written) = json.write(stage, &answer)? else {
         return Ok(());
     };
-    let mut text = answer.told(&input.name, args);
+    let mut text = answer.in_words(&input.name, args);
     for path in written {
         let _ = writeln!(text, "Written   {}", path.display());
     }
     print(&text)
 }
 
-/// The values of another key.
-struct Over {
-    key: &'static str,
-    values: Vec<f64>,
-}
-
 /// The most values of another key.
 const MOST_VALUES: u64 = 100_000;
 
-impl Over {
-    fn parse(text: &str) -> Result<Self, Failure> {
-        let wrong = |what: &str| {
-            let form = "write --over KEY=a:b:n, such as --over e=0.5:1:11";
-            Failure::BadInput(format!("--over {text:?}: {what}; {form}"))
-        };
-        let (key, range) = text.split_once('=').ok_or_else(|| wrong("no values"))?;
-        let key = key_named(key.trim())
-            .map_err(|error| Failure::BadInput(format!("--over: {error}")))?
-            .name;
-        if key == "f_o" {
-            return Err(wrong("f_o is what is sought"));
-        }
-        let parts: Vec<&str> = range.split(':').map(str::trim).collect();
-        let [from, to, count] = parts[..] else {
-            return Err(wrong("three numbers are needed, first:last:how many"));
-        };
-        let count = count.parse().ok().filter(|n| (1..=MOST_VALUES).contains(n));
-        let count = count.ok_or_else(|| wrong("n must be a whole number from 1 to 100000"))?;
-        let grid = Grid::new(from, to, count).ok_or_else(|| {
-            let text = if Grid::new(from, from, 1).is_some() {
-                to
-            } else {
-                from
-            };
-            wrong(&format!("{text:?} is not a number"))
-        })?;
-        let values = (0..count).map(|k| grid.value(k)).collect();
-        Ok(Self { key, values })
-    }
-}
-
-/// The probability of exceeding, under a progress bar.
-fn probability(
-    parameters: &Parameters,
+/// The critical force for values of another key.
+fn over(
+    input: &Input,
+    text: &str,
     scan: ForceScan,
-    uncertainty: &Uncertainty,
-    members: u32,
-    seed: u64,
-) -> Result<Probability, Failure> {
-    let mut progress = Progress::new("force amplitudes", scan.amplitudes().count() as f64);
-    let watch = |done: usize| progress.show(done as f64);
-    let curve = ExceedanceCurve::scan(parameters, scan, uncertainty, members, seed, watch)
-        .map_err(Failure::bad_input)?;
-    Ok(Probability {
-        curve,
-        members,
-        seed,
-    })
+    on_progress: OnProgress,
+) -> Result<Answer, Failure> {
+    let (key, range) = text.split_once('=').ok_or_else(|| {
+        let form = "write --over KEY=a:b:n, such as --over e=0.5:1:11";
+        Failure::BadInput(format!("{text:?}: no values; {form}"))
+    })?;
+    let axis = Axis::written(key.trim(), range)?;
+    let key = axis.key();
+    if key == "f_o" {
+        return Err(Failure::bad_input(
+            "f_o is what is sought; choose another key",
+        ));
+    }
+    if axis.count() > MOST_VALUES {
+        let message = format!("{text:?}: n must be a whole number from 1 to {MOST_VALUES}");
+        return Err(Failure::BadInput(message));
+    }
+    let case = |k: u64| match axis.value(k) {
+        Value::Number(value) => Ok((value, input.with(key, value.into())?)),
+        value => Err(CaseError::value(key, value, "a number")),
+    };
+    // All are checked before the first is run.
+    let cases = (0..axis.count()).map(case).collect::<Result<Vec<_>, _>>();
+    let cases = cases.map_err(Failure::bad_input)?;
+    let all = cases.len() as f64;
+    let mut points = Vec::new();
+    for (value, parameters) in cases {
+        let progress = Progress::new("critical force", points.len() as f64, all);
+        let row = CriticalForce::scan(&parameters, scan, &|_| on_progress(progress))?;
+        let row = CriticalRow::new(row);
+        points.push(Point { value, row });
+    }
+    Ok(Answer::Many { over: key, points })
 }
 
+/// What is found, in the shape of its JSON.
+#[derive(Serialize)]
+#[serde(untagged)]
 enum Answer {
-    One(CriticalRow, Option<Probability>),
-    Many(Many),
+    One {
+        #[serde(flatten)]
+        row: CriticalRow,
+        #[serde(flatten)]
+        curve: Option<Probability>,
+    },
+    Many {
+        over: &'static str,
+        points: Vec<Point>,
+    },
 }
 
-struct Many {
-    key: &'static str,
-    points: Vec<(f64, CriticalRow)>,
-}
-
-impl Many {
-    fn compute(input: &Input, over: &Over, scan: ForceScan) -> Result<Self, Failure> {
-        let cases = over.values.iter().map(|&value| {
-            let parameters = input.with(over.key, Value::Number(value));
-            parameters.map_err(|error| Failure::BadInput(format!("--over: {error}")))
-        });
-        // All are checked before the first is run.
-        let cases: Vec<_> = cases.collect::<Result<_, Failure>>()?;
-        let mut progress = Progress::new("critical force", cases.len() as f64);
-        let mut points = Vec::new();
-        for (value, parameters) in over.values.iter().zip(&cases) {
-            let found = CriticalForce::scan(parameters, scan)
-                .map_err(|error| Failure::BadInput(format!("--over: {error}")))?;
-            points.push((*value, CriticalRow(found)));
-            progress.show(points.len() as f64);
-        }
-        Ok(Self {
-            key: over.key,
-            points,
-        })
-    }
-}
-
-impl Serialize for Answer {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        match self {
-            Self::One(row, curve) => {
-                row.entries(&mut map)?;
-                if let Some(curve) = curve {
-                    curve.entries(&mut map)?;
-                }
-            }
-            Self::Many(many) => {
-                map.serialize_entry("over", many.key)?;
-                let points: Vec<Point> = many.points.iter().map(Point).collect();
-                map.serialize_entry("points", &points)?;
-            }
-        }
-        map.end()
-    }
-}
-
-struct Point<'a>(&'a (f64, CriticalRow));
-
-impl Serialize for Point<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("value", &self.0.0)?;
-        self.0.1.entries(&mut map)?;
-        map.end()
-    }
+/// At one value of the other key.
+#[derive(Serialize)]
+struct Point {
+    value: f64,
+    #[serde(flatten)]
+    row: CriticalRow,
 }
 
 impl Answer {
-    fn told(&self, name: &str, args: &Args) -> String {
+    fn in_words(&self, name: &str, args: &Args) -> String {
         match self {
-            Self::One(row, curve) => {
+            Self::One { row, curve } => {
                 let mut text = format!("Case      {name}\n");
-                let _ = match row.0.first {
-                    Some(first) => writeln!(
+                let _ = match (row.f_cr, row.reason, row.t) {
+                    (Some(f_cr), Some(reason), Some(t)) => writeln!(
                         text,
-                        "Critical  f_cr = {}: {} at t = {:.4}\nExceeding f_o = {}",
-                        first.f_o,
-                        reason(first.reason).replace('_', " "),
-                        first.t,
+                        "Critical  f_cr = {f_cr}: {} at t = {t:.4}\nExceeding f_o = {}",
+                        reason.replace('_', " "),
                         row.exceeding()
                     ),
-                    None => writeln!(text, "Critical  none up to f_o = {}", args.max),
+                    _ => writeln!(text, "Critical  none up to f_o = {}", args.max),
                 };
                 if let Some(curve) = curve {
-                    curve.told(&mut text);
+                    curve.in_words(&mut text);
                 }
                 text
             }
-            Self::Many(many) => {
-                let mut text = format!("{:<12} {:<8} exceeding\n", many.key, "f_cr");
-                for (value, row) in &many.points {
-                    let first = row.0.first.map_or("none".to_owned(), |f| f.f_o.to_string());
+            Self::Many { over, points } => {
+                let mut text = format!("{over:<12} {:<8} exceeding\n", "f_cr");
+                for Point { value, row } in points {
+                    let first = row.f_cr.map_or("none".to_owned(), |f_cr| f_cr.to_string());
                     let value = format!("{value:.6}");
                     let value = value.trim_end_matches('0').trim_end_matches('.');
                     let _ = writeln!(text, "{value:<12} {first:<8} {}", row.exceeding());

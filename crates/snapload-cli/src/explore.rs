@@ -1,7 +1,7 @@
 //! `snapload explore`: a run on a page in the browser, which this program serves itself.
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, plain, print};
-use crate::interrupt::{Gentle, be_gentle, say};
+use crate::interrupt::{Graceful, end_gracefully, say};
 use snapload_explore::{Server, Start};
 use std::io;
 
@@ -49,9 +49,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     };
     let server = Server::bind(args.port, start).map_err(|error| no_port(args.port, &error))?;
     let (address, stop) = (server.address(), server.stop());
-    be_gentle(Gentle {
-        first: Box::new(move || stop.now()),
-        second: "the page is no longer served",
+    end_gracefully(Graceful {
+        on_first: Box::new(move || stop.now()),
+        after_second: "the page is no longer served",
     });
     print(&format!("{address}\n"))?;
     // What follows is for a person; whoever reads the address may have closed this.

@@ -1,5 +1,7 @@
 //! How a command fails, what it says then, and with which exit status.
+use snapload::analysis::{Cancelled, Unfinished};
 use snapload_study::StudyError;
+pub(crate) use snapload_study::without_number as plain;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
@@ -53,21 +55,28 @@ impl Failure {
     }
 }
 
-impl From<StudyError> for Failure {
-    fn from(error: StudyError) -> Self {
-        match error {
-            StudyError::Input(words) => Self::BadInput(words),
-            StudyError::Failed(words) => Self::Failed(words),
+impl From<Cancelled> for Failure {
+    fn from(_: Cancelled) -> Self {
+        Self::Interrupted("nothing was written".to_owned())
+    }
+}
+
+impl From<Unfinished> for Failure {
+    fn from(unfinished: Unfinished) -> Self {
+        match unfinished {
+            Unfinished::Case(error) => Self::bad_input(error),
+            Unfinished::Cancelled(cancelled) => cancelled.into(),
         }
     }
 }
 
-/// The system's words without its number: `No such file or directory`.
-pub(crate) fn plain(error: &io::Error) -> String {
-    let text = error.to_string();
-    match text.find(" (os error") {
-        Some(end) => text[..end].to_owned(),
-        None => text,
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Failed(message) => Self::Failed(message),
+            StudyError::Cancelled(cancelled) => cancelled.into(),
+            other => Self::bad_input(other),
+        }
     }
 }
 

@@ -37,22 +37,22 @@ impl Leftovers {
     }
 }
 
-/// What is at work and comes to a good end by itself once it is asked to stop.
-pub(crate) struct Gentle {
-    /// What a first interruption does.
-    pub(crate) first: Box<dyn Fn() + Send + Sync>,
-    /// What a second one says, which ends the program at once.
-    pub(crate) second: &'static str,
+/// Work that ends by itself soon after it is asked to.
+pub(crate) struct Graceful {
+    /// What the first interruption does.
+    pub(crate) on_first: Box<dyn Fn() + Send + Sync>,
+    /// What the second one says, which ends the program at once.
+    pub(crate) after_second: &'static str,
 }
 
-static GENTLE: OnceLock<Gentle> = OnceLock::new();
+static GRACEFUL: OnceLock<Graceful> = OnceLock::new();
 /// Whether it was asked to stop.
 static ASKED: AtomicBool = AtomicBool::new(false);
 
 /// From here on the first interruption only asks to stop; the second ends the program at once.
-pub(crate) fn be_gentle(gentle: Gentle) {
+pub(crate) fn end_gracefully(graceful: Graceful) {
     // There is one verb in a program, and one work that it does.
-    let _ = GENTLE.set(gentle);
+    let _ = GRACEFUL.set(graceful);
 }
 
 /// Says something on standard error, which may be closed.
@@ -68,13 +68,13 @@ pub(crate) fn asked() -> bool {
 /// Installs the handler; where that is not possible the system's own answer to Ctrl-C remains.
 pub(crate) fn install() {
     let _ = ctrlc::set_handler(|| {
-        let gentle = GENTLE.get();
-        if let Some(gentle) = gentle.filter(|_| !ASKED.swap(true, Ordering::Relaxed)) {
-            (gentle.first)();
+        let graceful = GRACEFUL.get();
+        if let Some(graceful) = graceful.filter(|_| !ASKED.swap(true, Ordering::Relaxed)) {
+            (graceful.on_first)();
             return;
         }
         leftovers().clear();
-        let left = gentle.map_or("nothing was written", |gentle| gentle.second);
+        let left = graceful.map_or("nothing was written", |graceful| graceful.after_second);
         say(&format!("interrupted: {left}"));
         std::process::exit(130);
     });

@@ -1,11 +1,11 @@
 //! The command line of snapload: reads a case, runs it, and writes down what happened.
 #[cfg(feature = "structure")]
 mod assess;
+mod bar;
 mod case_input;
 mod cases;
 mod completions;
 mod critical;
-mod doubt;
 #[cfg(feature = "structure")]
 mod elastic;
 #[cfg(feature = "explore")]
@@ -30,6 +30,7 @@ mod structure_input;
 mod study_input;
 mod study_picture;
 mod sweep;
+mod uncertainty;
 mod verify;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};

@@ -4,15 +4,12 @@ use std::time::{Duration, Instant};
 
 /// So much time passes without a bar.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// So many reports pass between two looks at the clock.
-const LOOK_EVERY: u32 = 1024;
 
 /// Reports how far something has come.
 pub(crate) struct Progress {
     what: &'static str,
     whole: f64,
     began: Instant,
-    reports: u32,
     bar: Option<ProgressBar>,
 }
 
@@ -23,20 +20,11 @@ impl Progress {
             what,
             whole,
             began: Instant::now(),
-            reports: 0,
             bar: None,
         }
     }
 
-    /// It has come to `part`; cheap enough for an inner loop.
-    pub(crate) fn at(&mut self, part: f64) {
-        self.reports = self.reports.wrapping_add(1);
-        if self.reports.is_multiple_of(LOOK_EVERY) {
-            self.show(part);
-        }
-    }
-
-    /// The same for reports that are far between.
+    /// It has come to `part`.
     pub(crate) fn show(&mut self, part: f64) {
         if self.began.elapsed() < PATIENCE {
             return;

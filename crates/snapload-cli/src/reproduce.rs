@@ -1,7 +1,8 @@
 //! `snapload reproduce`: the chapter's tables and figures as one report.
+use crate::bar::Bar;
 use crate::failure::{Failure, print};
 use crate::stage::Stage;
-use indicatif::{ProgressBar, ProgressStyle};
+use snapload::analysis::Progress;
 use snapload_reproduce::{Report, Study};
 use std::path::PathBuf;
 
@@ -30,18 +31,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let pictures = args.out.join("figures");
     let picture_room = stage.create_and_open(&pictures)?;
 
-    let style = ProgressStyle::with_template("{bar:40} {percent} %  {msg}");
-    let bar =
-        ProgressBar::new(100).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let study = Study::compute(&|what, part| {
-        bar.set_position((100.0 * part) as u64);
-        bar.set_message(what.to_owned());
-    });
+    let bar = Bar::new();
+    let study = Study::compute(&|progress| bar.show(progress));
     let study = study.map_err(|error| Failure::Failed(format!("the study failed: {error}")))?;
-    bar.set_message("the figures");
+    let _ = bar.show(Progress::new("the figures", 0.9, 1.0));
     let report = Report::new(&study)
         .map_err(|error| Failure::Failed(format!("the report failed: {error}")))?;
-    bar.finish_and_clear();
+    drop(bar);
 
     for (name, contents) in &report.files {
         let room = if name.starts_with("figures/") {

@@ -1,16 +1,16 @@
 //! `snapload run`: one case, from its start to its end.
+use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
-use crate::doubt::{DoubtArgs, EnsembleArgs, trusted};
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory};
 use crate::pictures::pictures;
-use crate::progress::Progress;
 use crate::stage::{Room, Stage};
-use snapload::Trajectory;
+use crate::uncertainty::UncertaintyArgs;
+use snapload::analysis::{DEFAULT_MEMBERS, Progress};
+use snapload::{Case, Trajectory};
 use snapload_report::{
     MOST_ROWS, Report, Sampling, Trusted, case_in_words, summary, tables, write_json,
 };
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -41,9 +41,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    uncertainty: DoubtArgs,
-    #[command(flatten)]
-    ensemble: EnsembleArgs,
+    uncertainty: UncertaintyArgs,
+    /// Neighbours to run where the end is past the horizon; 0 for none
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS)]
+    ensemble: u32,
     /// Time step of the motion in --json and --out
     #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
     sample: Option<f64>,
@@ -58,12 +59,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let input = args.case.read()?;
     let mut outputs = Outputs::open(args)?;
-    let trusted = trusted(&input.case, &args.uncertainty, &args.ensemble)?;
+    let trusted = trusted(args, &input.case)?;
     let trajectory = &trusted.run;
     let sampling = args.sample.map(|dt| sampling(dt, trajectory)).transpose()?;
-    let progress = RefCell::new(Progress::new("writing the motion", trajectory.end().t));
-    let watch = |t: f64| progress.borrow_mut().at(t);
-    let report = Report::new(input.case.parameters(), &trusted, sampling, &watch);
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let report = Report::new(input.case.parameters(), &trusted, sampling, &on_progress);
 
     if let Some((room, directory)) = outputs.directory.take() {
         let stage = &mut outputs.stage;
@@ -83,11 +84,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
+/// The run, and its neighbours where it takes them, under a bar.
+fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
+    let uncertainty = args.uncertainty.read(case)?;
+    let (bar, seed) = (Bar::new(), args.uncertainty.seed());
+    let on_progress = |progress: Progress| bar.show(progress);
+    Trusted::run(case, uncertainty, args.ensemble, seed, &on_progress)
+        .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
+}
+
 /// A time step, as clap reads it.
-fn step(text: &str) -> Result<f64, String> {
+fn step(text: &str) -> Result<f64, &'static str> {
     match text.parse::<f64>() {
         Ok(dt) if dt > 0.0 && dt.is_finite() => Ok(dt),
-        _ => Err("allowed is a number above 0, such as 0.01".to_owned()),
+        _ => Err("allowed is a number above 0, such as 0.01"),
     }
 }
 

@@ -79,52 +79,27 @@ enum Varied {
 
 impl Asked {
     fn of_file(file: Option<&Path>, aside: &toml::Table) -> Result<Self, Failure> {
-        let wrong = |key: &str, wanted: &str| {
-            let value = &aside[key];
-            Failure::BadInput(format!("{key} = {value} is not allowed; allowed: {wanted}"))
-        };
-        let whole = |key: &str| match aside.get(key) {
-            None => Ok(None),
-            Some(value) => match value.as_integer().and_then(|n| u64::try_from(n).ok()) {
-                Some(number) => Ok(Some(number)),
-                None => Err(wrong(key, "a whole number, 0 or more")),
-            },
-        };
-        let text = |key: &str| match aside.get(key) {
-            None => Ok(None),
-            Some(value) => match value.as_str() {
-                Some(text) => Ok(Some(text.to_owned())),
-                None => Err(wrong(key, "a text in quotes")),
-            },
-        };
-        let trust = match aside.get("trust") {
-            None => true,
-            Some(value) => value
-                .as_bool()
-                .ok_or_else(|| wrong("trust", "true or false"))?,
-        };
-        let table = match aside.get("vary") {
-            None => toml::Table::new(),
-            Some(toml::Value::Table(table)) => table.clone(),
-            Some(_) => {
-                return Err(wrong(
-                    "vary",
-                    "a table [vary] with lines KEY = \"first:last:n\"",
-                ));
-            }
-        };
-        let vary = table.into_iter().map(|(key, value)| {
+        let whole = |value: &toml::Value| value.as_integer().and_then(|n| u64::try_from(n).ok());
+        let random = read(aside, "random", "a whole number, 0 or more", whole)?;
+        let seed = read(aside, "seed", "a whole number, 0 or more", whole)?;
+        let text = |value: &toml::Value| value.as_str().map(str::to_owned);
+        let list = read(aside, "list", "a text in quotes", text)?;
+        let sha256 = read(aside, "list_sha256", "a text in quotes", text)?;
+        let trust = read(aside, "trust", "true or false", toml::Value::as_bool)?;
+        let lines = "a table [vary] with lines KEY = \"first:last:n\"";
+        let vary = read(aside, "vary", lines, |value| value.as_table().cloned())?;
+        let vary = vary.into_iter().flatten().map(|(key, value)| {
             let varied = of_toml(&key, value).map_err(|failure| failure.with_prefix("[vary]"))?;
             Ok((key, varied))
         });
         let beside = file.and_then(Path::parent).unwrap_or(Path::new(""));
         Ok(Self {
             vary: vary.collect::<Result<_, Failure>>()?,
-            random: whole("random")?,
-            seed: whole("seed")?.unwrap_or(0),
-            list: text("list")?.map(|name| beside.join(name)),
-            sha256: text("list_sha256")?,
-            trust,
+            random,
+            seed: seed.unwrap_or(0),
+            list: list.map(|name| beside.join(name)),
+            sha256,
+            trust: trust.unwrap_or(true),
         })
     }
 
@@ -171,23 +146,33 @@ impl Asked {
                 _ => Ok(Plan::List(list)),
             };
         }
+        let vary = self.vary.into_iter();
         if let Some(count) = self.random {
-            let sides = self
-                .vary
-                .into_iter()
-                .map(|(key, varied)| side(&key, varied));
-            return Ok(Plan::random(
-                sides.collect::<Result<_, _>>()?,
-                count,
-                self.seed,
-            )?);
+            let sides = vary.map(|(key, varied)| side(&key, varied));
+            let sides = sides.collect::<Result<_, _>>()?;
+            return Ok(Plan::random(sides, count, self.seed)?);
         }
-        let axes = self
-            .vary
-            .into_iter()
-            .map(|(key, varied)| axis(&key, varied));
-        Ok(Plan::grid(axes.collect::<Result<_, Failure>>()?)?)
+        let axes = vary.map(|(key, varied)| axis(&key, varied));
+        Ok(Plan::grid(axes.collect::<Result<_, _>>()?)?)
     }
+}
+
+/// What a study file says under a name; `wanted` tells what it may say there.
+fn read<T>(
+    aside: &toml::Table,
+    name: &str,
+    wanted: &str,
+    of: impl Fn(&toml::Value) -> Option<T>,
+) -> Result<Option<T>, Failure> {
+    let refuse = |value: &toml::Value| {
+        Failure::BadInput(format!(
+            "{name} = {value} is not allowed; allowed: {wanted}"
+        ))
+    };
+    let value = aside.get(name);
+    value
+        .map(|value| of(value).ok_or_else(|| refuse(value)))
+        .transpose()
 }
 
 /// The axes of a study that a file describes; none if it is no grid.
@@ -229,20 +214,14 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
 }
 
 fn of_toml(key: &str, value: toml::Value) -> Result<Varied, Failure> {
-    match value {
-        toml::Value::String(text) if text.contains(':') => Ok(Varied::Range(text)),
-        toml::Value::Array(values) => {
-            let values = values.iter().map(|value| from_toml(key, value));
-            let values = values
-                .collect::<Result<_, _>>()
-                .map_err(Failure::bad_input)?;
-            Ok(Varied::Listed(values))
-        }
-        other => {
-            let value = from_toml(key, &other).map_err(Failure::bad_input)?;
-            Ok(Varied::Listed(vec![value]))
-        }
-    }
+    let values = match value {
+        toml::Value::String(text) if text.contains(':') => return Ok(Varied::Range(text)),
+        toml::Value::Array(values) => values,
+        other => vec![other],
+    };
+    let values = values.iter().map(|value| from_toml(key, value));
+    let values = values.collect::<Result<_, _>>();
+    Ok(Varied::Listed(values.map_err(Failure::bad_input)?))
 }
 
 fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {

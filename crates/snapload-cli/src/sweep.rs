@@ -1,14 +1,14 @@
 //! `snapload sweep`: a study, a row a case, in one Parquet file.
+use crate::bar::Bar;
 use crate::failure::{Failure, print};
-use crate::interrupt::{self, Gentle, say};
-use crate::progress::Counter;
+use crate::interrupt::{self, Graceful, say};
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use clap::CommandFactory;
-use snapload_study::{
-    Finished, Identity, Opened, Shard, Store, StudyError, Tally, Watch, ends, sweep,
-};
+use snapload::analysis::{Cancelled, Progress};
+use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, Tally, ends, sweep};
 use std::fmt::Write;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -70,25 +70,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     match Store::open(&args.out, identity, args.resume)? {
         Opened::Complete => {}
         Opened::Work(store) => {
-            interrupt::be_gentle(Gentle {
-                first: Box::new(|| {
+            interrupt::end_gracefully(Graceful {
+                on_first: Box::new(|| {
                     say("stopping after the cases at work; once more to stop at once");
                 }),
-                second: "what was saved is safe, and --resume goes on from there",
+                after_second: "what was saved is safe, and --resume goes on from there",
             });
-            let counter = Counter::new("sweep", store.asked(), store.safe());
-            let watch = Watch {
-                done: &|| counter.one(),
-                stop: &interrupt::asked,
+            let bar = Bar::counting();
+            let on_progress = |progress: Progress| match interrupt::asked() {
+                true => ControlFlow::Break(()),
+                false => bar.show(progress),
             };
-            let finished = sweep(&study, store, &watch).map_err(go_on)?;
-            drop(counter);
-            if let Finished::Stopped(safe) = finished {
-                let command = resume_command();
-                return Err(Failure::Interrupted(format!(
-                    "{safe} of {rows} rows are safe; to go on:\n  {command}"
-                )));
-            }
+            let swept = sweep(&study, store, Ending::AfterChunk, &on_progress);
+            drop(bar);
+            swept.map_err(|error| go_on(error, rows))?;
         }
     }
     let picture = args.picture.draw(&args.out)?;
@@ -96,13 +91,17 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// What broke, and that no more than a few seconds of work are lost.
-fn go_on(error: StudyError) -> Failure {
+fn go_on(error: StudyError, rows: u64) -> Failure {
     match error {
-        StudyError::Input(words) => Failure::BadInput(words),
-        StudyError::Failed(words) => Failure::Failed(format!(
-            "{words}\nhint: what was saved is safe; once there is room again, go on with\n  {}",
+        StudyError::Cancelled(Cancelled { done }) => Failure::Interrupted(format!(
+            "{done} of {rows} rows are safe; to go on:\n  {}",
             resume_command()
         )),
+        StudyError::Failed(message) => Failure::Failed(format!(
+            "{message}\nhint: what was saved is safe; once there is room again, go on with\n  {}",
+            resume_command()
+        )),
+        other => other.into(),
     }
 }
 

@@ -1,11 +1,11 @@
 //! `snapload verify`: the same run with many digits, to see where the ordinary one goes wrong.
+use crate::bar::Bar;
 use crate::case_input::CaseArgs;
-use crate::doubt::ToleranceArgs;
 use crate::failure::{Failure, print};
 use crate::json::Json;
-use crate::progress::Progress;
 use crate::stage::Stage;
-use snapload::analysis::{MOST_DIGITS, verify};
+use crate::uncertainty::ToleranceArgs;
+use snapload::analysis::{MOST_DIGITS, Progress, verify};
 use snapload_report::{Verified, case_in_words};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -44,13 +44,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let tolerance = args.tolerance.read()?;
     let mut stage = Stage::default();
     let json = Json::open(&mut stage, args.json.as_deref())?;
-    let mut progress = Progress::new("computing with many digits", input.case.parameters().t_end);
-    let found = verify(&input.case, args.digits, tolerance, |t| progress.show(t))
-        .map_err(Failure::bad_input)?;
-    drop(progress);
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let found = verify(&input.case, args.digits, tolerance, &on_progress)?;
+    drop(bar);
     let answer = Verified::new(&input.case, found, tolerance);
     if let Some(written) = json.write(stage, &answer.row())? {
-        let mut text = answer.told(&case_in_words(&input.name, input.case.parameters()));
+        let mut text = answer.in_words(&case_in_words(&input.name, input.case.parameters()));
         for path in written {
             let _ = writeln!(text, "Written   {}", path.display());
         }

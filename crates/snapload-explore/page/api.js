@@ -1,7 +1,12 @@
 // What is asked of the server.
 
-/** An answer that is an error: its text is that of the command. */
-export class Refused extends Error {}
+/** An answer that is an error: its message is that of the command, its key the one that is to be changed, if any. */
+export class Refused extends Error {
+  constructor(message, key = null) {
+    super(message);
+    this.key = key;
+  }
+}
 
 async function post(path, body, signal) {
   const response = await fetch(path, {
@@ -11,14 +16,8 @@ async function post(path, body, signal) {
     signal,
   });
   if (response.ok) return response;
-  const text = await response.text();
-  let words = text;
-  try {
-    words = JSON.parse(text).error ?? text;
-  } catch {
-    // Not JSON: the text says it itself.
-  }
-  throw new Refused(words || `the server answered ${response.status}`);
+  const { key, message } = await response.json().catch(() => ({}));
+  throw new Refused(message ?? `the server answered ${response.status}`, key);
 }
 
 export async function fetchSchema() {

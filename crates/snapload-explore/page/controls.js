@@ -180,14 +180,12 @@ export class Controls {
     }
   }
 
-  /** Shows the text of an error at the field that it names, else at the one that was changed last. */
-  showError(text) {
+  /** Shows an error at the field of its key, else at the one that was changed last. */
+  showError({ key, message }) {
     this.clearError();
-    const named = /^(?:--set: )?([a-z_]+) = /.exec(text)?.[1];
-    // What is no key, such as the ghost, has its text beside the picture.
-    const parts = this.rows.get(named ?? this.latest);
+    const parts = this.rows.get(key) ?? this.rows.get(this.latest);
     if (!parts) return;
-    parts.error.textContent = text;
+    parts.error.textContent = message;
     parts.error.hidden = false;
     parts.field.setAttribute("aria-invalid", "true");
     const group = parts.row.closest("details");

@@ -136,8 +136,8 @@ class Page {
   }
 
   fail(error, question) {
-    if (error.message.startsWith("ghost = ")) return this.failGhost(error, question);
-    this.controls.showError(error.message);
+    if (error.key === "ghost") return this.failGhost(error, question);
+    this.controls.showError(error);
     $("failed").textContent = `Not run: ${error.message}\nThe picture is that of the last values that could be run.`;
     $("failed").hidden = false;
     // A link may begin with values that can not be run: then there is the case of the start to look at.

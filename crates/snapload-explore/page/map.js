@@ -3,7 +3,7 @@
 import { Refused, fetchMap } from "./api.js";
 import { label } from "./charts.js";
 import { Frame, drawAxes, fontOf, prepare, ticks } from "./plot.js";
-import { MAP_COLOURS, MOST_CELLS, readValue } from "./state.js";
+import { MOST_CELLS, readValue } from "./state.js";
 import { mix } from "./theme.js";
 import { number, plain, prose, reasonText, unitText } from "./words.js";
 
@@ -13,16 +13,6 @@ const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
 const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
-const COLUMNS = ["reason", "t", "rho3", "y_max", "theta_max", "impacts", "error"];
-const REASONS = ["settled", "rotation_limit", "upper_bound", "end_time", "sliding_start", "impact_limit"];
-const COLOUR_WORDS = {
-  reason: "how the run ends",
-  t: "time of the end [T]",
-  impacts: "number of impacts",
-  rho3: "ρ₃, summed snap velocity [L/T]",
-  y_max: "largest y [L]",
-  theta_max: "largest |θ| [rad]",
-};
 /** Cividis, which is read alike with and without red and green (Nuñez, Anderton & Renslow 2018). */
 const CIVIDIS = [
   "#00224e",
@@ -59,7 +49,10 @@ export class SweepMap {
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
     for (const side of ["x", "y"]) this.#axisFields(side);
-    for (const name of MAP_COLOURS) $("map-colour").append(new Option(COLOUR_WORDS[name], name));
+    for (const column of state.schema.map) {
+      const unit = column.unit ? ` [${column.unit}]` : "";
+      $("map-colour").append(new Option(prose(column.meaning) + unit, column.name));
+    }
     $("map-colour").addEventListener("change", () =>
       state.set({ map: { ...state.map, colour: $("map-colour").value } }),
     );
@@ -153,7 +146,8 @@ export class SweepMap {
     this.question = JSON.stringify(question);
     const { x, y } = question;
     const count = x.count * y.count;
-    this.cells = Object.fromEntries(COLUMNS.map((name) => [name, new Array(count).fill(null)]));
+    this.columns = [...this.state.schema.map.map(({ name }) => name), "error"];
+    this.cells = Object.fromEntries(this.columns.map((name) => [name, new Array(count).fill(null)]));
     Object.assign(this.cells, { x, y, xs: spaced(x), ys: spaced(y), done: 0, count });
     this.cursor = [nearest(this.cells.xs, this.#own(x.key)), nearest(this.cells.ys, this.#own(y.key))];
     if (this.pointed) this.#point(this.cursor);
@@ -197,7 +191,7 @@ export class SweepMap {
     if (!line.reason) return;
     line.reason.forEach((_, k) => {
       const i = line.cells ? line.cells[k] : line.first + k;
-      for (const name of COLUMNS) cells[name][i] = line[name][k];
+      for (const name of this.columns) cells[name][i] = line[name][k];
     });
     cells.done += line.reason.length;
     this.#progress(`${Math.min(cells.done, cells.count)} of ${cells.count} runs`);
@@ -274,7 +268,7 @@ export class SweepMap {
     const { colour } = this.state.map;
     const more = ["reason", "t", "impacts"].includes(colour)
       ? ""
-      : `, ${COLOUR_WORDS[colour].replace(/ \[.*/, "")} ${number(cells[colour][k])}`;
+      : `, ${prose(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
     return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}`;
   }
 
@@ -323,9 +317,13 @@ export class SweepMap {
     this.#legend(colours);
     this.canvas.setAttribute(
       "aria-label",
-      `Map of ${COLOUR_WORDS[state.map.colour]} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. ` +
+      `Map of ${prose(this.#column(state.map.colour).meaning)} over ${x.key} and ${y.key}, ${cells.done} of ${cells.count} runs. ` +
         "Arrow keys move, Enter runs the cell.",
     );
+  }
+
+  #column(name) {
+    return this.state.schema.map.find((column) => column.name === name);
   }
 
   #axisWords({ key }) {
@@ -355,7 +353,7 @@ export class SweepMap {
     const refused = cells.error.filter(Boolean).length;
     const parts = refused ? [swatch(colours.faint, `not allowed (${refused})`)] : [];
     if (colour === "reason") {
-      const counts = REASONS.map((reason) => [reason, cells.reason.filter((one) => one === reason).length]);
+      const counts = this.state.schema.stops.map((reason) => [reason, cells.reason.filter((one) => one === reason).length]);
       parts.unshift(
         ...counts
           .filter(([, n]) => n)

@@ -286,7 +286,8 @@ const impulsePart = (run, i) => Math.sqrt(run.impacts.impulse[i] / (run.hardest 
 /** At the fairlead, which moves on, in the direction that the line had at the instant. */
 function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   const cable = run.geometry.cables[run.impacts.cable[i] - 1];
-  const then = { x: run.impacts.x[i], y: run.impacts.y[i], theta: run.impacts.theta[i] };
+  const { before_x, before_y, before_theta } = run.impacts;
+  const then = { x: before_x[i], y: before_y[i], theta: before_theta[i] };
   const [from, anchor] = [cam.place(turned(cable.arm, then)), cam.place(cable.anchor)];
   const at = cam.place(turned(cable.arm, moment));
   const distance = Math.hypot(anchor[0] - from[0], anchor[1] - from[1]);

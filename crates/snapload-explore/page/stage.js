@@ -57,7 +57,7 @@ export class Stage {
   /** How the run ends, how far it is known, and when its neighbour leaves it, in a sentence each. */
   #words() {
     const { end, horizon, ghost, cut } = this.run;
-    const parts = [end.words, horizon.words].flatMap((words) => shortened(words).split("\n").map(sentence));
+    const parts = [end.words, horizon.words].flatMap((words) => prose(words).split("\n").map(sentence));
     if (ghost) {
       const apart =
         ghost.parts_at === null ? "stays beside it to the end" : `parts from it at t = ${number(ghost.parts_at, 5)}`;
@@ -119,13 +119,6 @@ export class Stage {
     $("ghost").checked = ghost !== null;
     if (ghost !== null) $("ghost-size").value = plain(ghost);
   }
-}
-
-/** With numbers of no more digits than one reads. */
-function shortened(words) {
-  return prose(words)
-    .replaceAll("pi/2", "π/2")
-    .replaceAll(/\d+\.\d{6,}(e-?\d+)?/g, (digits) => number(Number(digits), 7));
 }
 
 function sentence(text) {

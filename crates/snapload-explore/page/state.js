@@ -3,7 +3,6 @@
 export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
 const PICTURES = ["real", "thesis"];
 const VIEWS = ["whole", "close"];
-export const MAP_COLOURS = ["reason", "t", "impacts", "rho3", "y_max", "theta_max"];
 export const MOST_CELLS = 200;
 
 const BEGINNING = {
@@ -168,5 +167,6 @@ function mapFromText(text, schema) {
     return legal ? { key, low, high, count } : undefined;
   };
   const [x, y, colour] = [axis(parts.slice(0, 4)), axis(parts.slice(4, 8)), parts[8]];
-  return parts.length === 9 && x && y && x.key !== y.key && MAP_COLOURS.includes(colour) ? { x, y, colour } : undefined;
+  const known = schema.map.some(({ name }) => name === colour);
+  return parts.length === 9 && x && y && x.key !== y.key && known ? { x, y, colour } : undefined;
 }

@@ -137,7 +137,7 @@ export class Trajectory {
   }
 
   #marks(context, colours) {
-    const { t, x, y, cable } = this.run.impacts;
+    const { t, before_x: x, before_y: y, cable } = this.run.impacts;
     if (t.length > MOST_MARKS) return;
     const [first, last] = [this.run.motion.t[this.rows[0]], this.run.motion.t[this.rows[1] - 1]];
     context.lineWidth = 1.2;

@@ -37,6 +37,7 @@ export function prose(text) {
   return text
     .replaceAll("omega", "Ω")
     .replaceAll("theta", "θ")
+    .replaceAll("pi/2", "π/2")
     .replaceAll(/\bnu\b/g, "ν")
     .replaceAll("^2", "²")
     .replaceAll("v_n", "vₙ")

@@ -1,17 +1,17 @@
 //! The paths of the server.
-use crate::guard::{Names, guard, json_only};
+use crate::guard::{Names, guard};
 use crate::refusal::Refusal;
+use crate::request::{Body, LARGEST_BODY};
 use crate::schema::{Start, schema};
 use crate::work::compute;
 use crate::{export, map, page, run};
-use axum::body::{Body, Bytes};
-use axum::extract::{Path, State};
+use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
-use axum::middleware::{from_fn, from_fn_with_state};
+use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
-use axum::routing::{MethodRouter, get, post};
-use axum::{Json, Router};
+use axum::routing::{get, post};
+use axum::{Json, Router, body};
 use std::sync::Arc;
 use tokio::sync::Semaphore;
 
@@ -20,69 +20,72 @@ const WORKERS: usize = 4;
 /// Maps at one time, each of which takes all processors.
 const MAPPERS: usize = 2;
 
-/// What all requests share.
-pub(crate) struct Shared {
+/// What the answers are made from.
+struct Shared {
     start: Start,
-    pub(crate) names: Names,
     workers: Arc<Semaphore>,
     mappers: Arc<Semaphore>,
 }
 
-impl Shared {
-    pub(crate) fn new(start: Start, port: u16) -> Self {
-        Self {
-            start,
-            names: Names::at(port),
-            workers: Arc::new(Semaphore::new(WORKERS)),
-            mappers: Arc::new(Semaphore::new(MAPPERS)),
-        }
-    }
-}
-
-type Paths = MethodRouter<Arc<Shared>>;
-
-/// Which path is answered by what.
-pub(crate) fn router(shared: Arc<Shared>) -> Router {
-    let taking_json = |paths: Paths| paths.route_layer(from_fn(json_only));
+/// Which path is answered by what, on a server at this port that begins with this case.
+pub(crate) fn router(start: Start, port: u16) -> Router {
+    let shared = Shared {
+        start,
+        workers: Arc::new(Semaphore::new(WORKERS)),
+        mappers: Arc::new(Semaphore::new(MAPPERS)),
+    };
     Router::new()
         .route("/api/schema", get(answer_schema))
-        .route("/api/run", taking_json(post(answer_run)))
-        .route("/api/map", taking_json(post(answer_map)))
-        .route("/api/export/{name}", taking_json(post(answer_export)))
+        .route("/api/run", post(answer_run))
+        .route("/api/map", post(answer_map))
+        .route("/api/export/{name}", post(answer_export))
         .fallback_service(get(page::file).fallback(wrong_method))
         .method_not_allowed_fallback(wrong_method)
-        .layer(from_fn_with_state(Arc::clone(&shared), guard))
-        .with_state(shared)
+        .layer(DefaultBodyLimit::max(LARGEST_BODY))
+        .layer(from_fn_with_state(Arc::new(Names::at(port)), guard))
+        .with_state(Arc::new(shared))
 }
 
 async fn wrong_method() -> Refusal {
-    let words = "this path is not asked in this way";
-    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, words)
+    let message = "this path is not asked in this way";
+    Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message)
 }
 
 async fn answer_schema(State(shared): State<Arc<Shared>>) -> impl IntoResponse {
     Json(schema(&shared.start))
 }
 
-async fn answer_run(State(shared): State<Arc<Shared>>, body: Bytes) -> Result<Response, Refusal> {
-    let answer = compute(&shared.workers, move |leash| run::answer(&body, leash)).await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer).into_response())
+async fn answer_run(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<run::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    let answer = compute(&shared.workers, move |allowance| {
+        run::answer(request, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
 }
 
-async fn answer_map(State(shared): State<Arc<Shared>>, body: Bytes) -> Result<Response, Refusal> {
-    let lines = map::lines(&body, Arc::clone(&shared.mappers))?;
-    let body = Body::from_stream(lines);
-    Ok(([(CONTENT_TYPE, "application/x-ndjson")], body).into_response())
+async fn answer_map(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<map::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    let lines = map::lines(request, Arc::clone(&shared.mappers))?;
+    let body = body::Body::from_stream(lines);
+    Ok(([(CONTENT_TYPE, "application/x-ndjson")], body))
 }
 
 async fn answer_export(
     State(shared): State<Arc<Shared>>,
     Path(name): Path<String>,
-    body: Bytes,
+    Body(request): Body<export::Request>,
 ) -> Result<Response, Refusal> {
     let file = export::File::named(&name).ok_or_else(Refusal::nothing_there)?;
     let kind = file.content_type();
-    let bytes = compute(&shared.workers, move |leash| file.write(&body, leash)).await?;
+    let bytes = compute(&shared.workers, move |allowance| {
+        file.write(request, allowance)
+    })
+    .await?;
     let place = format!("attachment; filename=\"{name}\"");
     let headers = [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, place.as_str())];
     Ok((headers, bytes).into_response())

@@ -2,10 +2,10 @@
 use crate::refusal::Refusal;
 use crate::request;
 use crate::run::follow;
-use crate::work::Leash;
+use crate::work::Allowance;
 use serde::Deserialize;
 use snapload::Case;
-use snapload::analysis::{DEFAULT_MEMBERS, Uncertainty};
+use snapload::analysis::{DEFAULT_MEMBERS, Progress, Uncertainty, Unfinished};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
     Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
@@ -35,7 +35,7 @@ pub(crate) enum File {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Request {
+pub(crate) struct Request {
     #[serde(default)]
     values: request::Values,
     /// As in `/api/run`; a file has neither.
@@ -75,13 +75,12 @@ impl File {
     }
 
     /// What is in it, for the case of a request.
-    pub(crate) fn write(self, body: &[u8], leash: &Leash) -> Result<Vec<u8>, Refusal> {
-        let Request { values, .. } = request::read(body)?;
-        let case = request::case(values)?;
+    pub(crate) fn write(self, request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
+        let case = request::case(request.values)?;
         if matches!(self, Self::Case) {
             return Ok(case_file(case.parameters()).into_bytes());
         }
-        let followed = follow(&case, leash)?;
+        let followed = follow(&case, allowance)?;
         let impacts = followed.run.impacts().len();
         let most = match self {
             Self::Svg(_) | Self::Png(_) => MOST_DRAWN,
@@ -93,7 +92,7 @@ impl File {
         }
         let mut bytes = Vec::new();
         match self {
-            Self::Run | Self::Impacts => self.fill_trusted(&case, leash, &mut bytes)?,
+            Self::Run | Self::Impacts => self.fill_trusted(&case, allowance, &mut bytes)?,
             file => file.fill(&case, &followed, &mut bytes)?,
         }
         Ok(bytes)
@@ -114,18 +113,26 @@ impl File {
     }
 
     /// What tells of the time past the horizon, too: digits, and how neighbours end.
-    fn fill_trusted(self, case: &Case, leash: &Leash, out: &mut Vec<u8>) -> Result<(), Refusal> {
-        let leash = leash.within(BUDGET);
-        let long = || for_the_command(case, "its neighbours take long");
-        let run = Trusted::run_alone(case, Uncertainty::default(), |_| leash.holds())?;
-        let run = run.ok_or_else(long)?;
+    fn fill_trusted(
+        self,
+        case: &Case,
+        allowance: &Allowance,
+        out: &mut Vec<u8>,
+    ) -> Result<(), Refusal> {
+        let allowance = allowance.within(BUDGET);
+        let go_on = |progress: Progress| allowance.go_on(progress);
+        let refuse = |unfinished| match unfinished {
+            Unfinished::Case(error) => error.into(),
+            Unfinished::Cancelled(_) => for_the_command(case, "its neighbours take long"),
+        };
+        let run = Trusted::run_alone(case, Uncertainty::default(), &go_on).map_err(refuse)?;
         if matches!(self, Self::Impacts) {
             let written = tables::impacts(&run.run, run.trust.digits(), out);
             return written.map_err(Refusal::failed);
         }
-        let run = run.completed(case, DEFAULT_MEMBERS, SEED, || leash.holds())?;
-        let run = run.ok_or_else(long)?;
-        let report = Report::new(case.parameters(), &run, None, &|_| ());
+        let run = run.completed(case, DEFAULT_MEMBERS, SEED, &go_on);
+        let run = run.map_err(refuse)?;
+        let report = Report::new(case.parameters(), &run, None, &go_on);
         write_json(&report, out).map_err(Refusal::failed)
     }
 }

@@ -1,14 +1,16 @@
 //! `/api/map`: what the cases of a map come to, told a few cells at a time.
 use crate::order::coarse_first;
 use crate::refusal::Refusal;
-use crate::request::{self, Values};
-use crate::work::Leash;
+use crate::request::{Values, entries};
+use crate::work::Allowance;
 use axum::body::Bytes;
 use rayon::prelude::*;
+use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
-use snapload::analysis::outcomes;
-use snapload::{Case, Kind, Outcome, Parameters, Stop, Value, key_named};
-use snapload_study::{Grid, reason};
+use snapload::analysis::{Progress, outcome, outcomes};
+use snapload::{Case, CaseError, Kind, Outcome, Parameters, Stop, Value, key_named};
+use snapload_report::tables::Cell;
+use snapload_study::{Column, Grid, Take};
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -32,7 +34,7 @@ const MANY: u64 = 20_000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Request {
+pub(crate) struct Request {
     #[serde(default)]
     values: Values,
     x: AxisGiven,
@@ -56,23 +58,20 @@ struct Axis {
 
 impl AxisGiven {
     /// The values are those of `snapload sweep --vary`, each the decimal number that one would write.
-    fn read(&self, name: &str) -> Result<Axis, Refusal> {
-        let wrong = |words: String| Refusal::values(format!("{name}: {words}"));
-        let key = key_named(&self.key).map_err(|error| wrong(error.to_string()))?;
+    fn read(&self) -> Result<Axis, Refusal> {
+        let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
-            return Err(wrong(format!(
-                "{} holds no number that can be varied",
-                key.name
-            )));
+            let message = format!("{} holds no number that can be varied", key.name);
+            return Err(Refusal::values(message));
         }
         let count = self.count;
         if !(1..=MOST_VALUES).contains(&count) {
-            let allowed = format!("allowed: a whole number, 1 <= count <= {MOST_VALUES}");
-            return Err(wrong(format!("count = {count} is not allowed; {allowed}")));
+            let allowed = format!("a whole number, 1 <= count <= {MOST_VALUES}");
+            return Err(CaseError::value("count", count, allowed).into());
         }
         let (low, high) = (format!("{:e}", self.low), format!("{:e}", self.high));
-        let grid = Grid::new(&low, &high, count);
-        let grid = grid.ok_or_else(|| wrong(format!("{low} to {high} is no range of numbers")))?;
+        let grid = Grid::new(&low, &high, count)
+            .ok_or_else(|| Refusal::values(format!("{low} to {high} is no range of numbers")))?;
         Ok(Axis {
             key: key.name,
             values: (0..count).map(|k| grid.value(k)).collect(),
@@ -88,37 +87,35 @@ struct Map {
 }
 
 impl Map {
-    fn read(body: &[u8]) -> Result<Self, Refusal> {
-        let Request { values, x, y } = request::read(body)?;
-        let base = request::entries(values)?;
-        let (x, y) = (x.read("x")?, y.read("y")?);
+    fn read(Request { values, x, y }: Request) -> Result<Self, Refusal> {
+        let base = entries(values)?;
+        let axis = |name: &str, given: AxisGiven| given.read().map_err(|no| no.of_field(name));
+        let (x, y) = (axis("x", x)?, axis("y", y)?);
         if x.key == y.key {
-            let words = format!("x and y are both {}; choose two different keys", x.key);
-            return Err(Refusal::values(words));
+            let message = format!("x and y are both {}; choose two different keys", x.key);
+            return Err(Refusal::values(message));
         }
         Ok(Self { base, x, y })
     }
 
-    fn case(&self, cell: usize) -> Result<Case, String> {
+    fn case(&self, cell: usize) -> Result<Case, CaseError> {
         let columns = self.x.values.len();
         let (x, y) = (self.x.values[cell % columns], self.y.values[cell / columns]);
         let varied = [(self.x.key, x.into()), (self.y.key, y.into())];
-        let entries = self.base.iter().cloned().chain(varied);
-        let parameters = Parameters::from_entries(entries);
-        parameters
-            .and_then(Case::new)
-            .map_err(|error| error.to_string())
+        Case::new(Parameters::from_entries(
+            self.base.iter().cloned().chain(varied),
+        )?)
     }
 }
 
 /// The lines of the answer; dropping them ends the work.
 pub(crate) fn lines(
-    body: &[u8],
+    request: Request,
     mappers: Arc<Semaphore>,
 ) -> Result<impl Stream<Item = Result<Bytes, Infallible>> + use<>, Refusal> {
-    let map = Map::read(body)?;
+    let map = Map::read(request)?;
     let (send, receive) = channel(4);
-    let (waiting, leash) = Leash::new();
+    let (waiting, allowance) = Allowance::new();
     tokio::spawn(async move {
         // A semaphore that is closed has nobody waiting.
         let Ok(mapper) = mappers.acquire_owned().await else {
@@ -126,7 +123,7 @@ pub(crate) fn lines(
         };
         tokio::task::spawn_blocking(move || {
             let _mapper = mapper;
-            compute(&map, &leash, &Lines(send));
+            compute(&map, &allowance, &Lines(send));
         });
     });
     let lines = ReceiverStream::new(receive).map(move |line| {
@@ -163,7 +160,7 @@ struct Done {
     done: bool,
 }
 
-fn compute(map: &Map, leash: &Leash, lines: &Lines) {
+fn compute(map: &Map, allowance: &Allowance, lines: &Lines) {
     let (x, y) = (&map.x.values, &map.y.values);
     if !lines.send(&Axes { x, y }) {
         return;
@@ -174,8 +171,8 @@ fn compute(map: &Map, leash: &Leash, lines: &Lines) {
     while !rest.is_empty() {
         let (now, later) = rest.split_at(size.min(rest.len()));
         let began = Instant::now();
-        let cells = Cells::of(map, now, leash);
-        if leash.is_left() || !lines.send(&cells) {
+        let cells = Cells::of(map, now, allowance);
+        if allowance.is_abandoned() || !lines.send(&cells) {
             return;
         }
         let pace = EVERY.as_secs_f64() / began.elapsed().as_secs_f64().max(1e-9);
@@ -185,59 +182,61 @@ fn compute(map: &Map, leash: &Leash, lines: &Lines) {
     lines.send(&Done { done: true });
 }
 
+/// What is told of each cell, and what it can be coloured by.
+#[rustfmt::skip] // one row a column
+pub(crate) static COLUMNS: [Column<Outcome>; 7] = [
+    Column::new("reason", "", "", Take::Word(|run| run.end.reason.name()), "how the run ends"),
+    Column::new("t", "", "T", Take::Number(|run| Some(run.end.t)), "time of the end"),
+    Column::new("impacts", "", "", Take::Count(|run| Some(run.snaps())), "number of impacts"),
+    Column::quantity("rho1", Take::Number(|run| Some(run.norms.rho1))),
+    Column::quantity("rho3", Take::Number(|run| Some(run.norms.rho3))),
+    Column::quantity("y_max", Take::Number(|run| Some(run.norms.y_max))),
+    Column::quantity("theta_max", Take::Number(|run| Some(run.norms.theta_max))),
+];
+
 /// What some cells come to, as columns; null where there is nothing.
-#[derive(Default, Serialize)]
 struct Cells<'a> {
     cells: &'a [usize],
-    reason: Vec<Option<&'static str>>,
-    t: Vec<Option<f64>>,
-    rho1: Vec<Option<f64>>,
-    rho3: Vec<Option<f64>>,
-    y_max: Vec<Option<f64>>,
-    theta_max: Vec<Option<f64>>,
-    impacts: Vec<Option<u64>>,
-    error: Vec<Option<String>>,
+    outcomes: Vec<Result<Outcome, Refusal>>,
 }
 
 impl<'a> Cells<'a> {
-    fn of(map: &Map, cells: &'a [usize], leash: &Leash) -> Self {
-        let cases: Vec<Result<Case, String>> = cells.iter().map(|cell| map.case(*cell)).collect();
-        let mut told = Self {
+    fn of(map: &Map, cells: &'a [usize], allowance: &Allowance) -> Self {
+        let cases = cells.iter().map(|cell| map.case(*cell)).collect();
+        Self {
             cells,
-            ..Self::default()
-        };
-        for outcome in all_outcomes(cases, leash) {
-            told.push(outcome);
+            outcomes: all_outcomes(cases, allowance),
         }
-        told
     }
+}
 
-    fn push(&mut self, outcome: Result<Outcome, String>) {
-        let (outcome, error) = match outcome {
-            Ok(outcome) => (Some(outcome), None),
-            Err(words) => (None, Some(words)),
-        };
-        let end = outcome.map(|outcome| outcome.end);
-        let norms = outcome.map(|outcome| outcome.norms);
-        self.reason.push(end.map(|end| reason(end.reason)));
-        self.t.push(end.map(|end| end.t));
-        self.rho1.push(norms.map(|norms| norms.rho1));
-        self.rho3.push(norms.map(|norms| norms.rho3));
-        self.y_max.push(norms.map(|norms| norms.y_max));
-        self.theta_max.push(norms.map(|norms| norms.theta_max));
-        self.impacts.push(outcome.map(|outcome| outcome.snaps()));
-        self.error.push(error);
+impl Serialize for Cells<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(COLUMNS.len() + 2))?;
+        map.serialize_entry("cells", self.cells)?;
+        for column in &COLUMNS {
+            let outcomes = self.outcomes.iter().map(|outcome| outcome.as_ref().ok());
+            let values = outcomes.map(|outcome| outcome.map(|run| Cell::new(column, run)));
+            map.serialize_entry(column.name, &values.collect::<Vec<_>>())?;
+        }
+        let errors = self.outcomes.iter().map(|outcome| outcome.as_ref().err());
+        let errors = errors.map(|error| error.map(Refusal::message));
+        map.serialize_entry("error", &errors.collect::<Vec<_>>())?;
+        map.end()
     }
 }
 
 /// What cases come to: side by side as far as that can not take long, else by themselves.
 fn all_outcomes(
-    cases: Vec<Result<Case, String>>,
-    leash: &Leash,
-) -> impl Iterator<Item = Result<Outcome, String>> {
+    cases: Vec<Result<Case, CaseError>>,
+    allowance: &Allowance,
+) -> Vec<Result<Outcome, Refusal>> {
     let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
-    let mut short = outcomes(&short).into_iter();
-    let tried: Vec<_> = cases
+    // Where nobody waits any more there are none, and what follows ends at once, too.
+    let go_on = |progress: Progress| allowance.go_on(progress);
+    let short = outcomes(&short, &go_on).unwrap_or_default();
+    let mut short = short.into_iter();
+    let tried: Vec<Result<_, CaseError>> = cases
         .into_iter()
         .map(|case| {
             let case = case?;
@@ -246,14 +245,13 @@ fn all_outcomes(
             Ok((case, whole))
         })
         .collect();
-    let done: Vec<_> = tried
+    tried
         .into_par_iter()
-        .map(|tried: Result<_, String>| match tried? {
+        .map(|tried| match tried? {
             (_, Some(outcome)) => Ok(outcome),
-            (case, None) => alone(&case, leash),
+            (case, None) => alone(&case, allowance),
         })
-        .collect();
-    done.into_iter()
+        .collect()
 }
 
 /// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many more steps
@@ -285,10 +283,13 @@ fn was_cut(case: &Case, outcome: &Outcome) -> bool {
     outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MANY
 }
 
-fn alone(case: &Case, leash: &Leash) -> Result<Outcome, String> {
-    let leash = leash.within(BUDGET);
-    Outcome::of_while(case, |_| leash.holds()).ok_or_else(|| {
+fn alone(case: &Case, allowance: &Allowance) -> Result<Outcome, Refusal> {
+    let allowance = allowance.within(BUDGET);
+    let done = outcome(case, &|progress| allowance.go_on(progress));
+    done.map_err(|_| {
         let seconds = BUDGET.as_secs();
-        format!("not done after {seconds} s of computing\nhint: lower t_end or max_impacts")
+        Refusal::values(format!(
+            "not done after {seconds} s of computing\nhint: lower t_end or max_impacts"
+        ))
     })
 }

@@ -1,17 +1,37 @@
 //! What a request says, checked.
 use crate::refusal::Refusal;
+use axum::Json;
+use axum::extract::{FromRequest, Request};
+use axum::http::StatusCode;
 use serde::de::DeserializeOwned;
-use serde_json::Value as Json;
+use serde_json::Value as JsonValue;
 use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named};
+use std::time::Duration;
+
+/// The largest body of a request, in bytes: a case has some twenty values.
+pub(crate) const LARGEST_BODY: usize = 64 << 10;
+/// How long a body may take to arrive.
+const BODY_WITHIN: Duration = Duration::from_secs(10);
 
 /// The values that a request gives, by key.
-pub(crate) type Values = serde_json::Map<String, Json>;
+pub(crate) type Values = serde_json::Map<String, JsonValue>;
 
-/// The body of a request.
-pub(crate) fn read<T: DeserializeOwned>(body: &[u8]) -> Result<T, Refusal> {
-    // An object first: a list would be taken for the fields in their order.
-    let object: Values = serde_json::from_slice(body).map_err(Refusal::malformed)?;
-    serde_json::from_value(Json::Object(object)).map_err(Refusal::malformed)
+/// The body of a request: an object of JSON.
+pub(crate) struct Body<T>(pub(crate) T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
+    type Rejection = Refusal;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Refusal> {
+        // An object first: a list would be taken for the fields in their order.
+        let body = Json::<Values>::from_request(request, state);
+        let body = tokio::time::timeout(BODY_WITHIN, body).await.map_err(|_| {
+            let message = "the request did not arrive in time";
+            Refusal::new(StatusCode::REQUEST_TIMEOUT, message)
+        })?;
+        let body = serde_json::from_value(JsonValue::Object(body?.0));
+        body.map(Self).map_err(Refusal::malformed)
+    }
 }
 
 /// Keys and values, each of them legal by itself; `null` is a key left out.
@@ -32,34 +52,18 @@ pub(crate) fn case(values: Values) -> Result<Case, CaseError> {
     Case::new(Parameters::from_entries(entries(values)?)?)
 }
 
-fn value(name: &str, json: Json) -> Result<Option<Value>, CaseError> {
+fn value(name: &str, json: JsonValue) -> Result<Option<Value>, CaseError> {
     let what = match json {
-        Json::Null => return Ok(None),
-        Json::Bool(flag) => return Ok(Some(Value::Bool(flag))),
-        Json::String(text) => return Ok(Some(Value::Text(text))),
-        Json::Number(number) => match (number.as_i64(), number.as_f64()) {
+        JsonValue::Null => return Ok(None),
+        JsonValue::Bool(flag) => return Ok(Some(Value::Bool(flag))),
+        JsonValue::String(text) => return Ok(Some(Value::Text(text))),
+        JsonValue::Number(number) => match (number.as_i64(), number.as_f64()) {
             (Some(whole), _) => return Ok(Some(Value::Integer(whole))),
             (None, Some(number)) => return Ok(Some(Value::Number(number))),
             (None, None) => "(a number beyond all bounds)",
         },
-        Json::Array(_) => "(a list)",
-        Json::Object(_) => "(a table)",
+        JsonValue::Array(_) => "(a list)",
+        JsonValue::Object(_) => "(a table)",
     };
     Err(key_named(name)?.refuse_text(what))
-}
-
-/// A value as JSON.
-pub(crate) fn to_json(value: &Value) -> Json {
-    match value {
-        Value::Number(number) => (*number).into(),
-        Value::Integer(number) => (*number).into(),
-        Value::Bool(flag) => (*flag).into(),
-        Value::Text(text) => text.as_str().into(),
-    }
-}
-
-/// Keys and values as JSON.
-pub(crate) fn object(entries: Vec<(&'static str, Value)>) -> Json {
-    let pairs = entries.iter().map(|(key, value)| (*key, to_json(value)));
-    pairs.map(|(key, value)| (key.to_owned(), value)).collect()
 }

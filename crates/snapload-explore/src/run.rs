@@ -1,16 +1,18 @@
 //! `/api/run`: a run, all that the page draws of it.
 use crate::refusal::Refusal;
-use crate::request::{self, Values};
-use crate::work::Leash;
-use serde::ser::Serializer;
+use crate::request::{Values, case};
+use crate::work::Allowance;
+use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
+use snapload::analysis::{Cancelled, Progress, record};
 use snapload::{
-    Case, CaseError, Impact, ModeInterval, Parameters, Playback, Shape, State, System, Trajectory,
-    Value,
+    Case, CaseError, Impact, ModeInterval, Motion, Parameters, Playback, Shape, State, System,
+    Trajectory, Value,
 };
+use snapload_report::tables::{Cell, IMPACTS, ImpactRow, MOTION};
 use snapload_report::{
-    CaseEcho, EndRow, Followed, MotionRow, NormsRow, because, end_in_words, python_lines,
-    shell_line, tables,
+    CaseEcho, EndRow, Followed, HorizonRow, MotionRow, NormsRow, end_in_words, python_lines,
+    shell_line,
 };
 use std::time::{Duration, Instant};
 
@@ -27,7 +29,7 @@ const PARTED: f64 = 1e-3;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Request {
+pub(crate) struct Request {
     #[serde(default)]
     values: Values,
     #[serde(default)]
@@ -37,47 +39,63 @@ struct Request {
 }
 
 /// The answer, as JSON.
-pub(crate) fn answer(body: &[u8], leash: &Leash) -> Result<Vec<u8>, Refusal> {
+pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
     let began = Instant::now();
-    let Request {
-        values,
-        ghost,
-        samples,
-    } = request::read(body)?;
-    let samples = samples.unwrap_or(3000);
+    let samples = request.samples.unwrap_or(3000);
     if !SAMPLES.contains(&samples) {
-        let words = format!("samples = {samples} is not allowed; allowed: 2 <= samples <= 20000");
-        return Err(Refusal::values(words));
+        let allowed = format!("{} <= samples <= {}", SAMPLES.start(), SAMPLES.end());
+        return Err(CaseError::value("samples", samples, allowed).into());
     }
-    if let Some(by) = ghost.filter(|by| !(*by > 0.0 && *by <= FARTHEST)) {
+    if let Some(by) = request.ghost.filter(|by| !(*by > 0.0 && *by <= FARTHEST)) {
         let allowed = format!("a number, 0 < ghost <= {FARTHEST}, or null");
         return Err(CaseError::value("ghost", Value::Number(by), allowed).into());
     }
-    let case = request::case(values)?;
-    let followed = follow(&case, leash)?;
-    let ghost = ghost.map(|by| ghost_of(&case, by, samples, &followed.run, leash));
+    let case = case(request.values)?;
+    let followed = follow(&case, allowance)?;
+    let (parameters, run) = (case.parameters(), &followed.run);
+    let ghost = request
+        .ghost
+        .map(|by| Ghost::of(&case, by, samples, run, allowance));
     let (ghost, ghost_error) = match ghost.transpose() {
         Ok(ghost) => (ghost, None),
-        Err(error) => (None, Some(error.words())),
+        Err(refusal) => (None, Some(refusal.message().to_owned())),
     };
-    let answer = Answer::new(&case, &followed, samples, ghost, ghost_error, began);
+    let shown = &run.impacts()[..run.impacts().len().min(MOST_SHOWN)];
+    let answer = Answer {
+        values: CaseEcho(parameters),
+        geometry: Geometry::of(parameters, run.system()),
+        end: EndInWords::of(run, parameters),
+        norms: NormsRow::new(run.norms()),
+        horizon: HorizonInWords::of(&followed),
+        modes: Modes::of(&run.modes()[..run.modes().len().min(MOST_SHOWN)]),
+        impacts: Impacts {
+            shown,
+            digits: &followed.digits,
+        },
+        cut: (shown.len() < run.impacts().len()).then(|| Cut {
+            impacts: run.impacts().len(),
+            shown: shown.len(),
+        }),
+        motion: Columns::of(run, shown, samples),
+        ghost,
+        ghost_error,
+        shell: shell_line(parameters),
+        python: python_lines(parameters),
+        took_ms: 1e3 * began.elapsed().as_secs_f64(),
+    };
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
 /// A run with its trust, within the budget.
-pub(crate) fn follow(case: &Case, leash: &Leash) -> Result<Followed, Refusal> {
-    let leash = leash.within(BUDGET);
-    let mut reached = 0.0;
-    let run = Followed::run(case, |simulation| {
-        reached = simulation.time();
-        leash.holds()
-    });
-    run.ok_or_else(|| too_long(case.parameters(), reached))
+pub(crate) fn follow(case: &Case, allowance: &Allowance) -> Result<Followed, Refusal> {
+    let allowance = allowance.within(BUDGET);
+    let run = Followed::run(case, &|progress| allowance.go_on(progress));
+    run.map_err(|cancelled| too_long(case.parameters(), cancelled))
 }
 
-fn too_long(parameters: &Parameters, reached: f64) -> Refusal {
+fn too_long(parameters: &Parameters, Cancelled { done }: Cancelled) -> Refusal {
     Refusal::values(format!(
-        "after {} s of computing this run has come to t = {reached:.4} of {}\nhint: lower t_end or max_impacts, or run it \
+        "after {} s of computing this run has come to t = {done:.4} of {}\nhint: lower t_end or max_impacts, or run it \
          without the page: {}",
         BUDGET.as_secs(),
         parameters.t_end,
@@ -89,10 +107,10 @@ fn too_long(parameters: &Parameters, reached: f64) -> Refusal {
 struct Answer<'a> {
     values: CaseEcho<'a>,
     geometry: Geometry,
-    end: EndTold,
+    end: EndInWords,
     norms: NormsRow,
-    horizon: HorizonTold,
-    modes: Modes<'a>,
+    horizon: HorizonInWords,
+    modes: Modes,
     impacts: Impacts<'a>,
     cut: Option<Cut>,
     motion: Columns,
@@ -101,46 +119,6 @@ struct Answer<'a> {
     shell: String,
     python: String,
     took_ms: f64,
-}
-
-impl<'a> Answer<'a> {
-    fn new(
-        case: &'a Case,
-        followed: &'a Followed,
-        samples: u32,
-        ghost: Option<Ghost>,
-        ghost_error: Option<String>,
-        began: Instant,
-    ) -> Self {
-        let (parameters, run) = (case.parameters(), &followed.run);
-        let shown = &run.impacts()[..run.impacts().len().min(MOST_SHOWN)];
-        let modes = &run.modes()[..run.modes().len().min(MOST_SHOWN)];
-        let motion = Columns::of(run, shown, samples);
-        Self {
-            values: CaseEcho(parameters),
-            geometry: Geometry::of(parameters, run.system()),
-            end: EndTold::of(run, parameters),
-            norms: NormsRow::new(run.norms()),
-            horizon: HorizonTold::of(followed),
-            modes: Modes(modes),
-            impacts: Impacts {
-                shown,
-                digits: (0..shown.len())
-                    .map(|k| followed.digits.get(k).copied())
-                    .collect(),
-            },
-            cut: (shown.len() < run.impacts().len()).then(|| Cut {
-                impacts: run.impacts().len(),
-                shown: shown.len(),
-            }),
-            motion,
-            ghost,
-            ghost_error,
-            shell: shell_line(parameters),
-            python: python_lines(parameters),
-            took_ms: 1e3 * began.elapsed().as_secs_f64(),
-        }
-    }
 }
 
 #[derive(Serialize)]
@@ -152,12 +130,12 @@ struct Cut {
 /// What there is to draw, at rest.
 #[derive(Serialize)]
 struct Geometry {
-    body: BodyTold,
-    cables: Vec<CableTold>,
+    body: BodyGeometry,
+    cables: Vec<CableGeometry>,
 }
 
 #[derive(Serialize)]
-struct BodyTold {
+struct BodyGeometry {
     kind: &'static str,
     shape: &'static str,
     a: f64,
@@ -166,7 +144,7 @@ struct BodyTold {
 
 /// A cable: its anchor, its end in the body's frame, its length.
 #[derive(Serialize)]
-struct CableTold {
+struct CableGeometry {
     anchor: [f64; 2],
     arm: [f64; 2],
     length: f64,
@@ -179,13 +157,13 @@ impl Geometry {
             Shape::Circle { .. } => "circle",
             Shape::Rectangle { .. } => "rectangle",
         };
-        let body = BodyTold {
+        let body = BodyGeometry {
             kind: parameters.body.name(),
             shape,
             a: parameters.a,
             b: parameters.b,
         };
-        let cables = system.cables.iter().map(|cable| CableTold {
+        let cables = system.cables.iter().map(|cable| CableGeometry {
             anchor: cable.anchor(),
             arm: cable.fairlead(),
             length: cable.length(),
@@ -198,13 +176,13 @@ impl Geometry {
 }
 
 #[derive(Serialize)]
-struct EndTold {
+struct EndInWords {
     #[serde(flatten)]
     end: EndRow,
     words: String,
 }
 
-impl EndTold {
+impl EndInWords {
     fn of(run: &Trajectory, parameters: &Parameters) -> Self {
         Self {
             end: EndRow::new(run.end()),
@@ -214,81 +192,64 @@ impl EndTold {
 }
 
 #[derive(Serialize)]
-struct HorizonTold {
-    t: Option<f64>,
-    impact: Option<usize>,
-    because: Option<&'static str>,
+struct HorizonInWords {
+    #[serde(flatten)]
+    horizon: HorizonRow,
     certain: bool,
     words: String,
 }
 
-impl HorizonTold {
+impl HorizonInWords {
     fn of(followed: &Followed) -> Self {
-        let horizon = followed.horizon;
         Self {
-            t: horizon.map(|horizon| horizon.t),
-            impact: horizon.map(|horizon| horizon.impact),
-            because: horizon.map(|horizon| because(horizon.cause)),
-            certain: horizon.is_none(),
+            horizon: HorizonRow::new(followed.horizon),
+            certain: followed.horizon.is_none(),
             words: followed.in_words(),
         }
     }
 }
 
-struct Modes<'a>(&'a [ModeInterval]);
+/// The mode intervals as columns.
+#[derive(Serialize)]
+struct Modes {
+    taut: Vec<Vec<usize>>,
+    t_start: Vec<f64>,
+    t_end: Vec<f64>,
+}
 
-impl Serialize for Modes<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Told {
-            taut: Vec<Vec<usize>>,
-            t_start: Vec<f64>,
-            t_end: Vec<f64>,
-        }
+impl Modes {
+    fn of(modes: &[ModeInterval]) -> Self {
         let taut = |mode: &ModeInterval| mode.taut.iter().map(|cable| cable + 1).collect();
-        Told {
-            taut: self.0.iter().map(taut).collect(),
-            t_start: self.0.iter().map(|mode| mode.t_start).collect(),
-            t_end: self.0.iter().map(|mode| mode.t_end).collect(),
+        Self {
+            taut: modes.iter().map(taut).collect(),
+            t_start: modes.iter().map(|mode| mode.t_start).collect(),
+            t_end: modes.iter().map(|mode| mode.t_end).collect(),
         }
-        .serialize(serializer)
     }
 }
 
-/// The impacts as columns; where the body is does not change in an impact.
+/// The impacts as columns, under the names of `impacts.csv`: those that the page shows.
 struct Impacts<'a> {
     shown: &'a [Impact],
     /// Told as far as the horizon.
-    digits: Vec<Option<f64>>,
+    digits: &'a [f64],
 }
 
 impl Serialize for Impacts<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct Told<'a> {
-            t: Vec<f64>,
-            cable: Vec<usize>,
-            v_n: Vec<f64>,
-            impulse: Vec<f64>,
-            energy_lost: Vec<f64>,
-            x: Vec<f64>,
-            y: Vec<f64>,
-            theta: Vec<f64>,
-            digits: &'a [Option<f64>],
+        let mut map = serializer.serialize_map(None)?;
+        // Where the body is does not change in an impact.
+        for column in IMPACTS
+            .iter()
+            .take_while(|column| column.name != "before_vx")
+        {
+            let rows = self.shown.iter().map(|impact| ImpactRow(*impact, 0.0));
+            let cells: Vec<Cell> = rows.map(|row| Cell::new(column, &row)).collect();
+            map.serialize_entry(column.name, &cells)?;
         }
-        let numbers = |of: fn(&Impact) -> f64| self.shown.iter().map(of).collect();
-        Told {
-            t: numbers(|impact| impact.t),
-            cable: self.shown.iter().map(|impact| impact.cable + 1).collect(),
-            v_n: numbers(|impact| impact.v_n),
-            impulse: numbers(|impact| impact.impulse),
-            energy_lost: numbers(|impact| impact.energy_lost),
-            x: numbers(|impact| impact.before.x),
-            y: numbers(|impact| impact.before.y),
-            theta: numbers(|impact| impact.before.theta),
-            digits: &self.digits,
-        }
-        .serialize(serializer)
+        let digits = (0..self.shown.len()).map(|k| self.digits.get(k));
+        map.serialize_entry("digits", &digits.collect::<Vec<_>>())?;
+        map.end()
     }
 }
 
@@ -308,19 +269,19 @@ impl Columns {
                 before.t = first.t;
                 before.state = first.before;
                 before.energy = run.system().energy(&first.before);
-                columns.push(&MotionRow::new(&before));
-                columns.push(&MotionRow::new(&playback.at(first.t)));
+                columns.push(&before);
+                columns.push(&playback.at(first.t));
                 latest = first.t;
             }
             if t > latest {
-                columns.push(&MotionRow::new(&playback.at(t)));
+                columns.push(&playback.at(t));
             }
         }
         columns
     }
 
-    fn push(&mut self, row: &MotionRow) {
-        for (column, number) in self.0.iter_mut().zip(row.numbers()) {
+    fn push(&mut self, motion: &Motion) {
+        for (column, number) in self.0.iter_mut().zip(MotionRow::new(motion).0) {
             column.push(number);
         }
     }
@@ -328,7 +289,7 @@ impl Columns {
 
 impl Serialize for Columns {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(tables::MOTION.iter().zip(&self.0))
+        serializer.collect_map(MOTION.iter().zip(&self.0))
     }
 }
 
@@ -348,33 +309,32 @@ struct Ghost {
     key: &'static str,
     by: f64,
     motion: Columns,
-    end: EndTold,
+    end: EndInWords,
     parts_at: Option<f64>,
 }
 
-fn ghost_of(
-    case: &Case,
-    by: f64,
-    samples: u32,
-    run: &Trajectory,
-    leash: &Leash,
-) -> Result<Ghost, Refusal> {
-    let (key, by, neighbour) = neighbour(case, by)?;
-    let leash = leash.within(BUDGET);
-    let mut reached = 0.0;
-    let other = Trajectory::record_while(neighbour.simulation(), |simulation, _| {
-        reached = simulation.time();
-        leash.holds()
-    });
-    let other = other.ok_or_else(|| too_long(neighbour.parameters(), reached))?;
-    let shown = &other.impacts()[..other.impacts().len().min(MOST_SHOWN)];
-    Ok(Ghost {
-        key,
-        by,
-        motion: Columns::of(&other, shown, samples),
-        end: EndTold::of(&other, neighbour.parameters()),
-        parts_at: parting(run, &other, samples),
-    })
+impl Ghost {
+    fn of(
+        case: &Case,
+        by: f64,
+        samples: u32,
+        run: &Trajectory,
+        allowance: &Allowance,
+    ) -> Result<Self, Refusal> {
+        let (key, by, neighbour) = neighbour(case, by)?;
+        let allowance = allowance.within(BUDGET);
+        let go_on = |progress: Progress| allowance.go_on(progress);
+        let other = record(neighbour.simulation(), &go_on, |_, _| ())
+            .map_err(|cancelled| too_long(neighbour.parameters(), cancelled))?;
+        let shown = &other.impacts()[..other.impacts().len().min(MOST_SHOWN)];
+        Ok(Self {
+            key,
+            by,
+            motion: Columns::of(&other, shown, samples),
+            end: EndInWords::of(&other, neighbour.parameters()),
+            parts_at: parting(run, &other, samples),
+        })
+    }
 }
 
 /// A neighbour of a case within reach of its cables: to the right, to the left, or higher.

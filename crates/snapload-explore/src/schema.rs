@@ -1,7 +1,8 @@
 //! `/api/schema`: which keys there are, and the cases to start from.
-use crate::request::{object, to_json};
-use serde_json::{Value as Json, json};
-use snapload::{KEYS, Key, Kind, Parameters, named_cases};
+use crate::map::COLUMNS;
+use serde_json::{Map, Value as JsonValue, json};
+use snapload::{KEYS, Key, Kind, Parameters, Stop, named_cases};
+use snapload_report::ValueRow;
 
 /// The case that the page begins with.
 #[derive(Clone, Debug)]
@@ -13,20 +14,32 @@ pub struct Start {
 }
 
 /// All there is to say.
-pub(crate) fn schema(start: &Start) -> Json {
+pub(crate) fn schema(start: &Start) -> JsonValue {
     let cases = named_cases().map(|case| {
-        let values = object(case.parameters.differing());
+        let values = differing(&case.parameters);
         json!({ "code": case.code, "title": case.origin(), "values": values })
     });
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "keys": KEYS.iter().map(key).collect::<Vec<_>>(),
         "cases": cases.collect::<Vec<_>>(),
-        "start": { "name": start.name, "values": object(start.parameters.differing()) },
+        "stops": Stop::ALL.map(Stop::name),
+        "map": COLUMNS.each_ref().map(|column| {
+            json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning })
+        }),
+        "start": { "name": start.name, "values": differing(&start.parameters) },
     })
 }
 
-fn key(key: &Key) -> Json {
+/// The keys in which a case differs from the standard one.
+fn differing(parameters: &Parameters) -> Map<String, JsonValue> {
+    let entries = parameters.differing().into_iter();
+    entries
+        .map(|(key, value)| (key.to_owned(), json!(ValueRow(value))))
+        .collect()
+}
+
+fn key(key: &Key) -> JsonValue {
     let kind = match key.kind {
         Kind::Number {
             low,
@@ -45,7 +58,7 @@ fn key(key: &Key) -> Json {
         "group": key.group.name(),
         "kind": kind,
         "allowed": key.allowed(),
-        "default": key.get(&Parameters::STANDARD).as_ref().map(to_json),
+        "default": key.get(&Parameters::STANDARD).map(ValueRow),
         "default_in_words": key.derived_default(),
         "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
     })

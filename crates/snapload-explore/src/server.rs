@@ -1,5 +1,5 @@
 //! The server: a socket on the loopback address, and the connections to it.
-use crate::api::{Shared, router};
+use crate::api::router;
 use crate::schema::Start;
 use axum::Router;
 use hyper::server::conn::http1;
@@ -15,14 +15,14 @@ use tokio_io_timeout::TimeoutStream;
 
 /// Connections open at one time; a browser has six. Others wait until one is closed.
 const MOST_CONNECTIONS: usize = 64;
-/// So long the head of a request may take, and a connection may lie idle.
+/// How long the head of a request may take to arrive, and a connection may be idle.
 const HEAD_WITHIN: Duration = Duration::from_secs(10);
-/// So long an answer may wait to be taken.
-const TAKEN_WITHIN: Duration = Duration::from_secs(30);
+/// How long the client may take to accept a part of an answer.
+const WRITE_WITHIN: Duration = Duration::from_secs(30);
 /// The largest head of a request.
 const LARGEST_HEAD: usize = 32 << 10;
-/// So long it is waited where the system has no connection to give, such as for want of file handles.
-const BREATH: Duration = Duration::from_millis(50);
+/// How long to wait where the system can not accept a connection, such as for want of file handles.
+const RETRY_AFTER: Duration = Duration::from_millis(50);
 
 /// A server that has its port, and serves once it is told to.
 pub struct Server {
@@ -86,24 +86,24 @@ impl Server {
     }
 
     async fn accept(self) -> io::Result<()> {
-        let router = router(Arc::new(Shared::new(self.start, self.port)));
+        let router = router(self.start, self.port);
         let listener = tokio::net::TcpListener::from_std(self.listener)?;
-        let doors = Arc::new(Semaphore::new(MOST_CONNECTIONS));
-        let entering = async {
-            while let Ok(door) = Arc::clone(&doors).acquire_owned().await {
+        let permits = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+        let accepting = async {
+            while let Ok(permit) = Arc::clone(&permits).acquire_owned().await {
                 let Ok((stream, _)) = listener.accept().await else {
-                    tokio::time::sleep(BREATH).await;
+                    tokio::time::sleep(RETRY_AFTER).await;
                     continue;
                 };
-                let talk = talk(stream, router.clone());
+                let served = serve_connection(stream, router.clone());
                 tokio::spawn(async move {
-                    talk.await;
-                    drop(door);
+                    served.await;
+                    drop(permit);
                 });
             }
         };
         tokio::select! {
-            () = entering => {}
+            () = accepting => {}
             () = self.stop.0.notified() => {}
         }
         Ok(())
@@ -111,11 +111,11 @@ impl Server {
 }
 
 /// Answers the requests of one connection.
-async fn talk(stream: TcpStream, router: Router) {
+async fn serve_connection(stream: TcpStream, router: Router) {
     // A line of a map goes out as soon as it is there.
     let _ = stream.set_nodelay(true);
     let mut stream = TimeoutStream::new(stream);
-    stream.set_write_timeout(Some(TAKEN_WITHIN));
+    stream.set_write_timeout(Some(WRITE_WITHIN));
     let served = http1::Builder::new()
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD_WITHIN)

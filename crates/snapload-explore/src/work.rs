@@ -1,5 +1,6 @@
 //! Work that ends when its time is up, or when nobody waits for its answer any more.
 use crate::refusal::Refusal;
+use snapload::analysis::Progress;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,40 +16,41 @@ impl Drop for Waiting {
     }
 }
 
-/// What the work looks at from time to time.
+/// How long work may go on: as long as somebody waits for it, and perhaps no longer than some time.
 #[derive(Clone)]
-pub(crate) struct Leash {
-    left: Arc<AtomicBool>,
+pub(crate) struct Allowance {
+    abandoned: Arc<AtomicBool>,
     until: Option<Instant>,
 }
 
-impl Leash {
+impl Allowance {
     /// Without a limit of time.
     pub(crate) fn new() -> (Waiting, Self) {
-        let left = Arc::new(AtomicBool::new(false));
-        let leash = Self {
-            left: Arc::clone(&left),
+        let abandoned = Arc::new(AtomicBool::new(false));
+        let allowance = Self {
+            abandoned: Arc::clone(&abandoned),
             until: None,
         };
-        (Waiting(left), leash)
+        (Waiting(abandoned), allowance)
     }
 
     /// The same, for so long from now on.
-    pub(crate) fn within(&self, budget: Duration) -> Self {
+    pub(crate) fn within(&self, time: Duration) -> Self {
         Self {
-            left: Arc::clone(&self.left),
-            until: Some(Instant::now() + budget),
+            abandoned: Arc::clone(&self.abandoned),
+            until: Some(Instant::now() + time),
         }
     }
 
     /// Whether nobody waits any more.
-    pub(crate) fn is_left(&self) -> bool {
-        self.left.load(Ordering::Relaxed)
+    pub(crate) fn is_abandoned(&self) -> bool {
+        self.abandoned.load(Ordering::Relaxed)
     }
 
-    /// Whether to go on.
-    pub(crate) fn holds(&self) -> ControlFlow<()> {
-        if self.is_left() || self.until.is_some_and(|until| Instant::now() >= until) {
+    /// What long work asks.
+    pub(crate) fn go_on(&self, _: Progress) -> ControlFlow<()> {
+        let late = self.until.is_some_and(|until| Instant::now() >= until);
+        if late || self.is_abandoned() {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
@@ -59,15 +61,15 @@ impl Leash {
 /// Does some work on a thread where it may take its time, once one of `workers` is free.
 pub(crate) async fn compute<T: Send + 'static>(
     workers: &Arc<Semaphore>,
-    work: impl FnOnce(&Leash) -> Result<T, Refusal> + Send + 'static,
+    work: impl FnOnce(&Allowance) -> Result<T, Refusal> + Send + 'static,
 ) -> Result<T, Refusal> {
-    let (_waiting, leash) = Leash::new();
+    let (_waiting, allowance) = Allowance::new();
     let worker = Arc::clone(workers).acquire_owned().await;
     let worker = worker.map_err(Refusal::failed)?;
     let work = move || {
         // Held until the work ends, which may be after it was told to.
         let _worker = worker;
-        work(&leash)
+        work(&allowance)
     };
     tokio::task::spawn_blocking(work)
         .await

@@ -1,8 +1,7 @@
 //! A run with what rounding leaves of it: what is quick to know.
 use crate::trusted::horizon_in_words;
-use snapload::analysis::{Horizon, TrustMonitor, Uncertainty};
-use snapload::{Case, Simulation, Trajectory};
-use std::ops::ControlFlow;
+use snapload::analysis::{Cancelled, Horizon, OnProgress, TrustMonitor, Uncertainty, record};
+use snapload::{Case, Trajectory};
 
 /// A run whose values are exact, and how far it can be trusted.
 pub struct Followed {
@@ -15,24 +14,22 @@ pub struct Followed {
 }
 
 impl Followed {
-    /// Runs a case; none where `running`, which is shown the motion after every step, did not let it come to its
-    /// end.
-    pub fn run(
-        case: &Case,
-        mut running: impl FnMut(&Simulation) -> ControlFlow<()>,
-    ) -> Option<Self> {
+    /// Runs a case.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if it is to end before.
+    pub fn run(case: &Case, on_progress: OnProgress) -> Result<Self, Cancelled> {
         let simulation = case.simulation();
-        let mut monitor =
-            TrustMonitor::new(&simulation, &[0.0; 6], Uncertainty::default().tolerance);
-        let run = Trajectory::record_while(simulation, |simulation, step| {
+        let tolerance = Uncertainty::default().tolerance;
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], tolerance);
+        let run = record(simulation, on_progress, |simulation, step| {
             // Past it the run goes on by itself, three times as fast.
             if monitor.horizon().is_none() {
                 monitor.follow(simulation, step);
             }
-            running(simulation)
         })?;
         let trust = monitor.verdict();
-        Some(Self {
+        Ok(Self {
             digits: trust.digits().collect(),
             horizon: trust.horizon,
             run,

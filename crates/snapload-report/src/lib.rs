@@ -15,9 +15,9 @@ pub use case_file::{case_file, python_lines, shell_line};
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
 pub use report::{
-    CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, components, write_json,
+    CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, ValueRow, write_json,
 };
-pub use summary::{case_in_words, end_in_words, summary};
-pub use trust::{OutcomeRow, ShareRow, TrustRow, because};
+pub use summary::{case_in_words, end_in_words, summary, summary_lines};
+pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
 pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};
 pub use verified::{Verified, VerifiedRow};

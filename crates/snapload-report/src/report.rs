@@ -1,11 +1,10 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
+use crate::tables::MOTION;
 use crate::{OutcomeRow, TrustRow, Trusted};
-use serde::ser::SerializeMap;
+use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
-use snapload::{
-    End, Impact, ModeInterval, Motion, Norms, Parameters, Playback, State, Trajectory, Value,
-};
-use snapload_study::reason;
+use snapload::analysis::{OnProgress, Progress};
+use snapload::{End, Impact, ModeInterval, Motion, Norms, Parameters, Playback, Trajectory, Value};
 use std::io::{self, Write};
 
 /// Everything there is to say about a run.
@@ -23,13 +22,12 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// The report of a run, with the motion sampled if asked for. `watch` is told the time that the motion is
-    /// written up to.
+    /// The report of a run, with the motion sampled if asked for; the progress is that of writing the motion.
     pub fn new(
         parameters: &'a Parameters,
         trusted: &'a Trusted,
         sampling: Option<Sampling>,
-        watch: &'a dyn Fn(f64),
+        on_progress: OnProgress<'a>,
     ) -> Self {
         let trajectory = &trusted.run;
         let end = trajectory.end();
@@ -44,7 +42,7 @@ impl<'a> Report<'a> {
             motion: sampling.map(|sampling| MotionRows {
                 trajectory,
                 sampling,
-                watch,
+                on_progress,
             }),
         }
     }
@@ -64,17 +62,22 @@ pub struct CaseEcho<'a>(pub &'a Parameters);
 
 impl Serialize for CaseEcho<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (key, value) in self.0.entries() {
-            match value {
-                None => map.serialize_entry(key, &None::<f64>)?,
-                Some(Value::Number(number)) => map.serialize_entry(key, &number)?,
-                Some(Value::Integer(number)) => map.serialize_entry(key, &number)?,
-                Some(Value::Bool(flag)) => map.serialize_entry(key, &flag)?,
-                Some(Value::Text(text)) => map.serialize_entry(key, &text)?,
-            }
+        let entries = self.0.entries();
+        serializer.collect_map(entries.map(|(key, value)| (key, value.map(ValueRow))))
+    }
+}
+
+/// A value of a key.
+pub struct ValueRow(pub Value);
+
+impl Serialize for ValueRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0 {
+            Value::Number(number) => number.serialize(serializer),
+            Value::Integer(number) => number.serialize(serializer),
+            Value::Bool(flag) => flag.serialize(serializer),
+            Value::Text(text) => text.serialize(serializer),
         }
-        map.end()
     }
 }
 
@@ -90,7 +93,7 @@ impl EndRow {
     /// Of an end.
     pub fn new(end: &End) -> Self {
         Self {
-            reason: reason(end.reason),
+            reason: end.reason.name(),
             t: end.t,
             t_limit: end.t_limit,
         }
@@ -137,16 +140,11 @@ impl ImpactRow {
             v_n: impact.v_n,
             impulse: impact.impulse,
             energy_lost: impact.energy_lost,
-            before: components(&impact.before),
-            after: components(&impact.after),
+            before: impact.before.components(),
+            after: impact.after.components(),
             digits,
         }
     }
-}
-
-/// x, y, theta, vx, vy, vtheta.
-pub fn components(state: &State) -> [f64; 6] {
-    state.components()
 }
 
 #[derive(Serialize)]
@@ -236,80 +234,56 @@ impl Sampling {
     }
 }
 
-/// One line of the sampled motion.
-#[derive(Serialize)]
-pub struct MotionRow {
-    t: f64,
-    x: f64,
-    y: f64,
-    theta: f64,
-    vx: f64,
-    vy: f64,
-    vtheta: f64,
-    #[serde(rename = "T1")]
-    tension_1: f64,
-    #[serde(rename = "T2")]
-    tension_2: f64,
-    energy: f64,
-}
+/// One line of the sampled motion: the values of [`MOTION`], in that order.
+pub struct MotionRow(pub [f64; 10]);
 
 impl MotionRow {
     /// Of a motion.
     pub fn new(motion: &Motion) -> Self {
-        let State {
+        let [x, y, theta, vx, vy, vtheta] = motion.state.components();
+        let [tension_1, tension_2, ..] = motion.tensions;
+        Self([
+            motion.t,
             x,
             y,
             theta,
             vx,
             vy,
             vtheta,
-        } = motion.state;
-        Self {
-            t: motion.t,
-            x,
-            y,
-            theta,
-            vx,
-            vy,
-            vtheta,
-            tension_1: motion.tensions[0],
-            tension_2: motion.tensions[1],
-            energy: motion.energy,
-        }
+            tension_1,
+            tension_2,
+            motion.energy,
+        ])
     }
 }
 
-impl MotionRow {
-    /// Its numbers in their order.
-    pub fn numbers(&self) -> [f64; 10] {
-        [
-            self.t,
-            self.x,
-            self.y,
-            self.theta,
-            self.vx,
-            self.vy,
-            self.vtheta,
-            self.tension_1,
-            self.tension_2,
-            self.energy,
-        ]
+impl Serialize for MotionRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(MOTION.iter().zip(&self.0))
     }
 }
+
+/// So many rows are written between two reports of the progress.
+const ROWS: usize = 1024;
 
 struct MotionRows<'a> {
     trajectory: &'a Trajectory,
     sampling: Sampling,
-    watch: &'a dyn Fn(f64),
+    on_progress: OnProgress<'a>,
 }
 
 impl Serialize for MotionRows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut playback = Playback::new(self.trajectory);
-        let rows = self.sampling.times().map(|t| {
-            (self.watch)(t);
-            MotionRow::new(&playback.at(t))
-        });
-        serializer.collect_seq(rows)
+        let end = self.trajectory.end().t;
+        let mut rows = serializer.serialize_seq(None)?;
+        for (k, t) in self.sampling.times().enumerate() {
+            if k.is_multiple_of(ROWS) {
+                let progress = Progress::new("writing the motion", t, end);
+                progress.tell(self.on_progress).map_err(S::Error::custom)?;
+            }
+            rows.serialize_element(&MotionRow::new(&playback.at(t)))?;
+        }
+        rows.end()
     }
 }

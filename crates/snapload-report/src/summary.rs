@@ -1,6 +1,6 @@
 //! A run in a few lines, for a person.
 use crate::{Trusted, outcome_in_words, trust_in_words};
-use snapload::{Impact, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
+use snapload::{Impact, Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -14,53 +14,55 @@ pub fn summary(
     trusted: &Trusted,
     written: &[PathBuf],
 ) -> String {
-    let trajectory = &trusted.run;
-    let mut lines = Lines(String::new());
-    lines.add("Case", &case_in_words(name, parameters));
-    lines.add("End", &end_in_words(trajectory, parameters));
-    if let Some(limit) = trajectory.end().t_limit {
-        lines.add(
-            "",
-            &format!("the impacts accumulate at t = {}", digits(limit)),
-        );
-    }
-    lines.add("Outcome", &outcome_in_words(trusted));
-    lines.add("Trust", &trust_in_words(trusted));
-    lines.add("Impacts", &impacts(trajectory.impacts()));
-    if let Some(hardest) = hardest(trajectory.impacts()) {
-        lines.add("Hardest", &hardest);
-    }
-    let norms = trajectory.norms();
-    let (rho1, rho2, rho3) = (digits(norms.rho1), digits(norms.rho2), digits(norms.rho3));
-    lines.add(
-        "Norms",
-        &format!("rho1 = {rho1}, rho2 = {rho2}, rho3 = {rho3}"),
-    );
-    let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
-    lines.add("", &format!("y_max = {y_max}, theta_max = {theta_max} rad"));
-    modes(&mut lines, trajectory);
+    let mut lines = summary_lines(name, parameters, trusted);
     for (i, path) in written.iter().enumerate() {
-        lines.add(
-            if i == 0 { "Written" } else { "" },
-            &path.display().to_string(),
-        );
+        let label = if i == 0 { "Written" } else { "" };
+        lines.push((label, path.display().to_string()));
     }
-    lines.0
+    let lines = lines.iter();
+    lines
+        .map(|(label, text)| format!("{label:<9} {}\n", indented(text)))
+        .collect()
+}
+
+/// The lines of a summary: a label, empty where the line goes on with what stands above it, and a text, which may
+/// have several lines itself.
+pub fn summary_lines(
+    name: &str,
+    parameters: &Parameters,
+    trusted: &Trusted,
+) -> Vec<(&'static str, String)> {
+    let run = &trusted.run;
+    let mut lines = vec![
+        ("Case", case_in_words(name, parameters)),
+        ("End", end_in_words(run, parameters)),
+    ];
+    if let Some(limit) = run.end().t_limit {
+        let limit = digits(limit);
+        lines.push(("", format!("the impacts accumulate at t = {limit}")));
+    }
+    lines.push(("Outcome", outcome_in_words(trusted)));
+    lines.push(("Trust", trust_in_words(trusted)));
+    lines.push(("Impacts", impacts(run.impacts())));
+    lines.extend(hardest(run.impacts()).map(|hardest| ("Hardest", hardest)));
+    let norms = run.norms();
+    let (rho1, rho2, rho3) = (digits(norms.rho1), digits(norms.rho2), digits(norms.rho3));
+    lines.push((
+        "Norms",
+        format!("rho1 = {rho1}, rho2 = {rho2}, rho3 = {rho3}"),
+    ));
+    let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
+    lines.push(("", format!("y_max = {y_max}, theta_max = {theta_max} rad")));
+    lines.push(("Modes", modes(run.modes())));
+    if (2..=FEW_MODES).contains(&run.modes().len()) {
+        lines.extend(run.modes().iter().map(|mode| ("", interval(mode))));
+    }
+    lines
 }
 
 /// A text of several lines, of which the later ones stand below the first.
 pub fn indented(text: &str) -> String {
     text.replace('\n', "\n          ")
-}
-
-/// Lines with a label in front.
-struct Lines(String);
-
-impl Lines {
-    /// A text of several lines stands below itself.
-    fn add(&mut self, label: &str, text: &str) {
-        let _ = writeln!(self.0, "{label:<9} {}", indented(text));
-    }
 }
 
 /// The name of the case, and where it differs from the standard one.
@@ -158,38 +160,38 @@ fn hardest(impacts: &[Impact]) -> Option<String> {
     ))
 }
 
-fn modes(lines: &mut Lines, trajectory: &Trajectory) {
-    let intervals = trajectory.modes();
-    let sums: Vec<String> = ["slack", "sliding", "rocking"]
-        .iter()
-        .filter_map(|name| {
-            let of_mode = intervals.iter().filter(|i| i.taut.mode().name() == *name);
-            let (count, time) =
-                of_mode.fold((0, 0.0), |(n, sum), i| (n + 1, sum + i.t_end - i.t_start));
-            let plural = if count == 1 { "" } else { "s" };
-            (count > 0).then(|| format!("{name} {} in {count} interval{plural}", digits(time)))
+/// How long each mode lasted in all.
+fn modes(intervals: &[ModeInterval]) -> String {
+    let sums = Mode::ALL.map(|mode| {
+        let of_mode = intervals.iter().filter(|i| i.taut.mode() == mode);
+        let (count, time) =
+            of_mode.fold((0, 0.0), |(n, sum), i| (n + 1, sum + i.t_end - i.t_start));
+        let plural = if count == 1 { "" } else { "s" };
+        (count > 0).then(|| {
+            format!(
+                "{} {} in {count} interval{plural}",
+                mode.name(),
+                digits(time)
+            )
         })
-        .collect();
-    if sums.is_empty() {
-        lines.add("Modes", "none: the run ended where it started");
-    } else {
-        lines.add("Modes", &sums.join(", "));
+    });
+    let sums: Vec<String> = sums.into_iter().flatten().collect();
+    match sums.is_empty() {
+        true => "none: the run ended where it started".to_owned(),
+        false => sums.join(", "),
     }
-    if (2..=FEW_MODES).contains(&intervals.len()) {
-        for interval in intervals {
-            let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
-            let cables = if taut.is_empty() {
-                String::new()
-            } else {
-                format!(" on {}", taut.join(", "))
-            };
-            let (from, to) = (digits(interval.t_start), digits(interval.t_end));
-            lines.add(
-                "",
-                &format!("  {from} to {to}: {}{cables}", interval.taut.mode().name()),
-            );
-        }
-    }
+}
+
+fn interval(interval: &ModeInterval) -> String {
+    let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
+    let on = if taut.is_empty() { "" } else { " on " };
+    format!(
+        "  {} to {}: {}{on}{}",
+        digits(interval.t_start),
+        digits(interval.t_end),
+        interval.taut.mode().name(),
+        taut.join(", ")
+    )
 }
 
 /// Five significant digits.

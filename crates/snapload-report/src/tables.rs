@@ -1,77 +1,112 @@
-//! The tables of a run as CSV: the columns carry the names of the JSON.
-use crate::{MotionRow, Sampling, components};
-use serde::Serialize;
-use snapload::{Playback, Trajectory};
-
+//! The tables of a run as CSV, and their columns for whoever writes them in another form.
+use crate::{MotionRow, Sampling};
+use serde::{Serialize, Serializer};
+use snapload::{Impact, Playback, Trajectory};
+use snapload_study::{Column, Take};
 use std::io::{self, Write};
 
-const IMPACTS: [&str; 18] = [
-    "t",
-    "cable",
-    "v_n",
-    "impulse",
-    "energy_lost",
-    "before_x",
-    "before_y",
-    "before_theta",
-    "before_vx",
-    "before_vy",
-    "before_vtheta",
-    "after_x",
-    "after_y",
-    "after_theta",
-    "after_vx",
-    "after_vy",
-    "after_vtheta",
-    "digits",
+/// An impact with the decimal digits that are expected to be right of it.
+pub struct ImpactRow(pub Impact, pub f64);
+
+const fn number(
+    name: &'static str,
+    unit: &'static str,
+    of: fn(&ImpactRow) -> Option<f64>,
+    meaning: &'static str,
+) -> Column<ImpactRow> {
+    Column::new(name, name, unit, Take::Number(of), meaning)
+}
+
+/// The columns of the impacts.
+#[rustfmt::skip] // one row a column
+pub static IMPACTS: [Column<ImpactRow>; 18] = [
+    Column::quantity("t", Take::Number(|i| Some(i.0.t))),
+    Column::new("cable", "cable", "", Take::Count(|i| Some(i.0.cable as u64 + 1)), "cable, 1 or 2"),
+    number("v_n", "L/T", |i| Some(i.0.v_n), "normal velocity just before; 0 where an impulse was passed on"),
+    Column::quantity("impulse", Take::Number(|i| Some(i.0.impulse))),
+    Column::quantity("energy_lost", Take::Number(|i| Some(i.0.energy_lost))),
+    number("before_x", "L", |i| Some(i.0.before.x), "just before"),
+    number("before_y", "L", |i| Some(i.0.before.y), "just before"),
+    number("before_theta", "rad", |i| Some(i.0.before.theta), "just before"),
+    number("before_vx", "L/T", |i| Some(i.0.before.vx), "just before"),
+    number("before_vy", "L/T", |i| Some(i.0.before.vy), "just before"),
+    number("before_vtheta", "rad/T", |i| Some(i.0.before.vtheta), "just before"),
+    number("after_x", "L", |i| Some(i.0.after.x), "just after"),
+    number("after_y", "L", |i| Some(i.0.after.y), "just after"),
+    number("after_theta", "rad", |i| Some(i.0.after.theta), "just after"),
+    number("after_vx", "L/T", |i| Some(i.0.after.vx), "just after"),
+    number("after_vy", "L/T", |i| Some(i.0.after.vy), "just after"),
+    number("after_vtheta", "rad/T", |i| Some(i.0.after.vtheta), "just after"),
+    number("digits", "1", |i| Some(i.1), "decimal digits expected to be right"),
 ];
+
+/// The columns of the modes.
 const MODES: [&str; 4] = ["mode", "taut", "t_start", "t_end"];
 /// The columns of the motion.
 pub const MOTION: [&str; 10] = [
     "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
 ];
 
+/// The impacts of a run with their digits.
+pub fn impact_rows(
+    run: &Trajectory,
+    digits: impl Iterator<Item = f64>,
+) -> impl Iterator<Item = ImpactRow> {
+    let rows = run.impacts().iter().zip(digits);
+    rows.map(|(impact, digits)| ImpactRow(*impact, digits))
+}
+
+impl Serialize for ImpactRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(IMPACTS.iter().map(|column| Cell::new(column, self)))
+    }
+}
+
+/// A value of a table: a number with or without a fraction, a flag, a word or nothing.
+#[derive(Serialize)]
+#[serde(untagged)]
+#[allow(missing_docs, reason = "they are what they are called")]
+pub enum Cell {
+    Number(Option<f64>),
+    Count(Option<u64>),
+    Flag(Option<bool>),
+    Word(&'static str),
+}
+
+impl Cell {
+    /// Of a column in a row.
+    pub fn new<R>(column: &Column<R>, row: &R) -> Self {
+        match column.take {
+            Take::Number(of) => Self::Number(of(row)),
+            Take::Count(of) => Self::Count(of(row)),
+            Take::Flag(of) => Self::Flag(of(row)),
+            Take::Word(of) => Self::Word(of(row)),
+        }
+    }
+}
+
 /// `impacts.csv`: one row an impact and cable, with the digits that are known of each.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn impacts(
-    trajectory: &Trajectory,
+    run: &Trajectory,
     digits: impl Iterator<Item = f64>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let impacts = trajectory.impacts().iter().zip(digits);
-    let rows = impacts.map(|(impact, digits)| {
-        let scalars = (
-            impact.t,
-            impact.cable + 1,
-            impact.v_n,
-            impact.impulse,
-            impact.energy_lost,
-        );
-        (
-            scalars,
-            components(&impact.before),
-            components(&impact.after),
-            digits,
-        )
-    });
-    write(&IMPACTS, rows, out)
+    let names = IMPACTS.each_ref().map(|column| column.name);
+    write(&names, impact_rows(run, digits), out)
 }
 
 /// `modes.csv`: one row an interval; the taut cables stand with blanks between them.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
-    let rows = trajectory.modes().iter().map(|interval| {
+pub fn modes(run: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
+    let rows = run.modes().iter().map(|interval| {
         let taut: Vec<String> = interval.taut.iter().map(|c| (c + 1).to_string()).collect();
-        (
-            interval.taut.mode().name(),
-            taut.join(" "),
-            interval.t_start,
-            interval.t_end,
-        )
+        let mode = interval.taut.mode().name();
+        (mode, taut.join(" "), interval.t_start, interval.t_end)
     });
     write(&MODES, rows, out)
 }
@@ -80,9 +115,9 @@ pub fn modes(trajectory: &Trajectory, out: &mut dyn Write) -> io::Result<()> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn motion(trajectory: &Trajectory, sampling: Sampling, out: &mut dyn Write) -> io::Result<()> {
-    let mut playback = Playback::new(trajectory);
-    let rows = sampling.times().map(|t| MotionRow::new(&playback.at(t)));
+pub fn motion(run: &Trajectory, sampling: Sampling, out: &mut dyn Write) -> io::Result<()> {
+    let mut playback = Playback::new(run);
+    let rows = sampling.times().map(|t| MotionRow::new(&playback.at(t)).0);
     write(&MOTION, rows, out)
 }
 
@@ -91,7 +126,7 @@ fn write<R: Serialize>(
     rows: impl Iterator<Item = R>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    // The header is written by us: csv would leave it out of a table without rows.
+    // The header is written here: csv would leave it out of a table without rows.
     let mut table = csv::WriterBuilder::new()
         .has_headers(false)
         .from_writer(out);

@@ -3,27 +3,32 @@ use crate::Trusted;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::Stop;
-use snapload::analysis::{HorizonCause, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
-use snapload_study::reason;
+use snapload::analysis::{Horizon, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
 
-/// The name of a loss of trust.
-pub fn because(cause: HorizonCause) -> &'static str {
-    match cause {
-        HorizonCause::Tolerance => "tolerance",
-        HorizonCause::Graze { .. } => "graze",
-        HorizonCause::NearMiss { .. } => "near_miss",
-        HorizonCause::Simultaneous => "simultaneous",
-        HorizonCause::Start { .. } => "start",
-        HorizonCause::StopRule => "stop_rule",
+/// Where trust ends, in JSON: nulls where it goes to the end of the run.
+#[derive(Serialize)]
+pub struct HorizonRow {
+    t: Option<f64>,
+    impact: Option<usize>,
+    because: Option<&'static str>,
+}
+
+impl HorizonRow {
+    /// Of a horizon; none where there is none.
+    pub fn new(horizon: Option<Horizon>) -> Self {
+        Self {
+            t: horizon.map(|horizon| horizon.t),
+            impact: horizon.map(|horizon| horizon.impact),
+            because: horizon.map(|horizon| horizon.cause.name()),
+        }
     }
 }
 
 /// `"trust"` in the JSON of a run.
 #[derive(Serialize)]
 pub struct TrustRow<'a> {
-    t: Option<f64>,
-    impact: Option<usize>,
-    because: Option<&'static str>,
+    #[serde(flatten)]
+    horizon: HorizonRow,
     tolerance: f64,
     uncertainty: UncertaintyJson<'a>,
     end_error: Option<f64>,
@@ -43,9 +48,7 @@ impl<'a> TrustRow<'a> {
             ..
         } = &trusted.trust;
         Self {
-            t: horizon.map(|horizon| horizon.t),
-            impact: horizon.map(|horizon| horizon.impact),
-            because: horizon.map(|horizon| because(horizon.cause)),
+            horizon: HorizonRow::new(*horizon),
             tolerance: trusted.uncertainty.tolerance,
             uncertainty: UncertaintyJson(&trusted.uncertainty),
             end_error: Some(*end_error).filter(|error| error.is_finite()),
@@ -145,7 +148,7 @@ impl ShareRow {
     pub fn new((stop, share): (Stop, Share)) -> Self {
         let [low, high] = share.interval();
         Self {
-            reason: reason(stop),
+            reason: stop.name(),
             count: share.count,
             part: share.part(),
             low,

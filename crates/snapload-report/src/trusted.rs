@@ -1,11 +1,9 @@
 //! A run with what is known of it: how far it can be trusted, and how its neighbours end.
 use snapload::analysis::{
-    Ensemble, Horizon, HorizonCause, Sensitivity, Tally, Trust, TrustMonitor, Uncertainty,
-    sensitivity,
+    Ensemble, Horizon, HorizonCause, OnProgress, Sensitivity, Tally, Trust, Uncertainty,
+    Unfinished, sensitivity, trusted_run,
 };
-use snapload::{Case, CaseError, Simulation, Stop, Trajectory};
-use snapload_study::reason;
-use std::ops::ControlFlow;
+use snapload::{Case, Trajectory};
 
 /// The impacts of which it is told how they depend on every key.
 const SENSITIVE_IMPACTS: usize = 3;
@@ -27,85 +25,60 @@ pub struct Trusted {
 }
 
 impl Trusted {
-    /// Runs a case, and so many of its neighbours where it takes them. `running` is told the time reached
-    /// after every step, `neighbour` of every neighbour that is done, from any thread.
+    /// Runs a case, and so many of its neighbours where it takes them.
     ///
     /// # Errors
-    /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
+    /// A [`snapload::CaseError`] if a key that is uncertain can not be varied about this start, and
+    /// [`Unfinished::Cancelled`].
     pub fn run(
         case: &Case,
         uncertainty: Uncertainty,
         members: u32,
         seed: u64,
-        mut running: impl FnMut(f64),
-        neighbour: impl Fn() + Sync,
-    ) -> Result<Self, CaseError> {
-        let mut monitor = TrustMonitor::of_case(case, &uncertainty)?;
-        let run = Trajectory::record_watched(case.simulation(), |simulation, step| {
-            monitor.follow(simulation, step);
-            running(simulation.time());
-        });
-        let mut trusted = Self::followed(run, monitor, uncertainty);
-        trusted.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
-        trusted.seed = seed;
-        if trusted.takes_neighbours(members) {
-            let ensemble = Ensemble::about(case, &trusted.uncertainty, members, seed);
-            trusted.tally = Some(ensemble.tally(neighbour)?);
-        }
-        Ok(trusted)
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        let run = Self::run_alone(case, uncertainty, on_progress)?;
+        run.completed(case, members, seed, on_progress)
     }
 
     /// The run alone, and how far it can be trusted: without neighbours and sensitivities, which take longer.
-    /// None where `running`, which is shown the motion after every step, did not let it come to its end.
     ///
     /// # Errors
-    /// A [`CaseError`] if a key that is in doubt can not be varied about this start.
+    /// As for [`Trusted::run`].
     pub fn run_alone(
         case: &Case,
         uncertainty: Uncertainty,
-        mut running: impl FnMut(&Simulation) -> ControlFlow<()>,
-    ) -> Result<Option<Self>, CaseError> {
-        let mut monitor = TrustMonitor::of_case(case, &uncertainty)?;
-        let run = Trajectory::record_while(case.simulation(), |simulation, step| {
-            monitor.follow(simulation, step);
-            running(simulation)
-        });
-        Ok(run.map(|run| Self::followed(run, monitor, uncertainty)))
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        let (run, trust) = trusted_run(case, &uncertainty, on_progress)?;
+        Ok(Self {
+            run,
+            trust,
+            uncertainty,
+            seed: 0,
+            tally: None,
+            sensitivity: Vec::new(),
+        })
     }
 
-    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`] gives. None
-    /// where `neighbour` did not let them come to their end.
+    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`] gives.
     ///
     /// # Errors
-    /// A [`CaseError`] if a neighbour could not be drawn.
+    /// As for [`Trusted::run`].
     pub fn completed(
         mut self,
         case: &Case,
         members: u32,
         seed: u64,
-        neighbour: impl Fn() -> ControlFlow<()> + Sync,
-    ) -> Result<Option<Self>, CaseError> {
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
         self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
         self.seed = seed;
         if self.takes_neighbours(members) {
             let ensemble = Ensemble::about(case, &self.uncertainty, members, seed);
-            self.tally = ensemble.tally_while(neighbour)?;
-            if self.tally.is_none() {
-                return Ok(None);
-            }
+            self.tally = Some(ensemble.tally(on_progress)?);
         }
-        Ok(Some(self))
-    }
-
-    fn followed(run: Trajectory, monitor: TrustMonitor, uncertainty: Uncertainty) -> Self {
-        Self {
-            run,
-            trust: monitor.verdict(),
-            uncertainty,
-            seed: 0,
-            tally: None,
-            sensitivity: Vec::new(),
-        }
+        Ok(self)
     }
 
     fn takes_neighbours(&self, members: u32) -> bool {
@@ -120,7 +93,7 @@ impl Trusted {
 
 /// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95 %: 60-66 %)`.
 pub fn outcome_in_words(trusted: &Trusted) -> String {
-    let end = in_words(trusted.run.end().reason);
+    let end = trusted.run.end().reason.words();
     let Some(tally) = &trusted.tally else {
         return if trusted.trust.decides_the_end() {
             format!("{end}: certain")
@@ -138,7 +111,7 @@ pub fn outcome_in_words(trusted: &Trusted) -> String {
         let [low, high] = share.interval();
         parts.push(format!(
             "{}: {} %{of} (95 %: {}-{} %)",
-            in_words(reason),
+            reason.words(),
             percent(share.part(), f64::round),
             percent(low, f64::floor),
             percent(high, f64::ceil),
@@ -201,11 +174,6 @@ pub fn neighbours(count: usize) -> String {
         "neighbours"
     };
     format!("{} {noun}", thousands(count))
-}
-
-/// The name of a reason to stop, without its underscore.
-pub(crate) fn in_words(stop: Stop) -> String {
-    reason(stop).replace('_', " ")
 }
 
 /// A part in per cent, rounded as told: to tenths near none and near all, else to whole ones.

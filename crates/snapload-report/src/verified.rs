@@ -2,8 +2,8 @@
 use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
 use serde::Serialize;
+use snapload::Stop;
 use snapload::analysis::{Uncertainty, Verification, sensitivity};
-use snapload_study::reason;
 use std::fmt::Write;
 
 /// An ordinary run beside the same run with many digits.
@@ -73,11 +73,11 @@ impl Verified {
             first_wrong: *first_wrong,
             predicted: trust.horizon.map(|horizon| horizon.impact),
             compared: differences.len(),
-            end: end.map(reason),
+            end: end.map(Stop::name),
             t: *t,
             impacts: *impacts,
             ordinary: Ordinary {
-                end: reason(run.end().reason),
+                end: run.end().reason.name(),
                 t: run.end().t,
                 impacts: run.impacts().len(),
             },
@@ -87,20 +87,19 @@ impl Verified {
     }
 
     /// In a few lines.
-    pub fn told(&self, name: &str) -> String {
+    pub fn in_words(&self, name: &str) -> String {
         let found = &self.found;
         let mut text = format!("Case      {name}\n");
-        let words = |reason: &str| reason.replace('_', " ");
         let _ = writeln!(
             text,
             "Ordinary  {} at t = {:.6}, {} impacts",
-            words(reason(found.run.end().reason)),
+            found.run.end().reason.words(),
             found.run.end().t,
             found.run.impacts().len()
         );
         let end = found.end.map_or_else(
             || "a cable stays taut, where the proof ends,".to_owned(),
-            |end| words(reason(end)),
+            |end| end.words().to_owned(),
         );
         let _ = writeln!(
             text,

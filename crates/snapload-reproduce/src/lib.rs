@@ -12,7 +12,7 @@ mod story;
 mod study;
 mod tables;
 
-pub use study::{Progress, Study};
+pub use study::Study;
 
 use claims::Claim;
 

@@ -1,9 +1,12 @@
 //! Every run that the report needs, each computed once.
 
 use rayon::prelude::*;
-use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Uncertainty};
+use snapload::analysis::{
+    CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, Uncertainty, Unfinished,
+    unwatched,
+};
 use snapload::{
-    Case, CaseError, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
+    Case, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
 };
 
 /// How a run that begins to slide is read.
@@ -54,7 +57,7 @@ pub(crate) struct Both<T> {
 }
 
 impl<T> Both<T> {
-    fn try_new(make: impl Fn(Reading) -> Result<T, CaseError>) -> Result<Self, CaseError> {
+    fn try_new(make: impl Fn(Reading) -> Result<T, Unfinished>) -> Result<Self, Unfinished> {
         Ok(Self {
             chapter: make(Reading::Chapter)?,
             sliding_on: make(Reading::SlidingOn)?,
@@ -204,29 +207,27 @@ pub struct Study {
     pub(crate) rocking: Trajectory,
 }
 
-/// How far the study has come: what is being computed, and which part of all.
-pub type Progress<'a> = &'a (dyn Fn(&str, f64) + Sync);
-
 impl Study {
     /// Computes everything.
     ///
     /// # Errors
-    /// None but for a fault of the program: every case is legal.
-    pub fn compute(progress: Progress) -> Result<Self, CaseError> {
-        progress("the cases of Table 6.1", 0.0);
+    /// [`Unfinished::Cancelled`]; a case that is not legal would be a fault of the program.
+    pub fn compute(on_progress: OnProgress) -> Result<Self, Unfinished> {
+        let tell = |doing: &str, part: f64| Progress::new(doing, part, 1.0).tell(on_progress);
+        tell("the cases of Table 6.1", 0.0)?;
         let cases = cases()?;
-        progress("Table 6.2", 0.1);
+        tell("Table 6.2", 0.1)?;
         let critical = TABLE_6_2.into_iter().map(critical_row);
         let critical = critical.collect::<Result<_, _>>()?;
         let mut curves = Vec::new();
         for over in CURVES {
             for r in LENGTHS {
                 let part = 0.2 + 0.15 * curves.len() as f64;
-                progress(&format!("critical force over {}, r = {r}", over.0), part);
+                tell(&format!("critical force over {}, r = {r}", over.0), part)?;
                 curves.push(curve(r, over)?);
             }
         }
-        progress("the norms", 0.8);
+        tell("the norms", 0.8)?;
         let norms = LENGTHS.into_iter().map(|r| {
             let of = |reading: Reading| {
                 up_to_exceeding(&reading.apply(standard(r)), ForceScan::default())
@@ -234,12 +235,14 @@ impl Study {
             let points = Both::try_new(of)?;
             Ok(NormCurve { r, points })
         });
-        let example = |code| Ok(Case::new(named_case(code)?.parameters)?.run());
+        let example = |code| -> Result<Trajectory, Unfinished> {
+            Ok(Case::new(named_case(code)?.parameters)?.run())
+        };
         Ok(Self {
             cases,
             critical,
             curves,
-            norms: norms.collect::<Result<_, _>>()?,
+            norms: norms.collect::<Result<_, Unfinished>>()?,
             sliding: example("sliding-example")?,
             rocking: example("rocking-example")?,
         })
@@ -251,7 +254,7 @@ impl Study {
     }
 }
 
-fn cases() -> Result<Vec<CaseRuns>, CaseError> {
+fn cases() -> Result<Vec<CaseRuns>, Unfinished> {
     let mut codes: Vec<&'static str> = Vec::new();
     let printed = snapload::named_cases().map(|case| case.code);
     let table = TABLE_6_1.iter().map(|(_, code)| *code);
@@ -273,15 +276,15 @@ fn cases() -> Result<Vec<CaseRuns>, CaseError> {
 
 fn critical_row(
     (r, shape, size, published): (f64, &'static str, [f64; 2], f64),
-) -> Result<CriticalRow, CaseError> {
+) -> Result<CriticalRow, Unfinished> {
     let parameters = of_shape(r, size);
     let computed = Both::try_new(|reading| {
-        CriticalForce::scan(&reading.apply(parameters), ForceScan::default())
+        CriticalForce::scan(&reading.apply(parameters), ForceScan::default(), &unwatched)
     })?;
     let scan = ForceScan::new(0.01, looked_up_to(published, &computed))?;
     let neighbours = |reading: Reading| {
         let (parameters, uncertainty) = (reading.apply(parameters), Uncertainty::default());
-        ExceedanceCurve::scan(&parameters, scan, &uncertainty, NEIGHBOURS, 1, |_| {})
+        ExceedanceCurve::scan(&parameters, scan, &uncertainty, NEIGHBOURS, 1, &unwatched)
     };
     Ok(CriticalRow {
         r,
@@ -296,7 +299,7 @@ fn critical_row(
 fn curve(
     r: f64,
     (key, first, last, count): (&'static str, f64, f64, usize),
-) -> Result<CriticalCurve, CaseError> {
+) -> Result<CriticalCurve, Unfinished> {
     let point = |k: usize, reading: Reading| {
         // Rounded to the decimals that one would write.
         let value = first + (last - first) * k as f64 / (count - 1) as f64;
@@ -324,7 +327,7 @@ fn curve(
 fn up_to_exceeding(
     parameters: &Parameters,
     scan: ForceScan,
-) -> Result<Vec<(f64, Outcome)>, CaseError> {
+) -> Result<Vec<(f64, Outcome)>, Unfinished> {
     let mut outcomes = Vec::new();
     for f_o in scan.amplitudes() {
         let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
@@ -340,7 +343,7 @@ fn up_to_exceeding(
 pub(crate) fn first_exceeding(
     parameters: &Parameters,
     scan: ForceScan,
-) -> Result<Option<(f64, Stop)>, CaseError> {
+) -> Result<Option<(f64, Stop)>, Unfinished> {
     let last = up_to_exceeding(parameters, scan)?.pop();
     let exceeding = last.filter(|(_, outcome)| outcome.exceeds());
     Ok(exceeding.map(|(f_o, outcome)| (f_o, outcome.end.reason)))

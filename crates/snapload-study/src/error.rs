@@ -1,68 +1,128 @@
-//! What can go wrong with a study, in words.
+//! What can go wrong with a study.
 
 use snapload::CaseError;
-use std::fmt;
+use snapload::analysis::Cancelled;
+use std::fmt::Display;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Why a study can not be begun, or not go on.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum StudyError {
+    /// A key is unknown, or can not take a value.
+    #[error(transparent)]
+    Case(#[from] CaseError),
     /// What was asked for can not be done as it is.
+    #[error("{0}")]
     Input(String),
+    /// Something stands where the rows are to be kept.
+    #[error("{}", .0.in_words("--resume", "--out"))]
+    Occupied(Occupied),
     /// Something broke on the way, such as a full disk.
+    #[error("{0}")]
     Failed(String),
+    /// It was told to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What stands where the rows of a study are to be kept.
+#[derive(Debug)]
+pub enum Occupied {
+    /// This very study, complete.
+    Complete(PathBuf),
+    /// A file of something else.
+    OtherFile(PathBuf),
+    /// Some rows of this study.
+    Begun {
+        /// Where they are.
+        directory: PathBuf,
+        /// How many are there.
+        safe: u64,
+        /// How many there are to be.
+        asked: u64,
+    },
+    /// Rows of another study.
+    OtherStudy {
+        /// Where they are.
+        directory: PathBuf,
+        /// A line of that study that this one does not have.
+        there: String,
+        /// A line of this study that the other does not have.
+        here: String,
+    },
+    /// Another program that writes there.
+    InUse(PathBuf),
+}
+
+impl Occupied {
+    /// What is there and what to do, in words that call the option to resume and that for the file by their names.
+    pub fn in_words(&self, resume: &str, out: &str) -> String {
+        match self {
+            Self::Complete(file) => format!(
+                "{} is there already and holds this very study, complete; {resume} takes it as it is",
+                file.display()
+            ),
+            Self::OtherFile(file) => format!(
+                "{} is there already, and holds something else; choose another {out}, or remove it",
+                file.display()
+            ),
+            Self::Begun {
+                directory,
+                safe,
+                asked,
+            } => format!(
+                "{} holds {safe} of {asked} rows of this study already; go on with {resume}, or remove it to begin \
+                 anew",
+                directory.display()
+            ),
+            Self::OtherStudy {
+                directory,
+                there,
+                here,
+            } => {
+                let directory = directory.display();
+                format!(
+                    "{directory} holds rows of another study\nthere: {there}\nhere:  {here}\nhint: choose another \
+                     {out}, or remove {directory} to begin anew"
+                )
+            }
+            Self::InUse(directory) => format!(
+                "another snapload is at work in {}; wait for it, or choose another {out}",
+                directory.display()
+            ),
+        }
+    }
 }
 
 impl StudyError {
     /// A file that can not be written.
     pub(crate) fn write(path: &Path, error: impl Into<io::Error>) -> Self {
-        Self::Failed(format!(
-            "can not write {}: {}",
-            path.display(),
-            plain(&error.into())
-        ))
+        Self::Failed(about("write", path, &error.into()))
+    }
+
+    /// A file that can not be read.
+    pub(crate) fn read(path: &Path, error: impl Display) -> Self {
+        Self::Failed(about("read", path, &error))
     }
 
     /// The same for a file that somebody named: it is the name that is wrong.
     pub(crate) fn of_input(self) -> Self {
         match self {
-            Self::Input(words) | Self::Failed(words) => Self::Input(words),
+            Self::Failed(message) => Self::Input(message),
+            other => other,
         }
     }
+}
 
-    /// A file that can not be read.
-    pub(crate) fn read(path: &Path, error: impl fmt::Display) -> Self {
-        let text = error.to_string();
-        Self::Failed(format!(
-            "can not read {}: {}",
-            path.display(),
-            without_number(&text)
-        ))
-    }
+fn about(verb: &str, path: &Path, error: &impl Display) -> String {
+    let error = without_number(error);
+    format!("can not {verb} {}: {error}", path.display())
 }
 
 /// The system's words without its number: `No space left on device`.
-fn plain(error: &io::Error) -> String {
-    without_number(&error.to_string()).to_owned()
-}
-
-fn without_number(text: &str) -> &str {
-    text.find(" (os error").map_or(text, |end| &text[..end])
-}
-
-impl fmt::Display for StudyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Input(words) | Self::Failed(words) => f.write_str(words),
-        }
-    }
-}
-
-impl std::error::Error for StudyError {}
-
-impl From<CaseError> for StudyError {
-    fn from(error: CaseError) -> Self {
-        Self::Input(error.to_string())
-    }
+pub fn without_number(error: &impl Display) -> String {
+    let mut text = error.to_string();
+    text.truncate(text.find(" (os error").unwrap_or(text.len()));
+    text
 }

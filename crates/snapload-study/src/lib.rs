@@ -22,7 +22,7 @@ mod sweep;
 mod table;
 mod whole;
 
-pub use error::StudyError;
+pub use error::{Occupied, StudyError, without_number};
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
@@ -34,6 +34,6 @@ pub use rows::{Row, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, chunk, folder_of};
 pub use study::{Drawn, Study};
-pub use sweep::{Finished, Watch, sweep};
-pub use table::{Column, columns, reason};
+pub use sweep::{Ending, sweep};
+pub use table::{Column, Run, Take, columns};
 pub use whole::{Shown, Tally, columns_of_files, ends, identity_of, merge, read_all, read_shown};

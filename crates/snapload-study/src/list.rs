@@ -4,10 +4,10 @@ use crate::StudyError;
 use crate::parquet_file::{Reader as ParquetReader, Values};
 use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 use parquet::basic::ConvertedType;
-use parquet::errors::Result as ParquetResult;
 use parquet::schema::types::Type;
 use sha2::{Digest, Sha256};
 use snapload::{CaseError, Value, key_named};
+use std::error::Error;
 use std::fs::File;
 use std::io::Read;
 use std::ops::Range;
@@ -18,6 +18,9 @@ const MARK_EVERY: u64 = 1024;
 
 /// What one row gives: keys with their values, or why it can not be read.
 pub(crate) type ListRow = Result<Vec<(&'static str, Value)>, CaseError>;
+
+/// Why rows can not be read: an error of the system, of CSV or of Parquet.
+type Unreadable = Box<dyn Error>;
 
 /// A file with a row a case and a column a key. An empty cell leaves the key to the base case.
 #[derive(Debug)]
@@ -93,7 +96,7 @@ impl List {
             Format::Csv { marks } => self.read_csv(marks, &range),
             Format::Parquet => self.read_parquet(&range),
         };
-        let rows = rows.map_err(|words| StudyError::read(&self.path, words))?;
+        let rows = rows.map_err(|error| StudyError::read(&self.path, error))?;
         if rows.len() as u64 == range.end - range.start {
             return Ok(rows);
         }
@@ -103,19 +106,19 @@ impl List {
         ))
     }
 
-    fn read_csv(&self, marks: &[Position], range: &Range<u64>) -> Result<Vec<ListRow>, String> {
+    fn read_csv(&self, marks: &[Position], range: &Range<u64>) -> Result<Vec<ListRow>, Unreadable> {
         let mark = range.start / MARK_EVERY;
-        let mut reader = open_csv(&self.path).map_err(|error| error.to_string())?;
+        let mut reader = open_csv(&self.path)?;
         let position = marks
             .get(mark as usize)
             .cloned()
             .unwrap_or_else(Position::new);
-        reader.seek(position).map_err(|error| error.to_string())?;
+        reader.seek(position)?;
         reader
             .into_byte_records()
             .skip((range.start - mark * MARK_EVERY) as usize)
             .take((range.end - range.start) as usize)
-            .map(|record| Ok(self.row(&record.map_err(|error| error.to_string())?)))
+            .map(|record| Ok(self.row(&record?)))
             .collect()
     }
 
@@ -131,25 +134,20 @@ impl List {
             .collect())
     }
 
-    fn read_parquet(&self, range: &Range<u64>) -> Result<Vec<ListRow>, String> {
-        let file = File::open(&self.path).map_err(|error| error.to_string())?;
-        let read = || -> ParquetResult<Vec<ListRow>> {
-            let reader = ParquetReader::open(file)?;
-            let places: Vec<usize> = (0..self.keys.len()).collect();
-            let (mut rows, mut first) = (Vec::new(), 0);
-            for (group, length) in reader.groups().enumerate() {
-                let end = first + length;
-                let wanted =
-                    range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
-                if !wanted.is_empty() {
-                    let columns = reader.read(group, &places, wanted)?;
-                    rows.extend(self.rows_of(&columns));
-                }
-                first = end;
+    fn read_parquet(&self, range: &Range<u64>) -> Result<Vec<ListRow>, Unreadable> {
+        let reader = ParquetReader::open(File::open(&self.path)?)?;
+        let places: Vec<usize> = (0..self.keys.len()).collect();
+        let (mut rows, mut first) = (Vec::new(), 0);
+        for (group, length) in reader.groups().enumerate() {
+            let end = first + length;
+            let wanted = range.start.clamp(first, end) - first..range.end.clamp(first, end) - first;
+            if !wanted.is_empty() {
+                let columns = reader.read(group, &places, wanted)?;
+                rows.extend(self.rows_of(&columns));
             }
-            Ok(rows)
-        };
-        read().map_err(|error| error.to_string())
+            first = end;
+        }
+        Ok(rows)
     }
 
     fn rows_of(&self, columns: &[Values]) -> Vec<ListRow> {
@@ -272,153 +270,5 @@ fn cell(column: &Values, row: usize) -> Option<Value> {
         Values::Counts(list) => list[row].map(Value::Integer),
         Values::Flags(list) => list[row].map(Value::Bool),
         Values::Words(list) => list[row].clone().map(Value::Text),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use half::f16;
-    use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
-    use parquet::data_type::{FloatType, Int32Type, Int64Type};
-    use parquet::file::writer::SerializedFileWriter;
-    use parquet::schema::parser::parse_message_type;
-    use std::io::Write;
-    use std::sync::Arc;
-
-    fn csv(text: &str) -> tempfile::NamedTempFile {
-        let mut file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
-        file.write_all(text.as_bytes()).unwrap();
-        file
-    }
-
-    #[test]
-    fn a_csv_file_is_read_from_anywhere() {
-        let mut text = "f_o, e ,body\n".to_owned();
-        for k in 0..5000 {
-            text += &format!("0.{k:04},1,\"rigid\"\n");
-        }
-        let file = csv(&text);
-        let list = List::open(file.path()).unwrap();
-        assert_eq!(list.count(), 5000);
-        for range in [0..3, 1023..1026, 4999..5000, 2048..2049] {
-            for (row, k) in list.read(range.clone()).unwrap().into_iter().zip(range) {
-                let f_o = format!("0.{k:04}").parse::<f64>().unwrap();
-                let wanted: ListRow = Ok(vec![
-                    ("f_o", Value::Number(f_o)),
-                    ("e", Value::Integer(1)),
-                    ("body", Value::Text("rigid".to_owned())),
-                ]);
-                assert_eq!(row, wanted);
-            }
-        }
-    }
-
-    /// A file with a column each of the types that other programs write, two groups of so many rows.
-    fn parquet(rows: usize) -> tempfile::NamedTempFile {
-        let columns = "message schema {
-            optional float f_o;
-            required binary body (STRING);
-            required int32 max_impacts (INTEGER(16,false));
-            optional int64 e (DECIMAL(6,3));
-            required fixed_len_byte_array(2) omega (DECIMAL(4,1));
-            required fixed_len_byte_array(2) c (FLOAT16);
-            optional int32 a (UNKNOWN);
-        }";
-        let schema = Arc::new(parse_message_type(columns).unwrap());
-        let mut file = tempfile::Builder::new();
-        let file = file.suffix(".parquet").tempfile().unwrap();
-        let mut writer = SerializedFileWriter::new(&file, schema, Arc::default()).unwrap();
-        for start in [0, rows] {
-            let rows = start..start + rows;
-            let mut group = writer.next_row_group().unwrap();
-            macro_rules! put {
-                ($kind:ty, $values:expr, $there:expr) => {
-                    let mut column = group.next_column().unwrap().unwrap();
-                    let values: Vec<_> = $values.collect();
-                    let written = column.typed::<$kind>().write_batch(&values, $there, None);
-                    written.unwrap();
-                    column.close().unwrap();
-                };
-            }
-            let there: Vec<i16> = rows.clone().map(|k| i16::from(k % 3 > 0)).collect();
-            let nowhere = vec![0; there.len()];
-            let fixed = |bytes: [u8; 2]| FixedLenByteArray::from(ByteArray::from(bytes.to_vec()));
-            let odd = rows.clone().filter(|k| k % 3 > 0);
-            put!(FloatType, odd.clone().map(|k| k as f32), Some(&there));
-            put!(
-                ByteArrayType,
-                rows.clone().map(|_| ByteArray::from(b"point".to_vec())),
-                None
-            );
-            put!(Int32Type, rows.clone().map(|k| k as i32), None);
-            put!(Int64Type, odd.map(|k| k as i64), Some(&there));
-            put!(
-                FixedLenByteArrayType,
-                rows.clone().map(|k| fixed((-(k as i16)).to_be_bytes())),
-                None
-            );
-            put!(
-                FixedLenByteArrayType,
-                rows.clone()
-                    .map(|_| fixed(f16::from_f64(0.25).to_le_bytes())),
-                None
-            );
-            put!(Int32Type, std::iter::empty(), Some(&nowhere));
-            group.close().unwrap();
-        }
-        writer.close().unwrap();
-        file
-    }
-
-    #[test]
-    fn a_parquet_file_is_read_from_anywhere() {
-        let file = parquet(200);
-        let list = List::open(file.path()).unwrap();
-        assert_eq!(list.count(), 400);
-        for range in [123..125, 198..203, 399..400, 0..400] {
-            let rows = list.read(range.clone()).unwrap();
-            for (row, k) in rows.into_iter().zip(range) {
-                let mut wanted = vec![
-                    ("body", "point".into()),
-                    ("max_impacts", Value::Integer(k as i64)),
-                    ("omega", Value::Number(-(k as f64) / 10.0)),
-                    ("c", Value::Number(0.25)),
-                ];
-                if k % 3 > 0 {
-                    wanted.insert(0, ("f_o", Value::Number(k as f64)));
-                    wanted.insert(3, ("e", Value::Number(k as f64 / 1000.0)));
-                }
-                assert_eq!(row, Ok(wanted));
-            }
-        }
-    }
-
-    #[test]
-    fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
-        let file = csv("f_o,stop_when_settled\n0.1,\n0.2\n,false\nx,True\n");
-        let rows = List::open(file.path()).unwrap().read(0..4).unwrap();
-        assert_eq!(rows[0], Ok(vec![("f_o", Value::Number(0.1))]));
-        let error = rows[1].clone().unwrap_err().to_string();
-        assert!(
-            error.contains("(a row with 1 fields)") && error.contains("2 fields"),
-            "{error}"
-        );
-        assert_eq!(rows[2], Ok(vec![("stop_when_settled", Value::Bool(false))]));
-        assert_eq!(rows[3].as_ref().unwrap()[0].1, Value::Text("x".to_owned()));
-    }
-
-    #[test]
-    fn a_list_with_other_columns_is_refused() {
-        for (text, wanted) in [
-            ("f_o,omgea\n1,2\n", "did you mean omega?"),
-            ("f_o,f_o\n1,2\n", "f_o stands over two columns"),
-            ("f_o\n", "holds no case"),
-        ] {
-            let error = List::open(csv(text).path()).unwrap_err().to_string();
-            assert!(error.contains(wanted), "{error}");
-        }
-        let error = List::open(Path::new("/no/such/list.csv")).unwrap_err();
-        assert!(matches!(&error, StudyError::Input(words) if words.contains("No such file")));
     }
 }

@@ -1,7 +1,7 @@
 //! The one place where cases become rows.
 
 use crate::Drawn;
-use snapload::analysis::{Certainty, on_all_threads};
+use snapload::analysis::{Cancelled, Certainty, Counter, on_all_threads};
 use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 
 /// A row of a study: the keys of a case and what its run comes to.
@@ -18,25 +18,31 @@ pub struct Row {
     pub certainty: Option<Certainty>,
 }
 
-/// Runs cases, on the threads that there are, and returns their rows in order. `done` is called for each.
+/// Runs cases, on the threads that there are, and returns their rows in order. Each is counted.
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
-pub fn rows(drawn: &[Drawn], trust: bool, done: &(dyn Fn() + Sync)) -> Vec<Row> {
-    on_all_threads(drawn, |drawn| side_by_side(drawn, trust, done))
+///
+/// # Errors
+/// [`Cancelled`] if the work is to end before.
+pub fn rows(drawn: &[Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>, Cancelled> {
+    on_all_threads(drawn, |drawn| side_by_side(drawn, trust, counter))
 }
 
-fn side_by_side(drawn: &[&Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
+fn side_by_side(drawn: &[&Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>, Cancelled> {
     let mut cases = Vec::with_capacity(drawn.len());
-    let made = |drawn: &&Drawn| {
+    let mut made = |drawn: &Drawn| {
         let case = drawn.parameters.clone().and_then(Case::new)?;
         let certainty = trust.then(|| Certainty::of(&case));
         cases.push(case);
         Ok(certainty)
     };
-    let certainties: Vec<Result<Option<Certainty>, CaseError>> = drawn.iter().map(made).collect();
+    let mut certainties = Vec::with_capacity(drawn.len());
+    for drawn in drawn {
+        counter.add(0)?;
+        certainties.push(made(drawn));
+    }
     let mut outcomes = Lanes::best().outcomes(&cases).0.into_iter();
     let row = |(drawn, certainty): (&&Drawn, Result<Option<Certainty>, CaseError>)| {
-        done();
         Some(Row {
             index: drawn.index,
             keys: match &drawn.parameters {
@@ -50,7 +56,9 @@ fn side_by_side(drawn: &[&Drawn], trust: bool, done: &dyn Fn()) -> Vec<Row> {
             },
         })
     };
-    drawn.iter().zip(certainties).filter_map(row).collect()
+    let rows = drawn.iter().zip(certainties).filter_map(row).collect();
+    counter.add(drawn.len() as u64)?;
+    Ok(rows)
 }
 
 /// The keys of a case that is none, as far as they were given.

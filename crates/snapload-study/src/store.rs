@@ -6,7 +6,8 @@
 //! whichever point the power fails, what was renamed is still there, and all else is done again.
 
 use crate::whole::{identity_of, join, to_bytes};
-use crate::{Identity, Row, Study, StudyError, rows};
+use crate::{Identity, Occupied, Row, Study, StudyError, rows};
+use snapload::analysis::{Counter, OnProgress};
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -45,8 +46,9 @@ impl Store {
     /// Opens the place of a file. Rows of an earlier run are taken up only if `resume` says so.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if something else stands there, if another study was begun there, or this one
-    /// was and is not to be resumed, or if another program is at work there.
+    /// [`StudyError::Occupied`] if something else stands there, if another study was begun there, or this one
+    /// was and is not to be resumed, or if another program is at work there; [`StudyError::Input`] if there is no such
+    /// folder.
     pub fn open(target: &Path, identity: Identity, resume: bool) -> Result<Opened, StudyError> {
         let mut name = OsString::from(target);
         name.push(".parts");
@@ -82,12 +84,11 @@ impl Store {
         }
         store.find_chunks()?;
         if store.safe() > 0 && !resume {
-            return Err(StudyError::Input(format!(
-                "{} holds {} of {} rows of this study already; go on with --resume, or remove it to begin anew",
-                store.directory.display(),
-                store.safe(),
-                store.asked(),
-            )));
+            return Err(StudyError::Occupied(Occupied::Begun {
+                directory: store.directory.clone(),
+                safe: store.safe(),
+                asked: store.asked(),
+            }));
         }
         Ok(Opened::Work(store))
     }
@@ -213,17 +214,17 @@ impl Store {
     }
 }
 
-/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`] takes. `done` is
-/// called for each case.
+/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`] takes.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if the list of cases can not be read.
+/// [`StudyError::Failed`] if the list of cases can not be read, and [`StudyError::Cancelled`].
 pub fn chunk(
     study: &Study,
     range: Range<u64>,
-    done: &(dyn Fn() + Sync),
+    on_progress: OnProgress,
 ) -> Result<Vec<u8>, StudyError> {
-    let rows = rows(&study.draw(range.clone())?, study.trust(), done);
+    let counter = Counter::new("running", 0, range.end - range.start, on_progress);
+    let rows = rows(&study.draw(range.clone())?, study.trust(), &counter)?;
     let bytes = encode(&Identity::new(study, None), range, &rows);
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }
@@ -243,21 +244,17 @@ fn finished(
     identity: &Identity,
     resume: bool,
 ) -> Result<Opened, StudyError> {
-    let shown = target.display();
     let ours = identity_of(target).is_some_and(|found| found == *identity);
     if ours && resume {
         let _ = fs::remove_dir_all(directory);
         return Ok(Opened::Complete);
     }
-    Err(StudyError::Input(if ours {
-        format!(
-            "{shown} is there already and holds this very study, complete; --resume takes it as it is"
-        )
+    let there = if ours {
+        Occupied::Complete
     } else {
-        format!(
-            "{shown} is there already, and holds something else; choose another --out, or remove it"
-        )
-    }))
+        Occupied::OtherFile
+    };
+    Err(StudyError::Occupied(there(target.to_owned())))
 }
 
 fn describe(identity: &Identity) -> String {
@@ -299,12 +296,11 @@ fn other_study(directory: &Path, known: &str, wanted: &str) -> StudyError {
             .filter(|line| !other.lines().any(|o| o == *line));
         lines.next().unwrap_or("(nothing of the kind)").to_owned()
     };
-    let (there, here) = (only(known, wanted), only(wanted, known));
-    let directory = directory.display();
-    StudyError::Input(format!(
-        "{directory} holds rows of another study\nthere: {there}\nhere:  {here}\nhint: choose another --out, \
-         or remove {directory} to begin anew"
-    ))
+    StudyError::Occupied(Occupied::OtherStudy {
+        directory: directory.to_owned(),
+        there: only(known, wanted),
+        here: only(wanted, known),
+    })
 }
 
 fn lock(directory: &Path) -> Result<File, StudyError> {
@@ -312,10 +308,10 @@ fn lock(directory: &Path) -> Result<File, StudyError> {
     let file = OpenOptions::new().create(true).append(true).open(&path);
     let file = file.map_err(|error| StudyError::write(&path, error))?;
     match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(StudyError::Input(format!(
-            "another snapload is at work in {}; wait for it, or choose another --out",
-            directory.display()
-        ))),
+        Err(TryLockError::WouldBlock) => {
+            let there = Occupied::InUse(directory.to_owned());
+            Err(StudyError::Occupied(there))
+        }
         // Where the file system knows no locks, as some of clusters do not, there is nothing to hold.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
@@ -344,117 +340,4 @@ fn parse_chunk_name(name: &str) -> Option<Range<u64>> {
     let range = start.parse().ok()?..end.parse().ok()?;
     (chunk_name(&range) == format!("rows-{name}.parquet") && range.start < range.end)
         .then_some(range)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Axis, Finished, Grid, Plan, Watch, sweep};
-
-    fn study(count: u64) -> Study {
-        let grid = Grid::new("0.1", "0.6", count).unwrap();
-        let plan = Plan::grid(vec![Axis::even("f_o", grid).unwrap()]).unwrap();
-        Study::new([("t_end".to_owned(), 0.1.into())], plan, false).unwrap()
-    }
-
-    fn open(target: &Path, study: &Study, resume: bool) -> Result<Opened, StudyError> {
-        Store::open(target, Identity::new(study, None), resume)
-    }
-
-    fn work(target: &Path, study: &Study) -> Store {
-        match open(target, study, true).unwrap() {
-            Opened::Work(store) => store,
-            Opened::Complete => panic!("complete"),
-        }
-    }
-
-    /// Rows that were computed elsewhere make the same file; those of another study are refused.
-    #[test]
-    fn rows_come_from_elsewhere() {
-        let (study, other) = (study(5), study(6));
-        let directory = tempfile::tempdir().unwrap();
-        let (here, there) = (directory.path().join("a"), directory.path().join("b"));
-        let mut store = work(&here, &study);
-        assert!(
-            store
-                .keep(0..2, &chunk(&other, 0..2, &|| ()).unwrap())
-                .is_err()
-        );
-        for range in [3..5, 0..3] {
-            store
-                .keep(range.clone(), &chunk(&study, range, &|| ()).unwrap())
-                .unwrap();
-        }
-        assert_eq!(store.gap(), None);
-        store.finish().unwrap();
-        let watch = Watch {
-            done: &|| (),
-            stop: &|| false,
-        };
-        sweep(&study, work(&there, &study), &watch).unwrap();
-        assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
-    }
-
-    fn save(store: &mut Store, study: &Study, range: Range<u64>) {
-        let drawn = study.draw(range.clone()).unwrap();
-        store.save(range, &rows(&drawn, false, &|| ())).unwrap();
-    }
-
-    fn complete(target: &Path, study: &Study) -> Vec<u8> {
-        let watch = Watch {
-            done: &|| (),
-            stop: &|| false,
-        };
-        let finished = sweep(study, work(target, study), &watch).unwrap();
-        assert_eq!(finished, Finished::Complete);
-        fs::read(target).unwrap()
-    }
-
-    /// However the rows were cut, and whatever a crash left behind.
-    #[test]
-    fn the_file_depends_on_the_rows_alone() {
-        let directory = tempfile::tempdir().unwrap();
-        let (study, whole) = (study(700), directory.path().join("whole"));
-        let wanted = complete(&whole, &study);
-        let target = directory.path().join("torn");
-        let parts = directory.path().join("torn.parts");
-        let mut store = work(&target, &study);
-        for range in [0..1, 1..130, 200..201, 600..700] {
-            save(&mut store, &study, range);
-        }
-        assert_eq!((store.gap(), store.safe()), (Some(130..200), 231));
-        drop(store);
-        // A chunk cut short, one that is none, one that overlaps another, and half a whole.
-        let torn = parts.join(chunk_name(&(1..130)));
-        let bytes = fs::read(&torn).unwrap();
-        fs::write(&torn, &bytes[..bytes.len() / 2]).unwrap();
-        fs::write(parts.join(chunk_name(&(300..400))), "nothing").unwrap();
-        fs::copy(
-            parts.join(chunk_name(&(0..1))),
-            parts.join(chunk_name(&(0..2))),
-        )
-        .unwrap();
-        fs::write(parts.join(SCRATCH), &wanted[..100]).unwrap();
-        assert!(work(&target, &study).gap() == Some(1..200));
-        assert!(complete(&target, &study) == wanted);
-        assert!(!parts.exists());
-    }
-
-    #[test]
-    fn only_one_is_at_work() {
-        let directory = tempfile::tempdir().unwrap();
-        let target = directory.path().join("file");
-        let store = work(&target, &study(3));
-        let error = open(&target, &study(3), true).unwrap_err().to_string();
-        assert!(error.contains("another snapload is at work"), "{error}");
-        drop(store);
-        let error = open(&target, &study(4), true).unwrap_err().to_string();
-        assert!(error.contains("there: # snapload"), "{error}");
-        complete(&target, &study(3));
-        assert!(matches!(
-            open(&target, &study(3), true),
-            Ok(Opened::Complete)
-        ));
-        assert!(open(&target, &study(3), false).is_err());
-    }
 }

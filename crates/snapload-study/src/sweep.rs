@@ -1,7 +1,9 @@
 //! The loop of a study: the next cases, their rows, into the store.
 
 use crate::{Row, Store, Study, StudyError, rows};
-use std::ops::Range;
+use snapload::analysis::{Cancelled, Counter, OnProgress, Progress};
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// So long a chunk is to take; a crash can cost two of them.
@@ -13,21 +15,13 @@ const LEAST: u64 = 64;
 /// The most: what is held in memory at a time.
 const MOST: u64 = 1 << 14;
 
-/// Who looks on.
-pub struct Watch<'a> {
-    /// Called for each case, on any thread.
-    pub done: &'a (dyn Fn() + Sync),
-    /// Asked between chunks whether to end here.
-    pub stop: &'a dyn Fn() -> bool,
-}
-
-/// How far it went.
+/// When a sweep ends that is told to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finished {
-    /// The file is complete and in its place.
-    Complete,
-    /// It was told to stop; so many rows are safe.
-    Stopped(u64),
+pub enum Ending {
+    /// Once the chunk at work is done and safe.
+    AfterChunk,
+    /// Before the next case; what the chunk at work has come to is lost.
+    AtNextCase,
 }
 
 /// A chunk that is run and not yet safe.
@@ -37,13 +31,29 @@ type Chunk = (Range<u64>, Vec<Row>);
 /// before it is written.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read.
-pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished, StudyError> {
-    let (done, mut size) = (watch.done, FIRST);
+/// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read; [`StudyError::Cancelled`], with
+/// the number of rows that are safe, if it is told to end.
+pub fn sweep(
+    study: &Study,
+    mut store: Store,
+    ending: Ending,
+    on_progress: OnProgress,
+) -> Result<(), StudyError> {
+    let told_to_end = AtomicBool::new(false);
+    let within = |progress: Progress| {
+        let answer = on_progress(progress);
+        told_to_end.fetch_or(answer.is_break(), Ordering::Relaxed);
+        match ending {
+            Ending::AtNextCase => answer,
+            Ending::AfterChunk => ControlFlow::Continue(()),
+        }
+    };
+    let counter = Counter::new("sweep", store.safe(), store.asked(), &within);
+    let mut size = FIRST;
     let mut written: Option<Chunk> = None;
     loop {
-        let stopped = (watch.stop)();
-        let range = next_range(&store, written.as_ref(), size).filter(|_| !stopped);
+        let go_on = counter.add(0).is_ok() && !told_to_end.load(Ordering::Relaxed);
+        let range = next_range(&store, written.as_ref(), size).filter(|_| go_on);
         if range.is_none() && written.is_none() {
             break;
         }
@@ -53,22 +63,25 @@ pub fn sweep(study: &Study, mut store: Store, watch: &Watch) -> Result<Finished,
                 Some((range, rows)) => store.save(range, &rows),
                 None => Ok(()),
             },
-            || range.map(|range| chunk(study, range, done)).transpose(),
+            || range.map(|range| chunk(study, range, &counter)).transpose(),
         );
         saved?;
-        written = run?;
+        written = match run {
+            Err(StudyError::Cancelled(_)) => None,
+            run => run?,
+        };
         size = next_size(size, began.elapsed());
     }
     if store.gap().is_some() {
-        return Ok(Finished::Stopped(store.safe()));
+        let done = store.safe() as f64;
+        return Err(Cancelled { done }.into());
     }
-    store.finish()?;
-    Ok(Finished::Complete)
+    store.finish()
 }
 
-fn chunk(study: &Study, range: Range<u64>, done: &(dyn Fn() + Sync)) -> Result<Chunk, StudyError> {
+fn chunk(study: &Study, range: Range<u64>, counter: &Counter) -> Result<Chunk, StudyError> {
     let drawn = study.draw(range.clone())?;
-    Ok((range, rows(&drawn, study.trust(), done)))
+    Ok((range, rows(&drawn, study.trust(), counter)?))
 }
 
 /// The next rows that are missing, after those that are being written.

@@ -1,28 +1,24 @@
-//! The columns of a study's file.
+//! Columns of tables: what each is called, its unit, what it means, and how its values are taken from a row.
 
 use crate::Row;
 use crate::parquet_file::{Field, Holds, Values};
 use snapload::analysis::{Certainty, Horizon};
-use snapload::{FirstImpact, KEYS, Kind, Outcome, Stop, Value};
+use snapload::{FirstImpact, KEYS, Kind, Outcome, Stop, Value, quantity};
 
-/// How a column's values are taken from a run.
-#[derive(Clone, Copy)]
-enum Take {
-    Number(fn(&Run) -> Option<f64>),
-    Count(fn(&Run) -> Option<u64>),
-    Flag(fn(&Run) -> Option<bool>),
-    Word(fn(&Run) -> &'static str),
+/// How a column's values are taken from a row; none where the row has no such value.
+pub enum Take<R = Run> {
+    /// A number.
+    Number(fn(&R) -> Option<f64>),
+    /// A whole number.
+    Count(fn(&R) -> Option<u64>),
+    /// Yes or no.
+    Flag(fn(&R) -> Option<bool>),
+    /// One of a few words.
+    Word(fn(&R) -> &'static str),
 }
 
-/// What there is to tell of a row that could be run.
-#[derive(Clone, Copy)]
-struct Run<'a> {
-    outcome: &'a Outcome,
-    certainty: Option<Certainty>,
-}
-
-/// A column that tells what a run comes to.
-pub struct Column {
+/// A column of a table.
+pub struct Column<R = Run> {
     /// Its name.
     pub name: &'static str,
     /// Its symbol in the text of the model; the name where there is none.
@@ -31,15 +27,81 @@ pub struct Column {
     pub unit: &'static str,
     /// What it means.
     pub meaning: &'static str,
-    take: Take,
+    /// Its values.
+    pub take: Take<R>,
 }
 
-impl Column {
+impl<R> Column<R> {
+    /// A column; the arguments stand in the order in which a table of columns is read.
+    pub const fn new(
+        name: &'static str,
+        symbol: &'static str,
+        unit: &'static str,
+        take: Take<R>,
+        meaning: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            symbol,
+            unit,
+            meaning,
+            take,
+        }
+    }
+
+    /// One of the model's quantities, under its own name; an unknown one has neither unit nor meaning.
+    pub const fn quantity(name: &'static str, take: Take<R>) -> Self {
+        match quantity(name) {
+            Some(known) => Self::new(name, known.symbol, known.unit, take, known.meaning),
+            None => Self::new(name, name, "", take, ""),
+        }
+    }
+
     /// Whether it holds numbers.
     pub fn is_number(&self) -> bool {
         matches!(self.take, Take::Number(_) | Take::Count(_))
     }
 
+    /// Its values; none where there is no row.
+    pub fn values<'a>(&self, rows: impl Iterator<Item = Option<&'a R>>) -> Values
+    where
+        R: 'a,
+    {
+        match self.take {
+            Take::Number(of) => Values::Numbers(rows.map(|row| of(row?)).collect()),
+            Take::Count(of) => Values::Counts(rows.map(|row| of(row?).map(signed)).collect()),
+            Take::Flag(of) => Values::Flags(rows.map(|row| of(row?)).collect()),
+            Take::Word(of) => Values::Words(rows.map(|row| Some(of(row?).to_owned())).collect()),
+        }
+    }
+
+    /// What it holds.
+    pub fn holds(&self) -> Holds {
+        match self.take {
+            Take::Number(_) => Holds::Numbers,
+            Take::Count(_) => Holds::Counts,
+            Take::Flag(_) => Holds::Flags,
+            Take::Word(_) => Holds::Words,
+        }
+    }
+}
+
+/// What there is to tell of a case that could be run.
+pub struct Run {
+    outcome: Outcome,
+    certainty: Option<Certainty>,
+}
+
+impl Run {
+    fn of(row: &Row) -> Option<Self> {
+        Some(Self {
+            outcome: *row.outcome.as_ref().ok()?,
+            certainty: row.certainty,
+        })
+    }
+}
+
+impl Column {
     /// The words it may hold, where it holds words.
     pub fn words(&self) -> Vec<&'static str> {
         match self.take {
@@ -47,22 +109,6 @@ impl Column {
             Take::Flag(_) => vec!["true", "false"],
             Take::Number(_) | Take::Count(_) => Vec::new(),
         }
-    }
-}
-
-const fn column(
-    name: &'static str,
-    symbol: &'static str,
-    unit: &'static str,
-    take: Take,
-    meaning: &'static str,
-) -> Column {
-    Column {
-        name,
-        symbol,
-        unit,
-        meaning,
-        take,
     }
 }
 
@@ -74,48 +120,42 @@ fn horizon<T>(run: &Run, of: fn(Horizon) -> T) -> Option<T> {
     run.certainty?.horizon.map(of)
 }
 
-/// The columns beside the row's number, the keys and the error, in their order.
+/// The columns of a study beside the row's number, the keys and the error, in their order.
 #[rustfmt::skip] // one row a column
 static COLUMNS: [Column; 18] = [
-    column("end", "end", "", Take::Word(|a| a.outcome.end.reason.name()),
+    Column::new("end", "end", "", Take::Word(|a| a.outcome.end.reason.name()),
         "why the run ended, in the words of run --json"),
-    column("t", "t", "T", Take::Number(|a| Some(a.outcome.end.t)), "when"),
-    column("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.outcome.impacts[0])),
+    Column::new("t", "t", "T", Take::Number(|a| Some(a.outcome.end.t)), "when"),
+    Column::new("impacts_1", "impacts of cable 1", "", Take::Count(|a| Some(a.outcome.impacts[0])),
         "impacts of cable 1"),
-    column("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.outcome.impacts[1])),
+    Column::new("impacts_2", "impacts of cable 2", "", Take::Count(|a| Some(a.outcome.impacts[1])),
         "impacts of cable 2"),
-    column("rho1", "ρ₁", "L/T", Take::Number(|a| Some(a.outcome.norms.rho1)), "largest v_n of a snap"),
-    column("rho2", "ρ₂", "L/T", Take::Number(|a| Some(a.outcome.norms.rho2)), "sum of v_n up to t = 10"),
-    column("rho3", "ρ₃", "L/T", Take::Number(|a| Some(a.outcome.norms.rho3)), "sum of v_n"),
-    column("y_max", "*y*ₘₐₓ", "L", Take::Number(|a| Some(a.outcome.norms.y_max)), "highest y of the centre"),
-    column("theta_max", "|*θ*|ₘₐₓ", "rad", Take::Number(|a| Some(a.outcome.norms.theta_max)),
-        "largest rotation"),
-    column("first_t", "time of the first impact", "T", Take::Number(|a| first(a, |f| f.t)),
+    Column::quantity("rho1", Take::Number(|a| Some(a.outcome.norms.rho1))),
+    Column::quantity("rho2", Take::Number(|a| Some(a.outcome.norms.rho2))),
+    Column::quantity("rho3", Take::Number(|a| Some(a.outcome.norms.rho3))),
+    Column::quantity("y_max", Take::Number(|a| Some(a.outcome.norms.y_max))),
+    Column::quantity("theta_max", Take::Number(|a| Some(a.outcome.norms.theta_max))),
+    Column::new("first_t", "time of the first impact", "T", Take::Number(|a| first(a, |f| f.t)),
         "time of the first impact"),
-    column("first_cable", "cable of the first impact", "", Take::Count(|a| first(a, |f| f.cable as u64 + 1)),
+    Column::new("first_cable", "cable of the first impact", "", Take::Count(|a| first(a, |f| f.cable as u64 + 1)),
         "its cable, 1 or 2"),
-    column("first_v_n", "*v*ₙ of the first impact", "L/T", Take::Number(|a| first(a, |f| f.v_n)),
+    Column::new("first_v_n", "*v*ₙ of the first impact", "L/T", Take::Number(|a| first(a, |f| f.v_n)),
         "its normal velocity"),
-    column("t_slack", "time slack", "T", Take::Number(|a| Some(a.outcome.slack())), "time without a taut cable"),
-    column("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.outcome.sliding)),
+    Column::new("t_slack", "time slack", "T", Take::Number(|a| Some(a.outcome.slack())), "time without a taut cable"),
+    Column::new("t_sliding", "time sliding", "T", Take::Number(|a| Some(a.outcome.sliding)),
         "time with one taut cable"),
-    column("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.outcome.rocking)), "time with both"),
-    column("horizon_t", "horizon", "T", Take::Number(|a| horizon(a, |h| h.t)),
+    Column::new("t_rocking", "time rocking", "T", Take::Number(|a| Some(a.outcome.rocking)), "time with both"),
+    Column::new("horizon_t", "horizon", "T", Take::Number(|a| horizon(a, |h| h.t)),
         "time up to which the run can be trusted; null if to its end"),
-    column("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a, |h| h.impact as u64)),
+    Column::new("horizon_impact", "impact at the horizon", "", Take::Count(|a| horizon(a, |h| h.impact as u64)),
         "the number of the impact there"),
-    column("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
+    Column::new("certain", "end certain", "", Take::Flag(|a| a.certainty.map(|c| c.decides_the_end())),
         "whether the way it ends is certain; null without trust"),
 ];
 
 /// The columns that tell what a run comes to.
 pub fn columns() -> &'static [Column] {
     &COLUMNS
-}
-
-/// The name of a reason to stop.
-pub fn reason(stop: Stop) -> &'static str {
-    stop.name()
 }
 
 /// The columns in their order: `row`, the keys, what the runs come to, `error`.
@@ -131,14 +171,8 @@ pub(crate) fn fields() -> Vec<Field> {
         Kind::Flag => Holds::Flags,
         Kind::Choice(_) => Holds::Words,
     };
-    let take_holds = |take: Take| match take {
-        Take::Number(_) => Holds::Numbers,
-        Take::Count(_) => Holds::Counts,
-        Take::Flag(_) => Holds::Flags,
-        Take::Word(_) => Holds::Words,
-    };
     let keys = KEYS.iter().map(|key| field(key.name, key_holds(&key.kind)));
-    let ends = COLUMNS.iter().map(|c| field(c.name, take_holds(c.take)));
+    let ends = COLUMNS.iter().map(|c| field(c.name, c.holds()));
     std::iter::once(field("row", Holds::Counts))
         .chain(keys)
         .chain(ends)
@@ -154,8 +188,9 @@ pub(crate) fn columns_of(rows: &[Row]) -> Vec<Values> {
         let values = rows.iter().map(|row| row.keys[k].as_ref());
         columns.push(key_values(&key.kind, values));
     }
+    let runs: Vec<Option<Run>> = rows.iter().map(Run::of).collect();
     for column in &COLUMNS {
-        columns.push(run_values(column.take, rows));
+        columns.push(column.values(runs.iter().map(Option::as_ref)));
     }
     let errors = rows
         .iter()
@@ -200,19 +235,6 @@ fn key_values<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) 
                 })
                 .collect(),
         ),
-    }
-}
-
-fn run_values(take: Take, rows: &[Row]) -> Values {
-    let runs = rows.iter().map(|row| {
-        let (outcome, certainty) = (row.outcome.as_ref().ok()?, row.certainty);
-        Some(Run { outcome, certainty })
-    });
-    match take {
-        Take::Number(of) => Values::Numbers(runs.map(|run| of(&run?)).collect()),
-        Take::Count(of) => Values::Counts(runs.map(|run| of(&run?).map(signed)).collect()),
-        Take::Flag(of) => Values::Flags(runs.map(|run| of(&run?)).collect()),
-        Take::Word(of) => Values::Words(runs.map(|run| Some(of(&run?).to_owned())).collect()),
     }
 }
 

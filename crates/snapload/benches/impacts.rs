@@ -5,7 +5,7 @@
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
-use snapload::analysis::{Certainty, Uncertainty, outcomes, trusted_run};
+use snapload::analysis::{Certainty, Uncertainty, outcomes, trusted_run, unwatched};
 use snapload::{Case, Lanes, Parameters, Trajectory, named_case};
 use std::hint::black_box;
 use std::thread::available_parallelism;
@@ -65,7 +65,7 @@ fn one_run(c: &mut Criterion) {
             );
         });
         group.bench_function(format!("{name}/trusted"), |b| {
-            b.iter(|| trusted_run(black_box(&case), &Uncertainty::default()));
+            b.iter(|| trusted_run(black_box(&case), &Uncertainty::default(), &unwatched));
         });
     }
     group.finish();
@@ -87,7 +87,7 @@ fn many_runs(c: &mut Criterion) {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = pool.expect("threads can be started");
         group.bench_function(format!("{:?}/threads-{threads}", Lanes::best()), |b| {
-            b.iter(|| pool.install(|| outcomes(black_box(&cases))));
+            b.iter(|| pool.install(|| outcomes(black_box(&cases), &unwatched)));
         });
     }
     group.bench_function("certainty", |b| {

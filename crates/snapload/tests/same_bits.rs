@@ -1,10 +1,12 @@
 //! The same case gives the same bits, whatever it is computed beside and by how many.
 
-use snapload::analysis::{Ensemble, Uncertainty, outcomes};
-use snapload::{
-    Case, CaseError, Lanes, Outcome, Parameters, Simulation, Trajectory, Value, named_case,
+use snapload::analysis::{
+    Cancelled, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress, Progress,
+    Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched, verify,
 };
+use snapload::{Case, Lanes, Outcome, Parameters, Simulation, Trajectory, Value, named_case};
 use std::ops::ControlFlow::{Break, Continue};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state after).
@@ -153,7 +155,7 @@ fn every_width_of_lanes_has_the_bits_of_one_run_by_itself() {
         }
         assert!(usage.bounces > 20_000, "{lanes:?}: {usage:?}");
     }
-    assert_eq!(outcomes(&cases), alone);
+    assert_eq!(outcomes(&cases, &unwatched), Ok(alone));
 }
 
 #[test]
@@ -162,7 +164,7 @@ fn threads_do_not_matter() {
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().expect("threads");
-        pool.install(|| outcomes(&cases))
+        pool.install(|| outcomes(&cases, &unwatched).expect("nobody cancels"))
     };
     let one: Vec<_> = on(1).iter().map(bits).collect();
     for threads in [2, 5] {
@@ -217,17 +219,17 @@ fn runs_that_stop_at_once_are_no_burden() {
 
 /// What may be ended on its way is the same where it is not, and nothing where it is.
 #[test]
-fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), CaseError> {
+fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), Unfinished> {
     let case = Case::new(named_case("1910001000-459")?.parameters)?;
     let run = case.run();
     let whole = Trajectory::record_while(case.simulation(), |_, _| Continue(()));
     let whole = whole.expect("a run that was not ended");
     assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
-    let outcome = Outcome::of_while(&case, |_| Continue(()));
-    assert_eq!(outcome, Some(Outcome::of(&case)));
+    let whole = record(case.simulation(), &unwatched, |_, _| {})?;
+    assert_eq!((whole.impacts(), whole.end()), (run.impacts(), run.end()));
+    assert_eq!(outcome(&case, &unwatched), Ok(Outcome::of(&case)));
     let ensemble = Ensemble::about(&case, &Uncertainty::default(), 20, 1);
-    let tally = ensemble.tally_while(|| Continue(()))?;
-    assert_eq!(tally, Some(ensemble.tally(|| ())?));
+    assert_eq!(ensemble.tally(&unwatched)?.members(), 20);
 
     let half = run.end().t / 2.0;
     let until = |t: f64| if t < half { Continue(()) } else { Break(()) };
@@ -243,10 +245,63 @@ fn work_that_may_be_ended_is_the_same_or_nothing() -> Result<(), CaseError> {
         None
     );
     let members = AtomicU64::new(0);
-    let tally = ensemble.tally_while(|| match members.fetch_add(1, Ordering::Relaxed) {
-        0..5 => Continue(()),
-        _ => Break(()),
+    let tally = ensemble.tally(&|progress: Progress| {
+        assert_eq!((progress.doing, progress.of), ("neighbours", 20.0));
+        match members.fetch_add(1, Ordering::Relaxed) {
+            0..5 => Continue(()),
+            _ => Break(()),
+        }
     });
-    assert_eq!(tally?, None);
+    assert!(matches!(tally, Err(Unfinished::Cancelled(_))));
+    Ok(())
+}
+
+/// Whatever is long tells of its progress, which only grows, and ends where it is told to.
+#[test]
+fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
+    let long = Parameters {
+        f_o: 0.1,
+        t_end: 60.0,
+        stop_when_settled: false,
+        ..Parameters::STANDARD
+    };
+    let case = Case::new(long)?;
+    let exact = Uncertainty::default();
+    let scan = ForceScan::new(0.1, 0.3)?;
+    type Work<'a> = &'a dyn Fn(OnProgress) -> Result<(), Unfinished>;
+    let works: [(&str, Work); 6] = [
+        ("outcome", &|on| Ok(outcome(&case, on).map(drop)?)),
+        ("outcomes", &|on| {
+            Ok(outcomes(&vec![case.clone(); 3], on).map(drop)?)
+        }),
+        ("trusted_run", &|on| {
+            trusted_run(&case, &exact, on).map(drop)
+        }),
+        ("critical", &|on| {
+            CriticalForce::scan(&long, scan, on).map(drop)
+        }),
+        ("exceedance", &|on| {
+            ExceedanceCurve::scan(&long, scan, &exact, 3, 1, on).map(drop)
+        }),
+        ("verify", &|on| verify(&case, 60, 1e-3, on).map(drop)),
+    ];
+    for (name, work) in works {
+        let told = Mutex::new(Vec::new());
+        work(&|progress: Progress| {
+            assert!((0.0..=progress.of).contains(&progress.done), "{name}");
+            let mut told = told.lock().expect("no panic");
+            told.push((progress.doing.to_owned(), progress.done));
+            Continue(())
+        })?;
+        let told = told.into_inner().expect("no panic");
+        assert!(!told.is_empty(), "{name} tells nothing");
+        let grows = |pair: &[(String, f64)]| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1;
+        assert!(told.windows(2).all(grows), "{name}: {told:?}");
+        let cancelled = work(&|_: Progress| Break(()));
+        assert!(
+            matches!(cancelled, Err(Unfinished::Cancelled(Cancelled { .. }))),
+            "{name}"
+        );
+    }
     Ok(())
 }

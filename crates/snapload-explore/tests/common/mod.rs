@@ -57,7 +57,7 @@ impl Answer {
 
     /// What a refusal says.
     pub(crate) fn error(&self) -> String {
-        self.json()["error"].as_str().unwrap().to_owned()
+        self.json()["message"].as_str().unwrap().to_owned()
     }
 }
 

@@ -38,81 +38,114 @@ fn values_are_refused_in_the_words_of_the_command() {
     }
 }
 
-#[test]
-fn requests_that_ask_for_too_much_are_refused() {
+/// That each of these is refused, with which status, key and words.
+fn refuse(path: &str, cases: impl IntoIterator<Item = (Value, u16, Value, &'static str)>) {
     let server = serve();
-    let refuse = |path: &str, body: Value, status: u16, words: &str| {
+    for (body, status, key, words) in cases {
         let answer = server.post(path, &body);
         assert_eq!(answer.status, status, "{body}");
+        assert_eq!(answer.json()["key"], key, "{body}");
         assert!(answer.error().contains(words), "{}", answer.error());
-    };
+    }
+}
+
+#[test]
+fn runs_that_ask_for_too_much_are_refused() {
+    let samples = "2 <= samples <= 20000";
     refuse(
         "/api/run",
-        json!({ "samples": 1 }),
-        422,
-        "2 <= samples <= 20000",
+        [
+            (json!({ "samples": 1 }), 422, json!("samples"), samples),
+            (
+                json!({ "samples": 1_000_000 }),
+                422,
+                json!("samples"),
+                samples,
+            ),
+            (
+                json!({ "ghost": 1 }),
+                422,
+                json!("ghost"),
+                "0 < ghost <= 0.1",
+            ),
+            (
+                json!({ "ghost": -1e-6 }),
+                422,
+                json!("ghost"),
+                "0 < ghost <= 0.1",
+            ),
+            (
+                json!({ "values": { "e": 2 } }),
+                422,
+                json!("e"),
+                "0 <= e <= 1",
+            ),
+            (
+                json!({ "value": {} }),
+                400,
+                Value::Null,
+                "unknown field `value`",
+            ),
+            (json!([]), 400, Value::Null, "the request"),
+        ],
     );
     refuse(
-        "/api/run",
-        json!({ "samples": 1_000_000 }),
-        422,
-        "2 <= samples <= 20000",
-    );
-    refuse("/api/run", json!({ "ghost": 1 }), 422, "0 < ghost <= 0.1");
-    refuse(
-        "/api/run",
-        json!({ "ghost": -1e-6 }),
-        422,
-        "0 < ghost <= 0.1",
+        "/api/export/nothing.csv",
+        [(json!({}), 404, Value::Null, "nothing")],
     );
     refuse(
-        "/api/run",
-        json!({ "value": {} }),
-        400,
-        "unknown field `value`",
+        "/api/export/trajectory.pdf",
+        [(json!({}), 404, Value::Null, "nothing")],
     );
-    refuse("/api/run", json!([]), 400, "the request");
+}
+
+#[test]
+fn maps_that_ask_for_too_much_are_refused() {
     let axis =
         |key: &str, count: i64| json!({ "key": key, "low": 0.1, "high": 0.2, "count": count });
     let map = |x: Value, y: Value| json!({ "values": {}, "x": x, "y": y });
+    let [x, y] = ["x", "y"].map(|key| json!(key));
     refuse(
         "/api/map",
-        map(axis("f_o", 201), axis("e", 2)),
-        422,
-        "x: count = 201 is not allowed",
+        [
+            (
+                map(axis("f_o", 201), axis("e", 2)),
+                422,
+                x,
+                "x: count = 201 is not allowed",
+            ),
+            (
+                map(axis("f_o", 2), axis("e", 0)),
+                422,
+                y.clone(),
+                "y: count = 0 is not allowed",
+            ),
+            (
+                map(axis("f_o", 2), axis("f_o", 2)),
+                422,
+                Value::Null,
+                "x and y are both f_o",
+            ),
+            (
+                map(axis("f_o", 2), axis("body", 2)),
+                422,
+                y.clone(),
+                "y: body holds no number",
+            ),
+            (
+                map(axis("f_o", 2), axis("fo", 2)),
+                422,
+                y,
+                "did you mean f_o",
+            ),
+            (
+                map(axis("f_o", -1), axis("e", 2)),
+                400,
+                Value::Null,
+                "the request",
+            ),
+        ],
     );
-    refuse(
-        "/api/map",
-        map(axis("f_o", 2), axis("e", 0)),
-        422,
-        "y: count = 0 is not allowed",
-    );
-    refuse(
-        "/api/map",
-        map(axis("f_o", 2), axis("f_o", 2)),
-        422,
-        "x and y are both f_o",
-    );
-    refuse(
-        "/api/map",
-        map(axis("f_o", 2), axis("body", 2)),
-        422,
-        "y: body holds no number",
-    );
-    refuse(
-        "/api/map",
-        map(axis("f_o", 2), axis("fo", 2)),
-        422,
-        "did you mean f_o",
-    );
-    refuse(
-        "/api/map",
-        map(axis("f_o", -1), axis("e", 2)),
-        400,
-        "the request",
-    );
-    refuse("/api/export/nothing.csv", json!({}), 404, "nothing");
-    refuse("/api/export/trajectory.pdf", json!({}), 404, "nothing");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! reached (chapter 6.4.2), and every other one that reaches it.
 
 use crate::analysis::outcomes::outcomes;
+use crate::analysis::progress::{OnProgress, Unfinished};
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::parameters::Parameters;
@@ -91,8 +92,12 @@ impl CriticalForce {
     /// Runs the case at every amplitude of the scan, on all threads that there are.
     ///
     /// # Errors
-    /// A [`CaseError`] if the case is not legal.
-    pub fn scan(parameters: &Parameters, scan: ForceScan) -> Result<Self, CaseError> {
+    /// A [`CaseError`] if the case is not legal, and [`Unfinished::Cancelled`].
+    pub fn scan(
+        parameters: &Parameters,
+        scan: ForceScan,
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
         let amplitudes: Vec<f64> = scan.amplitudes().collect();
         let case = |f_o: &f64| {
             Case::new(Parameters {
@@ -101,7 +106,8 @@ impl CriticalForce {
             })
         };
         let cases: Vec<Case> = amplitudes.iter().map(case).collect::<Result<_, _>>()?;
-        let outcomes: Vec<(f64, Outcome)> = amplitudes.into_iter().zip(outcomes(&cases)).collect();
+        let outcomes = outcomes(&cases, on_progress)?;
+        let outcomes: Vec<(f64, Outcome)> = amplitudes.into_iter().zip(outcomes).collect();
         let first = outcomes.iter().find(|(_, outcome)| outcome.exceeds());
         let exceeding = outcomes
             .chunk_by(|a, b| a.1.exceeds() == b.1.exceeds())
@@ -122,10 +128,11 @@ impl CriticalForce {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::progress::unwatched;
 
     #[test]
-    fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), CaseError> {
-        let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default())?;
+    fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), Unfinished> {
+        let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default(), &unwatched)?;
         let first = found.first.map(|first| (first.f_o, first.reason));
         assert_eq!(first, Some((0.31, Stop::RotationLimit)));
         let inside = |f_o: f64| {
@@ -157,14 +164,14 @@ mod tests {
     }
 
     #[test]
-    fn none_may_exceed() -> Result<(), CaseError> {
+    fn none_may_exceed() -> Result<(), Unfinished> {
         let calm = Parameters {
             e: 0.0,
             a: 0.5,
             inertia: Some(0.25),
             ..Parameters::STANDARD
         };
-        let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?)?;
+        let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?, &unwatched)?;
         assert_eq!((found.first, found.exceeding), (None, vec![]));
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! Neighbours of a case: what comes of it where one run can not tell.
 
+use crate::analysis::progress::{Counter, OnProgress, Unfinished};
 use crate::analysis::trust::{START_KEYS, Uncertainty};
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -10,7 +11,6 @@ use crate::motion::outcome::Outcome;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use std::ops::ControlFlow;
 
 /// A cloud of cases about one, drawn evenly from what its uncertainty allows.
 ///
@@ -112,37 +112,19 @@ impl Ensemble {
         given.map_or(0.0, |(_, size)| *size)
     }
 
-    /// Runs all members; `watch` is told of each, from any thread.
+    /// Runs all members, on all threads that there are.
     ///
     /// # Errors
-    /// A [`CaseError`] if a member could not be drawn.
-    pub fn tally(&self, watch: impl Fn() + Sync) -> Result<Tally, CaseError> {
-        let watch = || {
-            watch();
-            ControlFlow::Continue(())
-        };
-        // Without a break there is a tally, if only one of no members.
-        Ok(self
-            .tally_while(watch)?
-            .unwrap_or(Tally { ends: Vec::new() }))
-    }
-
-    /// The same, as long as `watch` lets it go on; none where it did not let it come to its end.
-    ///
-    /// # Errors
-    /// A [`CaseError`] if a member could not be drawn.
-    pub fn tally_while(
-        &self,
-        watch: impl Fn() -> ControlFlow<()> + Sync,
-    ) -> Result<Option<Tally>, CaseError> {
-        let ends: Option<Vec<Stop>> = (0..self.count)
-            .into_par_iter()
-            .map(|index| {
-                let outcome = Outcome::of(&self.member(index)?);
-                Ok(watch().is_continue().then_some(outcome.end.reason))
-            })
-            .collect::<Result<_, CaseError>>()?;
-        Ok(ends.map(|ends| Tally { ends }))
+    /// A [`CaseError`] if a member could not be drawn, and [`Unfinished::Cancelled`].
+    pub fn tally(&self, on_progress: OnProgress) -> Result<Tally, Unfinished> {
+        let counter = Counter::new("neighbours", 0, self.count.into(), on_progress);
+        let ends = (0..self.count).into_par_iter().map(|index| {
+            let outcome = Outcome::of(&self.member(index)?);
+            counter.add(1)?;
+            Ok(outcome.end.reason)
+        });
+        let ends = ends.collect::<Result<_, Unfinished>>()?;
+        Ok(Tally { ends })
     }
 }
 
@@ -215,6 +197,7 @@ const NORMAL_975: f64 = 1.959_963_984_540_054;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::progress::unwatched;
 
     /// Values of SciPy's `binomtest(count, of).proportion_ci(method="wilson")`.
     #[test]
@@ -259,13 +242,13 @@ mod tests {
 
     /// A start on a cable's end: half of the cloud is out of reach, and is drawn again.
     #[test]
-    fn illegal_neighbours_are_drawn_again() -> Result<(), CaseError> {
+    fn illegal_neighbours_are_drawn_again() -> Result<(), Unfinished> {
         let case = Case::new(Parameters {
             y: 0.0,
             ..Parameters::STANDARD
         })?;
         let ensemble = Ensemble::about(&case, &Uncertainty::of_start(1e-3), 50, 1);
-        let tally = ensemble.tally(|| {})?;
+        let tally = ensemble.tally(&unwatched)?;
         assert_eq!(tally.members(), 50);
         let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();
         assert_eq!(total, 50);

@@ -2,9 +2,9 @@
 
 use crate::analysis::critical::ForceScan;
 use crate::analysis::ensemble::{Ensemble, Share};
+use crate::analysis::progress::{OnProgress, Progress, Unfinished};
 use crate::analysis::trust::{Uncertainty, trusted_run};
 use crate::case::Case;
-use crate::case::error::CaseError;
 use crate::case::parameters::Parameters;
 
 /// The share of neighbours that exceed the limits, at every amplitude of a scan.
@@ -27,23 +27,31 @@ pub struct Exceeding {
 
 impl ExceedanceCurve {
     /// Runs `count` neighbours of the case at every amplitude; where the run itself is certain, it stands for
-    /// them all. `watch` is told how many amplitudes are done.
+    /// them all.
     ///
     /// # Errors
-    /// A [`CaseError`] if the case is not legal, or what is in doubt can not vary.
+    /// A [`crate::CaseError`] if the case is not legal, or what is uncertain can not vary, and
+    /// [`Unfinished::Cancelled`].
     pub fn scan(
         parameters: &Parameters,
         scan: ForceScan,
         uncertainty: &Uncertainty,
         count: u32,
         seed: u64,
-        mut watch: impl FnMut(usize),
-    ) -> Result<Self, CaseError> {
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        let all = scan.amplitudes().count() as f64;
         let mut points = Vec::new();
         for f_o in scan.amplitudes() {
-            points.push(exceeding(parameters, f_o, uncertainty, count, seed)?);
-            watch(points.len());
+            let progress = Progress::new("force amplitudes", points.len() as f64, all);
+            progress.tell(on_progress)?;
+            // Within an amplitude, too, it is asked whether to go on.
+            let within = |_: Progress| on_progress(progress);
+            let case = Case::new(Parameters { f_o, ..*parameters })?;
+            let ensemble = Ensemble::about(&case, uncertainty, count, seed);
+            points.push(exceeding(&case, &ensemble, &within)?);
         }
+        Progress::new("force amplitudes", all, all).tell(on_progress)?;
         Ok(Self { points })
     }
 
@@ -55,15 +63,11 @@ impl ExceedanceCurve {
 }
 
 fn exceeding(
-    parameters: &Parameters,
-    f_o: f64,
-    uncertainty: &Uncertainty,
-    count: u32,
-    seed: u64,
-) -> Result<Exceeding, CaseError> {
-    let case = Case::new(Parameters { f_o, ..*parameters })?;
-    let ensemble = Ensemble::about(&case, uncertainty, count, seed);
-    let (run, trust) = trusted_run(&case, ensemble.uncertainty())?;
+    case: &Case,
+    ensemble: &Ensemble,
+    on_progress: OnProgress,
+) -> Result<Exceeding, Unfinished> {
+    let (run, trust) = trusted_run(case, ensemble.uncertainty(), on_progress)?;
     let certain = trust.decides_the_end();
     let share = if certain {
         let all = ensemble.count as usize;
@@ -72,10 +76,10 @@ fn exceeding(
             of: all,
         }
     } else {
-        ensemble.tally(|| {})?.exceeding()
+        ensemble.tally(on_progress)?.exceeding()
     };
     Ok(Exceeding {
-        f_o,
+        f_o: case.parameters().f_o,
         share,
         certain,
     })

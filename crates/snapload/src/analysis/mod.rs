@@ -5,6 +5,7 @@ mod ensemble;
 mod exceedance;
 mod lyapunov;
 mod outcomes;
+mod progress;
 mod sensitivity;
 mod trust;
 mod verify;
@@ -14,6 +15,9 @@ pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, Share, Tally};
 pub use exceedance::{ExceedanceCurve, Exceeding};
 pub use lyapunov::Frame;
 pub use outcomes::{on_all_threads, outcomes};
+pub use progress::{
+    Cancelled, Counter, OnProgress, Progress, Unfinished, outcome, record, unwatched,
+};
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
 pub use trust::{
     Certainty, Graze, Horizon, HorizonCause, START_KEYS, Trust, TrustMonitor, UNCERTAIN_KEYS,

@@ -1,5 +1,6 @@
 //! What many runs come to, side by side and on all threads.
 
+use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
@@ -15,10 +16,13 @@ const TURNS: usize = 4;
 /// What `work` makes of the items, a result for each, in their order, on all threads that there are.
 ///
 /// A thread takes items from all over the list, as neighbours in a study take alike long, and a few very long.
-pub fn on_all_threads<I: Sync, R: Send>(
+///
+/// # Errors
+/// That of the work, which ends the rest of it.
+pub fn on_all_threads<I: Sync, R: Send, E: Send>(
     items: &[I],
-    work: impl Fn(&[&I]) -> Vec<R> + Sync,
-) -> Vec<R> {
+    work: impl Fn(&[&I]) -> Result<Vec<R>, E> + Sync,
+) -> Result<Vec<R>, E> {
     let (count, threads) = (items.len(), rayon::current_num_threads());
     let fewest = count.div_ceil(MOST_AT_ONCE).max(count.min(threads));
     let parts = count.div_ceil(FULL).min(TURNS * threads).max(fewest);
@@ -26,34 +30,44 @@ pub fn on_all_threads<I: Sync, R: Send>(
         .into_par_iter()
         .map(|part| {
             let mine: Vec<&I> = items.iter().skip(part).step_by(parts).collect();
-            let made = work(&mine);
+            let made = work(&mine)?;
             assert_eq!(made.len(), mine.len(), "every item has one result");
-            made
+            Ok(made)
         })
-        .collect();
+        .collect::<Result<_, E>>()?;
     let mut lists: Vec<_> = done.into_iter().map(Vec::into_iter).collect();
-    (0..count).filter_map(|k| lists[k % parts].next()).collect()
+    let all = (0..count).filter_map(|k| lists[k % parts].next());
+    Ok(all.collect())
 }
 
 /// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all threads that
 /// there are. Each has the bits that it has by itself.
-pub fn outcomes(cases: &[Case]) -> Vec<Outcome> {
+///
+/// # Errors
+/// [`Cancelled`] if the work is to end before.
+pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>, Cancelled> {
+    let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
     on_all_threads(cases, |cases| {
         let runs = cases.iter().map(|case| case.simulation());
-        Lanes::best().outcomes_of(runs).0
+        let outcomes = Lanes::best().outcomes_of(runs).0;
+        counter.add(outcomes.len() as u64)?;
+        Ok(outcomes)
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::convert::Infallible;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
     fn results_come_in_the_order_of_the_items() {
         for count in [0, 1, 2, 255, 256, 257, 5000] {
             let items: Vec<usize> = (0..count).collect();
-            let doubled =
-                super::on_all_threads(&items, |part| part.iter().map(|k| **k * 2).collect());
+            let doubled = super::on_all_threads(&items, |part| {
+                Ok::<_, Infallible>(part.iter().map(|k| **k * 2).collect())
+            });
+            let doubled = doubled.expect("it can not fail");
             assert!(doubled.iter().copied().eq(items.iter().map(|k| k * 2)));
         }
     }
@@ -62,12 +76,12 @@ mod tests {
     fn a_short_list_is_for_all_threads_too() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
         let calls = AtomicUsize::new(0);
-        pool.expect("threads").install(|| {
+        let done = pool.expect("threads").install(|| {
             super::on_all_threads(&[0; 6], |part| {
                 calls.fetch_add(1, Ordering::Relaxed);
-                part.iter().map(|item| **item).collect()
+                Ok::<_, Infallible>(part.iter().map(|item| **item).collect())
             })
         });
-        assert_eq!(calls.into_inner(), 3);
+        assert_eq!((done, calls.into_inner()), (Ok(vec![0; 6]), 3));
     }
 }

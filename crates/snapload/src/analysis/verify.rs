@@ -1,5 +1,6 @@
 //! Proof by more digits: the same motion again in multi-precision.
 
+use crate::analysis::progress::{OnProgress, Progress, Unfinished};
 use crate::analysis::trust::{Trust, Uncertainty, trusted_run};
 use crate::arithmetic::precise::Precise;
 use crate::arithmetic::real::Real;
@@ -41,47 +42,42 @@ pub struct Verification {
     pub impacts: usize,
 }
 
-/// Runs a case with at least `digits` decimal digits beside the ordinary run. `watch` is told the time
-/// reached after every step.
+/// Runs a case with at least `digits` decimal digits beside the ordinary run.
 ///
 /// The numbers of the case count as decimals: 0.1 is a tenth in the run with many digits, while the
 /// ordinary one begins with the double next to it.
 ///
 /// # Errors
 /// A [`CaseError`] if there are more digits asked for than [`MOST_DIGITS`], or if the start, on the very edge of
-/// what is legal, is illegal with more digits.
+/// what is legal, is illegal with more digits; and [`Unfinished::Cancelled`].
 pub fn verify(
     case: &Case,
     digits: u32,
     tolerance: f64,
-    watch: impl FnMut(f64),
-) -> Result<Verification, CaseError> {
+    on_progress: OnProgress,
+) -> Result<Verification, Unfinished> {
     if digits <= Precise::<4>::DIGITS {
-        with_words::<4>(case, tolerance, watch)
+        with_words::<4>(case, tolerance, on_progress)
     } else if digits <= Precise::<8>::DIGITS {
-        with_words::<8>(case, tolerance, watch)
+        with_words::<8>(case, tolerance, on_progress)
     } else if digits <= MOST_DIGITS {
-        with_words::<16>(case, tolerance, watch)
+        with_words::<16>(case, tolerance, on_progress)
     } else {
         let allowed = format!("1 <= digits <= {MOST_DIGITS}");
-        Err(CaseError::value(
-            "digits",
-            Value::Integer(digits.into()),
-            allowed,
-        ))
+        Err(CaseError::value("digits", Value::Integer(digits.into()), allowed).into())
     }
 }
 
 fn with_words<const WORDS: usize>(
     case: &Case,
     tolerance: f64,
-    mut watch: impl FnMut(f64),
-) -> Result<Verification, CaseError> {
+    on_progress: OnProgress,
+) -> Result<Verification, Unfinished> {
     let uncertainty = Uncertainty {
         tolerance,
         ..Uncertainty::default()
     };
-    let (run, trust) = trusted_run(case, &uncertainty)?;
+    let (run, trust) = trusted_run(case, &uncertainty, on_progress)?;
     let simulation = case.simulation_over(|_, number| Precise::<WORDS>::from_decimal(number));
     let mut simulation = simulation.map_err(|_| {
         let allowed = "a start that is legal with more digits, too; this one is on the very edge";
@@ -90,6 +86,7 @@ fn with_words<const WORDS: usize>(
     let mut differences = Vec::new();
     let mut first_wrong = None;
     let mut impacts = 0;
+    let t_end = case.parameters().t_end;
     while let Some(step) = simulation.step() {
         let stuck = simulation.stop().is_none() && !step.taut_after.is_empty();
         for exact in step.impacts() {
@@ -103,7 +100,8 @@ fn with_words<const WORDS: usize>(
             }
             impacts += 1;
         }
-        watch(simulation.time().to_f64());
+        let t = simulation.time().to_f64();
+        Progress::new("computing with many digits", t, t_end).tell(on_progress)?;
         if stuck {
             break;
         }

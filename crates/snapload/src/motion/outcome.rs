@@ -34,16 +34,10 @@ pub struct FirstImpact {
 
 impl Outcome {
     /// Of a simulation that is run to its end.
-    pub fn after(simulation: Simulation) -> Self {
-        Self::watched(simulation, |_, _| {})
-    }
-
-    /// The same; `watch` sees every step.
-    pub fn watched(mut simulation: Simulation, mut watch: impl FnMut(&Simulation, &Step)) -> Self {
+    pub fn after(mut simulation: Simulation) -> Self {
         let mut outcome = Self::begun(&simulation);
         while let Some(step) = simulation.step() {
             outcome.take(&step);
-            watch(&simulation, &step);
         }
         outcome.ended(&simulation)
     }

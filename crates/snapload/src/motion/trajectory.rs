@@ -75,7 +75,7 @@ pub(crate) const RHO2_UNTIL: f64 = 10.0;
 impl Trajectory {
     /// Runs a simulation to its end and keeps all of it.
     pub fn record(simulation: Simulation) -> Self {
-        Self::record_watched(simulation, |_, _| {})
+        Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
 
     /// The same; `watch` is shown the simulation after every step, and the step.
@@ -90,7 +90,8 @@ impl Trajectory {
         Self::record_until(simulation, watch).0
     }
 
-    /// The same, as long as `watch` lets it go on; none where it did not let it come to its end.
+    /// The same, as long as `watch`, which is shown the simulation after every step, and the step, lets it go on; none
+    /// where it did not let it come to its end.
     pub fn record_while(
         simulation: Simulation,
         watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,

@@ -218,12 +218,15 @@ impl<'a> Table<'a> {
 mod tests {
     use super::*;
     use crate::study::Both;
-    use snapload::analysis::{CriticalForce, ExceedanceCurve};
+    use snapload::analysis::{CriticalForce, ExceedanceCurve, unwatched};
 
     /// The standard case as a row that publishes this value, from few amplitudes.
     fn row(published: f64) -> Result<CriticalRow, CaseError> {
-        let scan =
-            || CriticalForce::scan(&chapter(Parameters::STANDARD), ForceScan::new(0.01, 0.4)?);
+        let force = ForceScan::new(0.01, 0.4)?;
+        let scan = || {
+            let found = CriticalForce::scan(&chapter(Parameters::STANDARD), force, &unwatched);
+            found.map_err(|_| CaseError::value("f_o", "", "a legal case"))
+        };
         let none = || ExceedanceCurve { points: Vec::new() };
         Ok(CriticalRow {
             r: 1.5,

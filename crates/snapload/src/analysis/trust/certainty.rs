@@ -36,15 +36,15 @@ impl Certainty {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::progress::{Unfinished, unwatched};
     use crate::analysis::trust::trusted_run;
-    use crate::case::error::CaseError;
     use crate::case::named::named_case;
 
     #[test]
-    fn certainty_is_that_of_the_trusted_run() -> Result<(), CaseError> {
+    fn certainty_is_that_of_the_trusted_run() -> Result<(), Unfinished> {
         for code in ["sliding-example", "rocking-example", "1910001000-359"] {
             let case = Case::new(named_case(code)?.parameters)?;
-            let (_, trust) = trusted_run(&case, &Uncertainty::default())?;
+            let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
             assert_eq!(Certainty::of(&case).horizon, trust.horizon);
         }
         Ok(())

@@ -14,8 +14,10 @@ mod monitor;
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;
 
+use crate::analysis::progress::{OnProgress, Unfinished, record};
 use crate::case::Case;
 use crate::case::error::CaseError;
+use crate::case::parameters::Parameters;
 use crate::case::schema::{Key, key_named};
 use crate::case::value::Value;
 use crate::motion::trajectory::Trajectory;
@@ -53,6 +55,26 @@ impl Uncertainty {
             start: [size; 6],
             ..Self::default()
         }
+    }
+
+    /// Sets the uncertainty of one key of a case, or of every start value where no key is named; 0 takes it back.
+    ///
+    /// # Errors
+    /// As for [`Uncertainty::set`], and if the case has no such start value.
+    pub fn set_for(
+        &mut self,
+        parameters: &Parameters,
+        key: Option<&str>,
+        size: f64,
+    ) -> Result<(), CaseError> {
+        let Some(key) = key else {
+            return START_KEYS.iter().try_for_each(|key| self.set(key, size));
+        };
+        if START_KEYS.contains(&key) && !parameters.moves_by(key) {
+            let allowed = "no uncertainty, as this case has no such quantity";
+            return Err(CaseError::value(key, Value::Number(size), allowed));
+        }
+        self.set(key, size)
     }
 
     /// Sets the uncertainty of one key; 0 takes it back.
@@ -187,32 +209,33 @@ impl Trust {
 /// Runs a case and says how far it can be trusted.
 ///
 /// ```
-/// use snapload::analysis::{Uncertainty, trusted_run};
+/// use snapload::analysis::{Uncertainty, trusted_run, unwatched};
 /// use snapload::{Case, Parameters};
 /// let case = Case::new(Parameters { f_o: 0.31, ..Parameters::STANDARD })?;
-/// let (run, trust) = trusted_run(&case, &Uncertainty::default())?;
+/// let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
 /// assert_eq!(run.impacts().len(), 12);
 /// assert!(trust.decides_the_end() && trust.errors[11] < 1e-12);
-/// # Ok::<(), snapload::CaseError>(())
+/// # Ok::<(), snapload::analysis::Unfinished>(())
 /// ```
 ///
 /// # Errors
-/// A [`CaseError`] if a key that is in doubt can not be varied about this start.
+/// A [`CaseError`] if a key that is in doubt can not be varied about this start, and [`Unfinished::Cancelled`].
 pub fn trusted_run(
     case: &Case,
     uncertainty: &Uncertainty,
-) -> Result<(Trajectory, Trust), CaseError> {
+    on_progress: OnProgress,
+) -> Result<(Trajectory, Trust), Unfinished> {
     let mut monitor = TrustMonitor::of_case(case, uncertainty)?;
-    let run = Trajectory::record_watched(case.simulation(), |simulation, step| {
+    let run = record(case.simulation(), on_progress, |simulation, step| {
         monitor.follow(simulation, step);
-    });
+    })?;
     Ok((run, monitor.verdict()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::parameters::Parameters;
+    use crate::analysis::progress::unwatched;
     use crate::motion::simulation::Simulation;
 
     /// Without forcing nothing depends on when a motion begins, its exponents neither.
@@ -253,7 +276,10 @@ mod tests {
                 ..Parameters::STANDARD
             };
             let case = Case::new(parameters).expect("legal");
-            trusted_run(&case, &uncertainty).expect("legal").1.errors[1]
+            trusted_run(&case, &uncertainty, &unwatched)
+                .expect("legal")
+                .1
+                .errors[1]
         };
         let natural = Parameters::STANDARD.inertia.expect("rigid");
         let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));

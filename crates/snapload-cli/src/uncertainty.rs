@@ -1,0 +1,84 @@
+//! What of a case is uncertain, as given on the command line.
+use crate::failure::Failure;
+use snapload::Case;
+use snapload::analysis::Uncertainty;
+
+/// What counts as known, as given on the command line.
+#[derive(clap::Args)]
+pub(crate) struct ToleranceArgs {
+    /// Error of state and time above which a result counts as not known
+    #[arg(
+        long,
+        value_name = "SIZE",
+        default_value_t = 1e-3,
+        allow_negative_numbers = true
+    )]
+    tolerance: f64,
+}
+
+impl ToleranceArgs {
+    /// Reads it.
+    pub(crate) fn read(&self) -> Result<f64, Failure> {
+        let tolerance = self.tolerance;
+        if tolerance > 0.0 && tolerance.is_finite() {
+            return Ok(tolerance);
+        }
+        Err(Failure::BadInput(format!(
+            "--tolerance {tolerance}: allowed is a number above 0, such as 1e-3"
+        )))
+    }
+}
+
+/// What is uncertain, as given on the command line.
+#[derive(clap::Args)]
+pub(crate) struct UncertaintyArgs {
+    /// How far every start value may be off, or one key; may be repeated
+    #[arg(long, value_name = "SIZE|KEY=SIZE", allow_negative_numbers = true)]
+    uncertainty: Vec<String>,
+    #[command(flatten)]
+    tolerance: ToleranceArgs,
+    /// Which neighbours an ensemble draws
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    seed: u64,
+}
+
+impl UncertaintyArgs {
+    /// Reads them and checks them against a case.
+    pub(crate) fn read(&self, case: &Case) -> Result<Uncertainty, Failure> {
+        let mut uncertainty = Uncertainty {
+            tolerance: self.tolerance.read()?,
+            ..Uncertainty::default()
+        };
+        let mut set = |text: &String| {
+            let (key, size) = parse(text)?;
+            let set = uncertainty.set_for(case.parameters(), key, size);
+            set.map_err(|error| Failure::bad_input(error).with_prefix("--uncertainty"))
+        };
+        self.uncertainty.iter().try_for_each(&mut set)?;
+        Ok(uncertainty)
+    }
+
+    /// Whether anything was said to be uncertain.
+    pub(crate) fn is_given(&self) -> bool {
+        !self.uncertainty.is_empty()
+    }
+
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
+    }
+}
+
+/// What one `--uncertainty` says: a key, or none for all start values, and a size.
+fn parse(text: &str) -> Result<(Option<&str>, f64), Failure> {
+    let (key, size) = match text.split_once('=') {
+        Some((key, size)) => (Some(key.trim()), size),
+        None => (None, text),
+    };
+    let size = size.trim().parse().map_err(|_| {
+        Failure::BadInput(format!(
+            "--uncertainty {text:?}: no number; write a number such as 1e-3 for all start values, or KEY=NUMBER such \
+             as f_o=0.01"
+        ))
+    })?;
+    Ok((key, size))
+}

@@ -1,0 +1,187 @@
+//! The one convention of long work: it tells how far it has come, and is told whether to go on.
+//!
+//! Whatever may take longer than a moment takes an [`OnProgress`] and calls it now and then, from any thread. Where
+//! that answers `Break` the work ends soon after, without an answer, as [`Cancelled`].
+
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::motion::outcome::Outcome;
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::trajectory::Trajectory;
+use std::fmt;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// How far some work has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress<'a> {
+    /// What is being done, in a word or two; work of several stages tells of one after the other.
+    pub doing: &'a str,
+    /// How much of it is done: a number of cases, or the time that a run has reached.
+    pub done: f64,
+    /// How much there is to do.
+    pub of: f64,
+}
+
+/// Who is told of the progress, and answers whether to go on.
+pub type OnProgress<'a> = &'a (dyn Fn(Progress<'_>) -> ControlFlow<()> + Sync);
+
+/// For work that nobody watches: it always goes on.
+pub fn unwatched(_: Progress<'_>) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// The work was told to end before it had an answer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cancelled {
+    /// How much was done by then.
+    pub done: f64,
+}
+
+/// Why work that can fail has no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unfinished {
+    /// It was told to end.
+    Cancelled(Cancelled),
+    /// A case is not legal.
+    Case(CaseError),
+}
+
+impl fmt::Display for Cancelled {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("cancelled")
+    }
+}
+
+impl std::error::Error for Cancelled {}
+
+impl fmt::Display for Unfinished {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cancelled(cancelled) => cancelled.fmt(f),
+            Self::Case(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Unfinished {}
+
+impl From<Cancelled> for Unfinished {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Cancelled(cancelled)
+    }
+}
+
+impl From<CaseError> for Unfinished {
+    fn from(error: CaseError) -> Self {
+        Self::Case(error)
+    }
+}
+
+impl<'a> Progress<'a> {
+    /// So much of it.
+    pub fn new(doing: &'a str, done: f64, of: f64) -> Self {
+        Self { doing, done, of }
+    }
+
+    /// Tells of it.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work is to end.
+    pub fn tell(self, on_progress: OnProgress) -> Result<(), Cancelled> {
+        match on_progress(self) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(Cancelled { done: self.done }),
+        }
+    }
+}
+
+/// Counts what is done of many, on any thread, and tells of it.
+pub struct Counter<'a> {
+    doing: &'a str,
+    done: AtomicU64,
+    of: u64,
+    on_progress: OnProgress<'a>,
+}
+
+impl<'a> Counter<'a> {
+    /// Of so many, `done` of which are done already.
+    pub fn new(doing: &'a str, done: u64, of: u64, on_progress: OnProgress<'a>) -> Self {
+        Self {
+            doing,
+            done: AtomicU64::new(done),
+            of,
+            on_progress,
+        }
+    }
+
+    /// So many more are done; with 0 only asks whether to go on.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work is to end.
+    pub fn add(&self, more: u64) -> Result<(), Cancelled> {
+        let done = self.done.fetch_add(more, Ordering::Relaxed) + more;
+        Progress::new(self.doing, done as f64, self.of as f64).tell(self.on_progress)
+    }
+}
+
+/// A run tells of its progress after so many steps: often enough to be ended at once, seldom enough to cost nothing.
+const STEPS: u32 = 64;
+
+/// Tells how far a run has come.
+struct RunProgress<'a> {
+    steps: u32,
+    reached: f64,
+    on_progress: OnProgress<'a>,
+}
+
+impl<'a> RunProgress<'a> {
+    fn new(on_progress: OnProgress<'a>) -> Self {
+        Self {
+            steps: 0,
+            reached: 0.0,
+            on_progress,
+        }
+    }
+
+    fn step(&mut self, simulation: &Simulation) -> ControlFlow<()> {
+        self.steps = self.steps.wrapping_add(1);
+        if !self.steps.is_multiple_of(STEPS) {
+            return ControlFlow::Continue(());
+        }
+        self.reached = simulation.time();
+        let progress = Progress::new("running", self.reached, simulation.rules().t_end);
+        (self.on_progress)(progress)
+    }
+
+    fn cancelled(&self) -> Cancelled {
+        Cancelled { done: self.reached }
+    }
+}
+
+/// Runs a simulation to its end and keeps all of it; `see` is shown the simulation after every step, and the step.
+///
+/// # Errors
+/// [`Cancelled`] if it is to end before.
+pub fn record(
+    simulation: Simulation,
+    on_progress: OnProgress,
+    mut see: impl FnMut(&Simulation, &Step),
+) -> Result<Trajectory, Cancelled> {
+    let mut progress = RunProgress::new(on_progress);
+    let run = Trajectory::record_while(simulation, |simulation, step| {
+        see(simulation, step);
+        progress.step(simulation)
+    });
+    run.ok_or_else(|| progress.cancelled())
+}
+
+/// What the run of a case comes to.
+///
+/// # Errors
+/// [`Cancelled`] if it is to end before.
+pub fn outcome(case: &Case, on_progress: OnProgress) -> Result<Outcome, Cancelled> {
+    let mut progress = RunProgress::new(on_progress);
+    let outcome = Outcome::of_while(case, |simulation| progress.step(simulation));
+    outcome.ok_or_else(|| progress.cancelled())
+}
