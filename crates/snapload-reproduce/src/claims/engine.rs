@@ -35,10 +35,10 @@ pub(super) fn tension_residual(run: &Trajectory, taut: usize) -> (f64, usize) {
 pub(super) fn moment_of(run: &Trajectory, motion: &Motion) -> Moment {
     let system = run.system();
     let [a, b, r] = system.cables.first().map_or([0.0; 3], |cable| {
-        let [a, b] = cable.fairlead();
+        let [a, b] = cable.fairlead().components();
         [a, b, cable.length()]
     });
-    let [fx, fy] = system.forcing.at(motion.t);
+    let [fx, fy] = system.forcing.at(motion.t).components();
     let state = &motion.state;
     Moment {
         mooring: Mooring {

@@ -139,7 +139,7 @@ fn parts_pass_first(study: &Study) -> Result<Finding, CaseError> {
                 ..State::default()
             })
         };
-        let level = system.cables.first().map_or(f64::NAN, |c| c.anchor()[1]);
+        let level = system.cables.first().map_or(f64::NAN, |c| c.anchor().y);
         let stopped = end.reason == Stop::UpperBound;
         let below = stopped.then_some(level - end.state.y);
         (range((-90..=90).map(top)).0, below)

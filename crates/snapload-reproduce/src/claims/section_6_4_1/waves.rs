@@ -252,7 +252,7 @@ fn harder_and_other(run: &Trajectory) -> [[f64; 2]; 2] {
             .system()
             .cables
             .get(hit.cable)
-            .map(|cable| cable.lever(s, c));
+            .map(|cable| cable.lever(s, c).components());
         let [x, y] = lever.unwrap_or_default();
         let turn = hit.before.vtheta;
         (hit.before.vx - turn * y).hypot(hit.before.vy + turn * x)
@@ -354,14 +354,14 @@ fn braided(members: &Members) -> Claim {
 /// since the one before it, with its snap velocity.
 fn pushes(run: &Trajectory) -> Vec<([f64; 2], f64)> {
     let system = run.system();
-    let [_, weight] = system.forcing.constant;
+    let weight = system.forcing.constant.y;
     let push = |hit: &Impact, t: f64| {
         let normal = system
             .cables
             .get(hit.cable)
-            .map(|c| c.normal(&hit.before).n);
+            .map(|c| c.normal(&hit.before).n.components());
         let [nx, ny] = normal.unwrap_or_default();
-        let [fx, fy] = system.forcing.at(t);
+        let [fx, fy] = system.forcing.at(t).components();
         nx * fx + ny * (fy - weight)
     };
     let pairs = run.impacts().windows(2).filter_map(|pair| match pair {

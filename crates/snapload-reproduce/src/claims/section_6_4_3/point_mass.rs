@@ -131,7 +131,7 @@ fn slack_at_start() -> Result<Finding, CaseError> {
     let slack = |case: &Case| {
         let simulation = case.simulation();
         let spans = simulation.system().cables.iter().map(|cable| {
-            let [x, y] = cable.span(simulation.state());
+            let [x, y] = cable.span(simulation.state()).components();
             cable.length() - x.hypot(y)
         });
         range(spans).0

@@ -19,10 +19,10 @@ fn push(run: &Trajectory, now: &Motion) -> f64 {
     let system = run.system();
     let cable = now.taut.iter().next().and_then(|k| system.cables.get(k));
     let [nx, ny] = cable
-        .map(|cable| cable.normal(&now.state).n)
+        .map(|cable| cable.normal(&now.state).n.components())
         .unwrap_or_default();
-    let [fx, fy] = system.forcing.at(now.t);
-    nx * fx + ny * (fy - system.forcing.constant[1])
+    let [fx, fy] = system.forcing.at(now.t).components();
+    nx * fx + ny * (fy - system.forcing.constant.y)
 }
 
 /// What becomes of the slides of many runs.

@@ -108,7 +108,10 @@ fn newton(
     for _ in 0..12 {
         let (sine, cosine) = state.theta.sin_cos();
         let mut rows = system.cables.iter().map(|cable| {
-            let row = slope(cable.span(state), cable.lever(sine, cosine));
+            let row = slope(
+                cable.span(state).components(),
+                cable.lever(sine, cosine).components(),
+            );
             (row, 0.5 * cable.gap(state))
         });
         let (Some(([a, b], p)), Some(([c, d], q))) = (rows.next(), rows.next()) else {
@@ -197,8 +200,8 @@ fn horizontal(weak: &Weak) -> Finding {
         .iter()
         .filter(|now| now.state.vtheta.abs() > 1e-3)
     {
-        let [f_x, f_y] = run.system().forcing.at(now.t);
-        let [_, weight] = run.system().forcing.constant;
+        let [f_x, f_y] = run.system().forcing.at(now.t).components();
+        let weight = run.system().forcing.constant.y;
         along += (f_x * now.state.vx / now.state.vtheta).powi(2);
         up += ((f_y - weight) * now.state.vy / now.state.vtheta).powi(2);
     }
