@@ -164,8 +164,8 @@ impl Geometry {
             b: parameters.b,
         };
         let cables = system.cables.iter().map(|cable| CableGeometry {
-            anchor: cable.anchor(),
-            arm: cable.fairlead(),
+            anchor: cable.anchor().components(),
+            arm: cable.fairlead().components(),
             length: cable.length(),
         });
         Self {

@@ -5,7 +5,7 @@ use crate::error::FigureError;
 use crate::figures::{self, Leg, Mode};
 use crate::picture::Picture;
 use crate::plot::{Mark, Plot, Point, Range, Width};
-use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory};
+use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
 
 /// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
 const STEP: f64 = 0.01;
@@ -213,7 +213,7 @@ fn boundary(run: &Trajectory, cable: usize) -> Vec<Point> {
     let Some(tether) = run.system().cables.get(cable) else {
         return Vec::new();
     };
-    let (anchor, fairlead) = (tether.anchor(), tether.fairlead());
+    let [anchor, fairlead] = [tether.anchor(), tether.fairlead()].map(Vector2::components);
     let centre = [anchor[0] - fairlead[0], anchor[1] - fairlead[1]];
     // The arc on the far side of the anchor, which passes through x = y = 0.
     let outward = match centre[0] {

@@ -6,7 +6,7 @@ use snapload::analysis::{
     unwatched,
 };
 use snapload::{
-    Case, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
+    Case, CaseError, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
 };
 
 /// How a run that begins to slide is read.
@@ -327,7 +327,7 @@ fn curve(
 fn up_to_exceeding(
     parameters: &Parameters,
     scan: ForceScan,
-) -> Result<Vec<(f64, Outcome)>, Unfinished> {
+) -> Result<Vec<(f64, Outcome)>, CaseError> {
     let mut outcomes = Vec::new();
     for f_o in scan.amplitudes() {
         let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
@@ -343,7 +343,7 @@ fn up_to_exceeding(
 pub(crate) fn first_exceeding(
     parameters: &Parameters,
     scan: ForceScan,
-) -> Result<Option<(f64, Stop)>, Unfinished> {
+) -> Result<Option<(f64, Stop)>, CaseError> {
     let last = up_to_exceeding(parameters, scan)?.pop();
     let exceeding = last.filter(|(_, outcome)| outcome.exceeds());
     Ok(exceeding.map(|(f_o, outcome)| (f_o, outcome.end.reason)))

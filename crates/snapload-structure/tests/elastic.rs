@@ -155,7 +155,7 @@ fn energy_is_kept_or_lost() {
                 .iter()
                 .zip(&prepared.model.system.cables)
                 .map(|(spring, cable)| {
-                    let [u, v] = cable.span(state);
+                    let [u, v] = cable.span(state).components();
                     let stretch = (u.hypot(v) - cable.length()).max(0.0);
                     0.5 * spring.rate * stretch * stretch
                 });

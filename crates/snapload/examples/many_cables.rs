@@ -19,7 +19,7 @@ fn main() -> Result<(), StartError> {
         body: Body::rigid(Shape::Circle { radius }, 0.5 * radius * radius),
         cables: cables.collect(),
         forcing: Forcing {
-            constant: [0.0, -1.0],
+            constant: [0.0, -1.0].into(),
             harmonics: vec![Harmonic::ellipse(0.4, 0.3, 1.7)],
         },
         drag: None,

@@ -11,7 +11,7 @@ fn main() -> Result<(), StartError> {
         body: Body::point(),
         cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
         forcing: Forcing {
-            constant: [0.0, -1.0],
+            constant: [0.0, -1.0].into(),
             harmonics: Vec::new(),
         },
         drag: None,

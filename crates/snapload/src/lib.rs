@@ -29,7 +29,7 @@ mod case;
 mod model;
 mod motion;
 
-pub use arithmetic::{dual::Dual, precise::Precise, real::Real};
+pub use arithmetic::{dual::Dual, plane::Vector2, precise::Precise, real::Real};
 pub use batch::lanes::{Lanes, Usage};
 pub use case::Case;
 pub use case::error::{CaseError, Fault};

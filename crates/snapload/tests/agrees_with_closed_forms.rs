@@ -12,7 +12,7 @@ fn string(length: f64, weight: f64, restitution: f64) -> System {
         body: Body::point(),
         cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], length)],
         forcing: Forcing {
-            constant: [0.0, -weight],
+            constant: [0.0, -weight].into(),
             harmonics: vec![],
         },
         drag: None,

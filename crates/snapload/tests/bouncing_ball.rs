@@ -35,11 +35,11 @@ impl Table {
                 Self::CABLE,
             )],
             forcing: Forcing {
-                constant: [0.0, -1.0],
+                constant: [0.0, -1.0].into(),
                 harmonics: vec![Harmonic {
                     omega: self.omega,
-                    cosine: [0.0, 0.0],
-                    sine: [0.0, self.gamma],
+                    cosine: [0.0, 0.0].into(),
+                    sine: [0.0, self.gamma].into(),
                 }],
             },
             drag: None,

@@ -201,7 +201,7 @@ fn towards_a_graze(depth: f64) -> (System, State) {
         body: Body::rigid(Shape::Point, inertia),
         cables: vec![Cable::new([0.0, 0.0], arms, length)],
         forcing: Forcing {
-            constant: [0.0, -weight],
+            constant: [0.0, -weight].into(),
             harmonics: vec![],
         },
         drag: None,
@@ -210,7 +210,7 @@ fn towards_a_graze(depth: f64) -> (System, State) {
     let (angle, theta, along, spin, before): (f64, f64, f64, f64, f64) = (1.2, 0.4, 0.4, 0.7, 0.5);
     let n = [angle.cos(), angle.sin()];
     let (sine, cosine) = theta.sin_cos();
-    let lever = system.cables[0].lever(sine, cosine);
+    let lever = system.cables[0].lever(sine, cosine).components();
     let centre = [0, 1].map(|i| n[i] * (length + depth) - lever[i]);
     // Ṗ = (ẋ, ẏ) + θ̇ (−ρ_y, ρ_x) is along the circle.
     let velocity = [
@@ -282,11 +282,11 @@ fn derivatives_grow_towards_a_graze() {
         assert!(alpha > 0.5 && v_n < 0.2, "it slows down where it snaps");
         let inverse_inertia = system.body.inverse_inertia();
         let w = 1.0 + arm * arm * inverse_inertia;
-        let g = [n[0], n[1], arm];
+        let g = [n.x, n.y, arm];
         let recoil = (1.0 + system.restitution) * alpha / w;
         let kick = [
-            free[0] + recoil * n[0],
-            free[1] + recoil * n[1],
+            free[0] + recoil * n.x,
+            free[1] + recoil * n.y,
             recoil * arm * inverse_inertia,
         ];
         // In ordinary numbers v_n is the root of a depth that is known to some roundings.

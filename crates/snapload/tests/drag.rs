@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
     Body, Cable, Drag, Forcing, Harmonic, Rules, Shape, Simulation, State, System, Tangent,
-    Trajectory,
+    Trajectory, Vector2,
 };
 
 const NO_DRAG: Drag = Drag {
@@ -23,7 +23,7 @@ fn falling(force: [f64; 2], drag: Drag) -> System {
         body: Body::point(),
         cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1e3)],
         forcing: Forcing {
-            constant: force,
+            constant: force.into(),
             harmonics: vec![],
         },
         drag: Some(drag),
@@ -108,8 +108,8 @@ fn a_body_that_moves_with_the_water_feels_nothing() {
     let wave = Harmonic::with_phases(1.3, [0.4, 0.25], [0.3, 1.1]);
     let Harmonic {
         omega,
-        cosine: [cx, cy],
-        sine: [dx, dy],
+        cosine: Vector2 { x: cx, y: cy },
+        sine: Vector2 { x: dx, y: dy },
     } = wave;
     let mut system = falling(
         [0.0, 0.0],
@@ -123,8 +123,8 @@ fn a_body_that_moves_with_the_water_feels_nothing() {
     // w = c cos Ωt + d sin Ωt, so ẇ = Ωd cos Ωt − Ωc sin Ωt.
     system.forcing.harmonics = vec![Harmonic {
         omega,
-        cosine: [omega * dx, omega * dy],
-        sine: [-omega * cx, -omega * cy],
+        cosine: [omega * dx, omega * dy].into(),
+        sine: [-omega * cx, -omega * cy].into(),
     }];
     let start = State {
         vx: cx,

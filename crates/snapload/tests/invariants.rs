@@ -267,7 +267,7 @@ fn work_of_forcing(run: &Trajectory) -> f64 {
         (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     ];
     let waves = Forcing {
-        constant: [0.0; 2],
+        constant: [0.0; 2].into(),
         harmonics: run.system().forcing.harmonics.clone(),
     };
     let fastest = waves
@@ -300,7 +300,7 @@ fn work_of_forcing(run: &Trajectory) -> f64 {
             for (node, weight) in NODES {
                 let t = middle + half * node;
                 let State { vx, vy, .. } = playback.at(t).state;
-                let [fx, fy] = waves.at(t);
+                let [fx, fy] = waves.at(t).components();
                 work += half * weight * (fx * vx + fy * vy);
             }
         }

@@ -8,6 +8,7 @@ use proptest::test_runner::RngSeed;
 use snapload::analysis::Frame;
 use snapload::{
     Body, Cable, Forcing, Harmonic, Matrix, Rules, Shape, Simulation, State, Step, System, Tangent,
+    Vector2,
 };
 
 /// A rigid body within the reach of one cable or two, and its start.
@@ -30,18 +31,18 @@ fn systems(restitution: BoxedStrategy<f64>) -> impl Strategy<Value = (System, St
             };
             let cable = |((x, y, slack), (a, b)): ((f64, f64, f64), (f64, f64))| {
                 let shortest = Cable::new([x, y], [a, b], 1.0).span(&state);
-                Cable::new([x, y], [a, b], shortest[0].hypot(shortest[1]) + slack)
+                Cable::new([x, y], [a, b], shortest.x.hypot(shortest.y) + slack)
             };
             let harmonic = |(omega, cx, cy, sx, sy): (f64, f64, f64, f64, f64)| Harmonic {
                 omega,
-                cosine: [cx, cy],
-                sine: [sx, sy],
+                cosine: [cx, cy].into(),
+                sine: [sx, sy].into(),
             };
             let system = System {
                 body: Body::rigid(Shape::Point, inertia),
                 cables: std::iter::once(first).chain(second).map(cable).collect(),
                 forcing: Forcing {
-                    constant: [fx, fy],
+                    constant: [fx, fy].into(),
                     harmonics: wave.into_iter().map(harmonic).collect(),
                 },
                 drag: None,
@@ -147,7 +148,7 @@ fn saltation(system: &System, cable: &Cable, step: &Step) -> Matrix {
         system.body.inverse_inertia(),
     );
     let (sine, cosine) = q.theta.sin_cos();
-    let ([a, b], anchor) = (cable.fairlead(), cable.anchor());
+    let [[a, b], anchor] = [cable.fairlead(), cable.anchor()].map(Vector2::components);
     let lever = [a * cosine - b * sine, a * sine + b * cosine];
     let span = [q.x + lever[0] - anchor[0], q.y + lever[1] - anchor[1]];
     let r = span[0].hypot(span[1]);
@@ -182,7 +183,7 @@ fn saltation(system: &System, cable: &Cable, step: &Step) -> Matrix {
         }
     }
     let force = system.forcing.at(step.t_end);
-    let rate = |s: &State| [s.vx, s.vy, s.vtheta, force[0], force[1], 0.0];
+    let rate = |s: &State| [s.vx, s.vy, s.vtheta, force.x, force.y, 0.0];
     let (before, after) = (rate(&step.before), rate(&step.after));
     let mut s = d_r;
     for i in 0..6 {

@@ -31,7 +31,7 @@ fn systems(forced: bool) -> impl Strategy<Value = System> {
                 body: Body::rigid(Shape::Circle { radius: 0.3 }, 0.05),
                 cables: cables.iter().map(cable).collect(),
                 forcing: Forcing {
-                    constant: [0.0, -1.0],
+                    constant: [0.0, -1.0].into(),
                     harmonics: vec![Harmonic::ellipse(f_o, wave.1, wave.2)],
                 },
                 drag: None,
@@ -82,8 +82,8 @@ fn holds(run: &Trajectory) -> Result<(), TestCaseError> {
             let left = normal.velocity(after) + e * row.v_n;
             prop_assert!(left.abs() < 1e-7 * speed, "{left} {row:?}");
             momentum = [
-                momentum[0] - row.impulse * normal.n[0],
-                momentum[1] - row.impulse * normal.n[1],
+                momentum[0] - row.impulse * normal.n.x,
+                momentum[1] - row.impulse * normal.n.y,
             ];
         }
         prop_assert!(
@@ -142,7 +142,7 @@ fn parallel_tethers_share_an_impact_evenly() {
         body: Body::rigid(Shape::Circle { radius: 0.3 }, 0.05),
         cables: [-0.3, -0.1, 0.1, 0.3].map(tether).to_vec(),
         forcing: Forcing {
-            constant: [0.0, -1.0],
+            constant: [0.0, -1.0].into(),
             harmonics: Vec::new(),
         },
         drag: None,
@@ -245,7 +245,7 @@ fn parallel_tethers_swing_as_one_pendulum() {
             body: Body::rigid(Shape::Circle { radius: 0.3 }, 0.05),
             cables: lines.iter().map(|x| tether(*x)).collect(),
             forcing: Forcing {
-                constant: [0.0, -1.0],
+                constant: [0.0, -1.0].into(),
                 harmonics: Vec::new(),
             },
             drag: None,
@@ -324,7 +324,7 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                     body: Body::rigid(Shape::Circle { radius: 0.3 }, 0.02),
                     cables: lines.iter().map(cable).collect(),
                     forcing: Forcing {
-                        constant: [0.0, -1.0],
+                        constant: [0.0, -1.0].into(),
                         harmonics: vec![Harmonic::ellipse(f_o, nu, omega)],
                     },
                     drag: None,

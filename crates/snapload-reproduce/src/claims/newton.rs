@@ -81,13 +81,13 @@ impl Moment {
     /// Of a run.
     fn of(run: &Trajectory, now: &Motion) -> Self {
         let (system, [x, y, theta, vx, vy, vtheta]) = (run.system(), now.state.components());
-        let ([a, b], r) = (system.cables[0].fairlead(), system.cables[0].length());
-        let (i, [fx, fy]) = (system.body.inertia(), system.forcing.at(now.t));
+        let ([a, b], r) = (system.cables[0].fairlead().components(), system.cables[0].length());
+        let (i, [fx, fy]) = (system.body.inertia(), system.forcing.at(now.t).components());
         Self {
             sizes: Sizes { a, b, r, i },
             place: [x, y, theta],
             velocity: [vx, vy, vtheta],
-            force: [fx, fy - system.forcing.constant[1]],
+            force: [fx, fy - system.forcing.constant.y],
         }
     }
 
@@ -96,7 +96,7 @@ impl Moment {
         let [x, y, theta] = [0, 1, 2].map(|k| jet([self.place[k], velocity[k], 0.0]));
         let zero = Jet::default();
         let state = State::from_components([x, y, theta, zero, zero, zero]);
-        let [x, y] = self.sizes.cable(side).span(&state);
+        let [x, y] = self.sizes.cable(side).span(&state).components();
         derivatives(x * x + y * y - self.sizes.r * self.sizes.r)
     }
 

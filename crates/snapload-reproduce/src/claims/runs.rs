@@ -286,15 +286,15 @@ pub(super) fn clear(run: &Trajectory) -> impl Iterator<Item = &Impact> + Clone {
 
 /// The push of the wave at a time on a body in some state, away from the anchor of a cable.
 pub(super) fn push(system: &System, cable: usize, t: f64, state: &State) -> f64 {
-    let [nx, ny] = system.cables[cable].normal(state).n;
-    let [fx, fy] = system.forcing.at(t);
-    nx * fx + ny * (fy - system.forcing.constant[1])
+    let [nx, ny] = system.cables[cable].normal(state).n.components();
+    let [fx, fy] = system.forcing.at(t).components();
+    nx * fx + ny * (fy - system.forcing.constant.y)
 }
 
 /// The speed of the point of the body to which a cable is attached.
 pub(super) fn attachment_speed(system: &System, cable: usize, state: &State) -> f64 {
     let (s, c) = state.theta.sin_cos();
-    let [x, y] = system.cables[cable].lever(s, c);
+    let [x, y] = system.cables[cable].lever(s, c).components();
     (state.vx - state.vtheta * y).hypot(state.vy + state.vtheta * x)
 }
 

@@ -5,7 +5,9 @@ use crate::ReportError;
 use crate::source::Number;
 use crate::study::Study;
 use serde::Deserialize;
-use snapload::{Case, ModeInterval, Motion, Playback, System, TautSet, Trajectory, named_case};
+use snapload::{
+    Case, ModeInterval, Motion, Playback, System, TautSet, Trajectory, Vector2, named_case,
+};
 use snapload_figures::{Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -205,7 +207,8 @@ impl Drawing<'_> {
     /// Anchor and fairlead of a cable.
     fn ends(&self, cable: usize) -> (Point, Point) {
         let cable = &self.system.cables[cable];
-        (cable.anchor(), self.placed(cable.fairlead()))
+        let [anchor, fairlead] = [cable.anchor(), cable.fairlead()].map(Vector2::components);
+        (anchor, self.placed(fairlead))
     }
 
     /// The taut cable, or the first of two.
@@ -226,8 +229,8 @@ impl Drawing<'_> {
     /// Forces and displacements: name, from where, by how much.
     fn arrows(&self, marks: Marks) -> Vec<(&'static str, Point, Point)> {
         let forcing = &self.system.forcing;
-        let constant = forcing.constant[1] * PER_FORCE;
-        let [fx, fy] = forcing.at(self.motion.t);
+        let constant = forcing.constant.y * PER_FORCE;
+        let [fx, fy] = forcing.at(self.motion.t).components();
         let [fx, fy] = [fx * PER_FORCE, fy * PER_FORCE - constant];
         let centre = self.centre();
         let tension = |cable: usize| {

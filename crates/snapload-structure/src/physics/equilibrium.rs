@@ -129,7 +129,7 @@ fn starts(structure: &Structure, unit_m: f64) -> Vec<State> {
 /// The row (n_x, n_y, s) of a line.
 fn row(system: &System, line: usize, at: &State) -> Vector3<f64> {
     let normal = system.cables[line].normal(at);
-    Vector3::new(normal.n[0], normal.n[1], normal.arm)
+    Vector3::new(normal.n.x, normal.n.y, normal.arm)
 }
 
 fn moved(at: &State, step: &Vector3<f64>) -> State {

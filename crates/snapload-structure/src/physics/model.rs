@@ -142,7 +142,7 @@ impl Model {
             body: Body::rigid(shape, groups.inertia),
             cables: cables.collect(),
             forcing: Forcing {
-                constant: [0.0, -1.0],
+                constant: [0.0, -1.0].into(),
                 harmonics: waves.iter().map(force).collect(),
             },
             drag: drag(structure, &scales, &waves, groups.inertia),
@@ -183,10 +183,10 @@ impl Model {
 
     /// The force of the waves at a time, `[x, z]` \[N\].
     pub fn wave_force_n(&self, t_s: f64) -> [f64; 2] {
-        let [x, y] = self.system.forcing.at(t_s / self.scales.time_s);
-        let buoyancy = self.system.forcing.constant;
-        let f = self.scales.force_n;
-        [f * (x - buoyancy[0]), -f * (y - buoyancy[1])]
+        let forcing = &self.system.forcing;
+        let force = forcing.at(t_s / self.scales.time_s) - forcing.constant;
+        let unit = self.scales.force_n;
+        [unit * force.x, -unit * force.y]
     }
 }
 
@@ -258,8 +258,8 @@ fn sinusoid(
     let (x, y) = (structure.heading * per * wave.a_x_m_s2, per * wave.a_z_m_s2);
     Harmonic {
         omega: wave.omega_rad_s * scales.time_s,
-        cosine: [x * cosine, y * sine],
-        sine: [-x * sine, y * cosine],
+        cosine: [x * cosine, y * sine].into(),
+        sine: [-x * sine, y * cosine].into(),
     }
 }
 

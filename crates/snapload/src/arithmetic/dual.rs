@@ -6,9 +6,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A number a with its derivatives a' with respect to N quantities: a + Σ a'_i ε_i, ε_i ε_j = 0.
 ///
-/// Put into the laws of motion it yields what is otherwise derived by hand. At an event, too: the last
-/// step of the search, s − f/ḟ, has the derivative −f'/ḟ of the implicit function theorem, so what
-/// follows is the saltation matrix (Müller 1995) without its being written down.
+/// Put into the laws of motion it yields what is otherwise derived by hand. At an event, too: the
+/// last step of the search, s − f/ḟ, has the derivative −f'/ḟ of the implicit function theorem, so
+/// the saltation matrix (Müller 1995) follows without being written down.
 ///
 /// Comparisons look at the number alone, so a motion over dual numbers takes the same turns, with
 /// the same bits, as the ordinary one.
@@ -234,7 +234,8 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
 /// Below this the slopes of the versines are taken from their series, where the quotients cancel.
 const SMALL_ANGLE: f64 = 0.5;
 
-/// (C', S') by their series: C' = Σ (−1)^k 2k z^{2k−1}/(2k + 2)!, S' = Σ (−1)^k (2k + 1) z^{2k}/(2k + 3)!.
+/// (C', S') by their series:
+/// C' = Σ (−1)^k 2k z^{2k−1}/(2k + 2)!, S' = Σ (−1)^k (2k + 1) z^{2k}/(2k + 3)!.
 fn versine_slopes<T: Real>(z: T) -> (T, T) {
     let square = z * z;
     let (mut even, mut odd) = (T::ZERO, T::ZERO);

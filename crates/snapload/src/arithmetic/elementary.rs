@@ -1,9 +1,9 @@
 //! Sine and cosine of doubles, by plain arithmetic in a fixed order.
 //!
 //! Two polynomials serve all: E and O with (1 − cos z)/z² = E(z²) and (z − sin z)/z³ = O(z²) for
-//! |z| ≤ 1.6. They are best approximations (Remez exchange at 60 digits) with the first coefficient of
-//! the Taylor series held; their relative errors are below 4e-17 and 6e-18, a sixth of a rounding. The
-//! terms are added by Estrin's scheme, which lets a processor do several at once.
+//! |z| ≤ 1.6. They are best approximations (Remez exchange at 60 digits) with the first coefficient
+//! of the Taylor series held; their relative errors are below 4e-17 and 6e-18, a sixth of a
+//! rounding. The terms are added by Estrin's scheme, which lets a processor do several at once.
 
 use crate::arithmetic::lane::{Lane, Mask};
 
@@ -31,16 +31,34 @@ const ODD: [f64; 8] = [
     -2.728_493_330_434_836e-15,
 ];
 
-/// Doubles, one or several.
+/// Doubles, one or several, that can be looked at and set one by one.
 pub(crate) trait Doubles: Lane {
-    /// A function of one double, lane by lane.
-    fn each(self, f: fn(f64) -> (f64, f64)) -> (Self, Self);
+    /// How many.
+    const WIDTH: usize = <Self::Mask as Mask>::WIDTH;
+
+    /// The double in a lane.
+    fn get(&self, lane: usize) -> f64;
+    /// Puts a double into a lane.
+    fn set(&mut self, lane: usize, value: f64);
+
+    /// Both results of a function of one double, lane by lane.
+    fn each(self, f: fn(f64) -> (f64, f64)) -> (Self, Self) {
+        let (mut first, mut second) = (self, self);
+        for lane in 0..Self::WIDTH {
+            let (a, b) = f(self.get(lane));
+            first.set(lane, a);
+            second.set(lane, b);
+        }
+        (first, second)
+    }
 }
 
 impl Doubles for f64 {
-    #[inline(always)]
-    fn each(self, f: fn(f64) -> (f64, f64)) -> (Self, Self) {
-        f(self)
+    fn get(&self, _: usize) -> f64 {
+        *self
+    }
+    fn set(&mut self, _: usize, value: f64) {
+        *self = value;
     }
 }
 
@@ -129,7 +147,8 @@ pub(crate) fn sin_cos<L: Doubles>(z: L) -> (L, L) {
     if !far.any() {
         return near;
     }
-    // Angles of a million and more: the Rust port in the crate `libm`, which is plain arithmetic too.
+    // Angles of a million and more: the Rust port in the crate `libm`, which is plain arithmetic
+    // too.
     let (sine, cosine) = z.each(libm::sincos);
     (L::select(far, sine, near.0), L::select(far, cosine, near.1))
 }
@@ -139,7 +158,8 @@ mod tests {
     use crate::arithmetic::precise::Precise;
     use crate::arithmetic::real::Real;
 
-    /// Against many digits, in roundings of the value, or of what is left of 1 where it is near zero.
+    /// Against many digits, in roundings of the value, or of what is left of 1 where it is near
+    /// zero.
     #[test]
     fn functions_agree_with_many_digits() {
         let mut worst = [0.0_f64; 3];

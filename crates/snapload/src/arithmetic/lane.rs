@@ -1,27 +1,35 @@
 //! One number, or several side by side.
 //!
-//! What happens in nearly every step of nearly every run, a flight that ends with one cable snapping
-//! taut, is written over [`Lane`]: for [`Real`] numbers it is the ordinary motion, for the vectors in
-//! [`crate::batch::lanes`] it is that of several cases at once. A vector does in each of its lanes exactly the
-//! operations that one number would see, so each lane has that number's bits. Where numbers would take
-//! different turns, both are computed and one is selected.
+//! What happens in nearly every step of nearly every run, a flight that ends with one cable
+//! snapping taut, is written over [`Lane`]: for [`Real`] numbers it is the ordinary motion, for the
+//! vectors in [`crate::batch::lanes`] it is that of several cases at once. A vector does in each of
+//! its lanes exactly the operations that one number would see, so each lane has that number's bits.
+//! Where numbers would take different turns, both are computed and one is selected.
 //!
-//! Everything on the way is `#[inline(always)]`: the vectors' instructions exist only in the functions
-//! that were compiled for a processor which has them.
+//! Everything on the way is `#[inline(always)]`: the vectors' instructions exist only in the
+//! functions that were compiled for a processor which has them.
 
 use crate::arithmetic::real::Real;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// The answer of a comparison, lane by lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// How many lanes.
+    const WIDTH: usize;
+    /// The answers as bits, that of the first lane lowest.
+    fn bits(self) -> u32;
     /// Whether it is true in any lane.
-    fn any(self) -> bool;
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
 }
 
 impl Mask for bool {
+    const WIDTH: usize = 1;
     #[inline(always)]
-    fn any(self) -> bool {
-        self
+    fn bits(self) -> u32 {
+        u32::from(self)
     }
 }
 
@@ -66,12 +74,12 @@ pub trait Lane:
     fn at_most(self, other: Self) -> Self::Mask;
     /// `yes` where the mask is true, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// The same number as one that depends on nothing; see [`Real::detached`].
+    /// The same number without its derivatives; see [`Real::detached`].
     #[inline(always)]
     fn detached(self) -> Self {
         self
     }
-    /// 1/6 as near as these numbers come to it.
+    /// 1/6, rounded to these numbers.
     #[inline(always)]
     fn sixth() -> Self {
         Self::ONE / Self::from_f64(6.0)
@@ -96,6 +104,30 @@ pub trait Lane:
     fn squared(self) -> Self {
         self * self
     }
+}
+
+/// A function of each pair of two lists.
+#[inline(always)]
+pub(crate) fn zip<A: Copy, B: Copy, C, const N: usize>(
+    a: [A; N],
+    b: [B; N],
+    f: impl Fn(A, B) -> C,
+) -> [C; N] {
+    std::array::from_fn(|k| f(a[k], b[k]))
+}
+
+/// One of two lists, lane by lane.
+#[inline(always)]
+pub(crate) fn select_each<L: Lane, const N: usize>(
+    mask: L::Mask,
+    yes: [L; N],
+    no: [L; N],
+) -> [L; N] {
+    let mut chosen = no;
+    for k in 0..N {
+        chosen[k] = L::select(mask, yes[k], no[k]);
+    }
+    chosen
 }
 
 impl<T: Real> Lane for T {
@@ -144,103 +176,5 @@ impl<T: Real> Lane for T {
     #[inline(always)]
     fn detached(self) -> Self {
         Real::detached(self)
-    }
-}
-
-/// x u + y v of two plane vectors.
-#[inline(always)]
-pub(crate) fn dot<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0].mul_add(b[0], a[1] * b[1])
-}
-
-/// x v − y u of two plane vectors.
-#[inline(always)]
-pub(crate) fn cross<L: Lane>(a: [L; 2], b: [L; 2]) -> L {
-    a[0].mul_add(b[1], -(a[1] * b[0]))
-}
-
-/// Length of a plane vector.
-#[inline(always)]
-pub(crate) fn length<L: Lane>(a: [L; 2]) -> L {
-    dot(a, a).sqrt()
-}
-
-/// A bound on the length of a plane vector, at most an eighth above it: the larger component and half of the smaller, as
-/// (x + y/2)² ≥ x² + y² for 0 ≤ y ≤ x.
-#[inline(always)]
-pub(crate) fn length_bound<L: Lane>(a: [L; 2]) -> L {
-    let (x, y) = (a[0].abs(), a[1].abs());
-    x.smaller(y).mul_add(L::from_f64(0.5), x.larger(y))
-}
-
-/// A plane vector turned by a quarter, counter-clockwise: the velocity of a point at `a` on a body
-/// that turns at unit rate.
-#[inline(always)]
-pub(crate) fn quarter_turn<L: Lane>(a: [L; 2]) -> [L; 2] {
-    [-a[1], a[0]]
-}
-
-/// a + b.
-#[inline(always)]
-pub(crate) fn sum<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-/// a − b.
-#[inline(always)]
-pub(crate) fn difference<L: Lane>(a: [L; 2], b: [L; 2]) -> [L; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// a + k b.
-#[inline(always)]
-pub(crate) fn added<L: Lane>(a: [L; 2], b: [L; 2], k: L) -> [L; 2] {
-    [b[0].mul_add(k, a[0]), b[1].mul_add(k, a[1])]
-}
-
-/// k a.
-#[inline(always)]
-pub(crate) fn scaled<L: Lane>(a: [L; 2], k: L) -> [L; 2] {
-    [a[0] * k, a[1] * k]
-}
-
-/// p u + q v.
-#[inline(always)]
-pub(crate) fn combined<L: Lane>(p: L, u: [L; 2], q: L, v: [L; 2]) -> [L; 2] {
-    added(scaled(v, q), u, p)
-}
-
-/// One of two plane vectors, lane by lane.
-#[inline(always)]
-pub(crate) fn select2<L: Lane>(mask: L::Mask, yes: [L; 2], no: [L; 2]) -> [L; 2] {
-    [
-        L::select(mask, yes[0], no[0]),
-        L::select(mask, yes[1], no[1]),
-    ]
-}
-
-/// A rotation by an angle.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Turn<L> {
-    pub(crate) sine: L,
-    pub(crate) cosine: L,
-    /// 1 − cos, without cancellation.
-    pub(crate) versine: L,
-    /// The angle less its sine, without cancellation.
-    pub(crate) sine_deficit: L,
-}
-
-impl<L: Lane> Turn<L> {
-    #[inline(always)]
-    pub(crate) fn by(angle: L) -> Self {
-        let (even, odd) = angle.versines();
-        let square = angle * angle;
-        let (versine, sine_deficit) = (square * even, square * odd);
-        Self {
-            sine: angle - sine_deficit,
-            cosine: L::ONE - versine,
-            versine,
-            sine_deficit,
-        }
     }
 }

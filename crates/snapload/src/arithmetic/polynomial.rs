@@ -3,9 +3,10 @@
 use crate::arithmetic::real::Real;
 use std::ops::{Index, IndexMut};
 
-/// The highest power. At order p a step is about ρ ε^{1/p} for a radius of convergence ρ. Where the cost grows as p² the
-/// work per unit of time is least near p = −½ ln ε ≈ 18 (Jorba & Zou 2005); sums in blocks ([`crate::arithmetic::vector_series`]) make it grow
-/// more slowly, so the least lies higher: 28 and 32 cost alike, 24 a tenth more.
+/// The highest power. At order p a step is about ρ ε^{1/p} for a radius of convergence ρ. Where the
+/// cost grows as p² the work per unit of time is least near p = −½ ln ε ≈ 18 (Jorba & Zou 2005);
+/// sums in blocks ([`crate::arithmetic::vector_series`]) make it grow more slowly, so the least
+/// lies higher: 28 and 32 cost alike, 24 a tenth more.
 pub(crate) const ORDER: usize = 28;
 
 /// Derivatives up to this are bounded.
@@ -26,7 +27,7 @@ const FALLING: [[f64; ORDER + 1]; MOST_DERIVED + 1] = {
     all
 };
 
-/// So many roundings of Σ |c_k| s^k the value at s may be off.
+/// The value at s may be off by this many roundings of Σ |c_k| s^k.
 const ROUNDINGS: f64 = 8.0;
 
 /// A polynomial of degree at most [`ORDER`], lowest power first.
@@ -100,8 +101,9 @@ impl<T: Real> Polynomial<T> {
         bound
     }
 
-    /// The longest length up to `step`, which is at most 1, by halves of an octave, on which the last two powers are below
-    /// a twentieth of a rounding of `scale`, or of the largest of the others where that is more.
+    /// The longest length up to `step`, which is at most 1, by halves of an octave, on which the
+    /// last two powers are below a twentieth of a rounding of `scale`, or of the largest of the
+    /// others where that is more.
     ///
     /// The constant does not count: where a motion has just begun to leave a place at which it
     /// could stay, its last terms are small against the place and yet not converged.
@@ -169,8 +171,8 @@ pub(crate) fn convolve<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) 
     sum_of_products(&a.0[..=k], &b.0[..=k])
 }
 
-/// The first list's entries times the second's in reverse: four sums that take turns and are added at the
-/// end, as a processor can do several at once.
+/// The first list's entries times the second's in reverse: four sums that take turns and are added
+/// at the end, as a processor can do several at once.
 fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sums = [T::ZERO; 4];
     let (fours, reversed) = (a.chunks_exact(4), b.rchunks_exact(4));

@@ -10,12 +10,12 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// A number with a significand of 64 `WORDS` − 2 bits, rounded to nearest after every operation.
 ///
 /// The arithmetic is that of the crate `dashu-float`. Its numbers live on the heap and are cloned,
-/// which would litter the formulas of the motion; between two operations they rest here in an array of
-/// fixed size, so that this type is copied as a double is.
+/// so that every formula of the motion would be full of clones; here they are kept in an array of
+/// fixed size between two operations, so that this type is copied as a double is.
 ///
-/// Libraries weighed: `rug` (MPFR) is faster and asks for a C compiler and the LGPL; `f256` ends at 71
-/// digits; `astro-float` has not been released for long. `dashu-float` is plain Rust, kept up, under the
-/// same licences as this, and rounds its sines and cosines correctly.
+/// Libraries weighed: `rug` (MPFR) is faster and asks for a C compiler and the LGPL; `f256` ends at
+/// 71 digits; `astro-float` has not been released for long. `dashu-float` is plain Rust, kept up,
+/// under the same licences as this, and rounds its sines and cosines correctly.
 ///
 /// What has no value, such as 0/0 or a number past the exponents, is like a NaN.
 #[derive(Clone, Copy, Debug)]

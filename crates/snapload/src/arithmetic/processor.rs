@@ -1,10 +1,12 @@
-//! Kernel compiled twice: for any processor of a family, and for one that fuses a multiply with an add.
+//! Work that is compiled twice: for every processor of a family, and for those that multiply and add
+//! in one instruction.
 //!
-//! All on its way that takes time is `#[inline(always)]`, and loops stand where a closure would: what is only called is
-//! compiled for the other processors.
+//! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same. Where
+//! a processor has no instruction for it, or the compiler may not assume one, it is a function, which
+//! takes longer than a multiplication and an addition.
 //!
-//! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same. Where a processor has no instruction for it, or
-//! the compiler may not assume one, it is a function, which takes longer than both operations.
+//! All functions that such work spends its time in are `#[inline(always)]`: one that is only called
+//! would be compiled for every processor, without the instruction.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(
@@ -15,11 +17,11 @@
 
 use crate::arithmetic::real::Real;
 
-/// Something to do that may be compiled for one kind of processor.
+/// Work that may be compiled for one kind of processor.
 pub(crate) trait Kernel {
-    /// What it comes to.
+    /// Its result.
     type Output;
-    /// Does it; `#[inline(always)]`.
+    /// Does the work; `#[inline(always)]`.
     fn run(self) -> Self::Output;
 }
 
@@ -29,7 +31,7 @@ pub(crate) fn has_fma() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
-/// Does it by the best instructions for it.
+/// Does the work by the best instructions that the processor has for it.
 #[cfg(target_arch = "x86_64")]
 #[inline]
 pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
@@ -45,7 +47,8 @@ pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
     }
 }
 
-/// The same of work over one arithmetic: twice is compiled only what is fast enough for it to be felt.
+/// The same for work over one arithmetic: only doubles are fast enough for the difference to matter,
+/// so the rest is compiled once.
 #[inline]
 pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
     if T::FUSES {
@@ -68,14 +71,15 @@ mod tests {
     use crate::case::parameters::Parameters;
     use crate::motion::simulation::Simulation;
 
-    /// Products whose rounding before the sum shows, and halfway cases that a wider intermediate rounds twice.
+    /// Products whose rounding before the sum shows, and halfway cases that a wider intermediate
+    /// rounds twice.
     #[test]
     fn the_platform_fuses_right() {
         let (one, e) = (1.0_f64, f64::EPSILON);
         for (a, b, c, known) in [
             (one + e, one - e, -one, -e * e),
             (one + e, one + e, -(one + 2.0 * e), e * e),
-            // 1 + ε/2 is halfway between 1 and its neighbour; a trace more or less decides.
+            // 1 + ε/2 is halfway between 1 and its neighbour, so the least amount more or less decides.
             (e * 0.5, one + e, one, one + e),
             (e * 0.5, one - e, one, one),
             (one + e * 2.0_f64.powi(20), e * 0.5, one + e, one + 2.0 * e),
@@ -88,7 +92,8 @@ mod tests {
         }
     }
 
-    /// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the same bits.
+    /// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the
+    /// same bits.
     #[test]
     fn both_compilations_give_the_same_bits() {
         let mut modes = [0; 3];

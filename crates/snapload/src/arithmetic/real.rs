@@ -1,10 +1,11 @@
 //! The number type that the physics is written over, and its elementary functions.
 //!
-//! The whole motion is generic over [`Real`]: doubles for the ordinary run, [`crate::arithmetic::dual::Dual`] numbers
-//! for its derivatives, [`crate::arithmetic::precise::Precise`] ones for its proof. In a chaotic system a different last bit
-//! is a different picture: no function of a double calls the platform's `libm` (sine and cosine are
-//! those of [`crate::arithmetic::elementary`], plain arithmetic in a fixed order), and a multiply is fused with an add
-//! where `mul_add` says so, on every machine, and nowhere else.
+//! The whole motion is generic over [`Real`]: doubles for the ordinary run,
+//! [`crate::arithmetic::dual::Dual`] numbers for its derivatives,
+//! [`crate::arithmetic::precise::Precise`] ones for its proof. In a chaotic system a different last
+//! bit is a different picture: no function of a double calls the platform's `libm` (sine and cosine
+//! are those of [`crate::arithmetic::elementary`], plain arithmetic in a fixed order), and a
+//! multiply is fused with an add where `mul_add` says so, on every machine, and nowhere else.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -33,17 +34,18 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
-    /// So many steps of Newton's iteration take an error of 1e-9 below [`Real::EPSILON`].
+    /// How many steps of Newton's method take an error of 1e-9 below [`Real::EPSILON`].
     const NEWTON_STEPS: usize;
-    /// Whether its products and sums are those of the processor, so that steps are compiled for kinds of it.
+    /// Whether its products and sums are instructions of the processor, so that it is worth compiling
+    /// a step for each kind of processor.
     const FUSES: bool = false;
     /// Whether it carries derivatives, which [`Real::detached`] leaves out.
     const CARRIES_SLOPES: bool = false;
 
     /// The number of this arithmetic that equals `value`.
     fn from_f64(value: f64) -> Self;
-    /// The number that is written as `value` is: 0.1 is one tenth in every arithmetic, as far as that can
-    /// hold it, and not the double next to a tenth.
+    /// The number that is written as `value` is: 0.1 is one tenth in every arithmetic, as far as
+    /// that can hold it, and not the double next to a tenth.
     fn from_decimal(value: f64) -> Self;
     /// π/2.
     fn half_pi() -> Self;
@@ -79,7 +81,8 @@ pub trait Real:
     fn squared(self) -> Self {
         self * self
     }
-    /// The same number as one that depends on nothing: where a search looks is no part of the motion.
+    /// The same number without its derivatives: the instants at which a search evaluates the motion
+    /// are no part of the motion.
     fn detached(self) -> Self {
         self
     }

@@ -4,7 +4,7 @@ use crate::arithmetic::polynomial::ORDER;
 use crate::arithmetic::real::Real;
 use std::ops::{Index, IndexMut};
 
-/// Products are summed so many at a time.
+/// How many products are summed at a time.
 const BLOCK: usize = 4;
 /// Zeros on either side, so that what is summed can be rounded up to whole blocks.
 const MARGIN: usize = BLOCK - 1;
@@ -35,8 +35,9 @@ impl<T, const W: usize> IndexMut<usize> for VectorSeries<T, W> {
 }
 
 impl<T: Real, const W: usize> VectorSeries<T, W> {
-    /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet is zero, so that
-    /// its products are left out; all have to be finite, as those beyond k meet zeros.
+    /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet
+    /// is zero, so that its products are left out; all have to be finite, as those beyond k meet
+    /// zeros.
     #[inline(always)]
     pub(crate) fn convolve(&self, other: &Self, k: usize) -> [T; W] {
         let [sums] = convolve([(self, other)], k);
@@ -52,7 +53,8 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
 ) -> [[T; W]; N] {
     let mut products = factors.map(|(a, b)| Products::begin(a, b, k));
     let length = (k + 1).next_multiple_of(BLOCK);
-    // The newest coefficients come last, at either end: the rest is added up before they are there.
+    // The newest coefficients, at either end, are added last: a processor can add up the rest before
+    // they are known.
     let mut from = BLOCK;
     while from < length {
         for product in &mut products {
@@ -63,12 +65,13 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
     for product in &mut products {
         product.add(0);
     }
-    // Seen through, the sums would be made across the lanes, with more shuffling than arithmetic.
+    // A compiler that sees what becomes of the sums makes them across the lanes, with more shuffling
+    // than arithmetic.
     std::hint::black_box(products.map(|product| product.sum()))
 }
 
-/// A convolution that is being summed: the coefficients of one factor, those of the other, to be taken in reverse, and two
-/// sums that take turns, as a processor can do several at once.
+/// A convolution that is being summed: the coefficients of one factor, those of the other, to be
+/// taken in reverse, and two sums that take turns, as a processor can do several at once.
 struct Products<'a, T, const W: usize> {
     a: &'a [[T; W]],
     b: &'a [[T; W]],
@@ -116,8 +119,9 @@ fn add_products<T: Real, const W: usize>(sums: &mut [T; W], a: &[T; W], b: &[T; 
 mod tests {
     use super::*;
 
-    /// 1/(1 − s) times 1/(1 − 2s) is Σ (2^{k+1} − 1) s^k, its square Σ (k + 1) s^k. While the k-th coefficients are not
-    /// known, the two products with them are missing: those with 2^k and 1, and with 1 and 1.
+    /// 1/(1 − s) times 1/(1 − 2s) is Σ (2^{k+1} − 1) s^k, its square Σ (k + 1) s^k. While the k-th
+    /// coefficients are not known, the two products with them are missing: those with 2^k and 1,
+    /// and with 1 and 1.
     #[test]
     fn products_of_geometric_series() {
         let (mut ones, mut powers) = (VectorSeries::<f64, 2>::default(), VectorSeries::default());

@@ -1,22 +1,24 @@
 //! Many runs side by side, each to its end, without keeping them.
 //!
-//! Every lane of a vector carries a run of its own from bounce to bounce ([`crate::motion::bounce`]). What is not
-//! a bounce leaves the lanes: the run goes on in its [`Simulation`], taut modes included, until it flies
-//! freely again; a run that has stopped gives its lane to the next. A lane has the bits of the same run by
-//! itself, because both make the same operations: here only the bounces of several runs are made at once.
+//! Every lane of a vector carries a run of its own from bounce to bounce
+//! ([`crate::motion::bounce`]). A step that is no bounce is made outside of the lanes: the run goes
+//! on in its [`Simulation`], taut modes included, until it flies freely again. When a run has
+//! stopped, the next takes its lane. A run in a lane has the bits of the same run by itself,
+//! because both make the same operations.
 
-use crate::arithmetic::lane::Lane;
+use crate::arithmetic::elementary::Doubles;
+use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::processor::{Kernel, dispatch};
-use crate::batch::vector::{Bits, Portable, Vector};
+use crate::batch::vector::Several;
 use crate::case::Case;
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce};
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::{LastImpacts, Progress, Simulation};
 use crate::motion::trajectory::RHO2_UNTIL;
-use crate::motion::two_cables::{AfterImpact, STATE_NUMBERS, SYSTEM_NUMBERS, TwoCableSystem};
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
-/// What is told of a run that has stopped: which it was, in the order in which they came, and its outcome.
+/// Takes the outcome of a run that has stopped, with its place in the order in which they came.
 type Tell<'a> = &'a mut dyn FnMut(usize, Outcome);
 
 /// How many runs go side by side. All give the same bits.
@@ -35,11 +37,11 @@ pub enum Lanes {
 }
 
 impl Lanes {
-    /// All that this processor can do.
+    /// All kinds that this processor has.
     pub fn available() -> Vec<Self> {
         #[cfg_attr(
             not(target_arch = "x86_64"),
-            expect(unused_mut, reason = "no more are known")
+            expect(unused_mut, reason = "other processors have no more")
         )]
         let mut all = vec![Self::One, Self::Four, Self::Eight];
         #[cfg(target_arch = "x86_64")]
@@ -54,7 +56,7 @@ impl Lanes {
         all
     }
 
-    /// The fastest that this processor can do.
+    /// The fastest that this processor has.
     pub fn best() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -88,8 +90,8 @@ impl Lanes {
         (told, usage)
     }
 
-    /// Runs all of `runs` to their ends and tells each as it stops. Lanes that this processor lacks are
-    /// done in plain Rust.
+    /// Runs all of `runs` to their ends and hands each outcome on as the run stops. In place of
+    /// lanes that this processor lacks, plain Rust is used.
     fn run(self, runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         match self {
             #[cfg(target_arch = "x86_64")]
@@ -97,26 +99,26 @@ impl Lanes {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
             Self::One => dispatch(LaneScheduler::<f64>::new(runs, tell)),
-            Self::Four => dispatch(LaneScheduler::<Portable<4>>::new(runs, tell)),
+            Self::Four => dispatch(LaneScheduler::<Several<f64, 4>>::new(runs, tell)),
             Self::Eight | Self::Avx2 | Self::Avx512 => {
-                dispatch(LaneScheduler::<Portable<8>>::new(runs, tell))
+                dispatch(LaneScheduler::<Several<f64, 8>>::new(runs, tell))
             }
         }
     }
 }
 
-/// The functions that are compiled for a processor's instructions, and called where it has them.
+/// The functions that are compiled for the instructions of one kind of processor.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
     use super::{LaneScheduler, Simulation, Tell, Usage};
     use crate::arithmetic::processor;
-    use crate::batch::vector::twice::Twice;
+    use crate::batch::vector::Several;
     use crate::batch::vector::x86::{Avx2, Avx512};
 
     pub(super) fn avx2(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
         assert!(processor::has_fma());
-        processor::dispatch(LaneScheduler::<Twice<Avx2>>::new(runs, tell))
+        processor::dispatch(LaneScheduler::<Several<Avx2, 2>>::new(runs, tell))
     }
 
     pub(super) fn avx512(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
@@ -145,7 +147,7 @@ pub struct Usage {
 }
 
 /// What a run counts on its way.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Tally<L> {
     impacts: L,
     /// Impacts of the second cable among them.
@@ -153,7 +155,8 @@ struct Tally<L> {
     rho1: L,
     rho2: L,
     rho3: L,
-    /// The latest instants of impact: cables as the number of their set, v_n, and how many alike.
+    /// The latest instants of impact: the bits of the set of cables, v_n, and how many in a row were
+    /// of the same cables.
     cables: L,
     v_n: L,
     repeats: L,
@@ -172,14 +175,12 @@ struct LaneScheduler<'a, L> {
     started: usize,
     slots: Vec<Option<Box<Slot>>>,
     two_cables: TwoCableSystem<L>,
-    /// More impacts than this stop a run.
-    most_impacts: L,
     after_impact: AfterImpact<L>,
     tally: Tally<L>,
     usage: Usage,
 }
 
-impl<L: Vector> Kernel for LaneScheduler<'_, L> {
+impl<L: Doubles> Kernel for LaneScheduler<'_, L> {
     type Output = Usage;
     #[inline(always)]
     fn run(self) -> Usage {
@@ -187,18 +188,18 @@ impl<L: Vector> Kernel for LaneScheduler<'_, L> {
     }
 }
 
-impl<'a, L: Vector> LaneScheduler<'a, L> {
+impl<'a, L: Doubles> LaneScheduler<'a, L> {
     fn new(runs: &'a mut dyn Iterator<Item = Simulation>, tell: Tell<'a>) -> Self {
-        let zero = L::ZERO;
+        let zero = |_: f64, _: f64| L::ZERO;
+        let (system, motion, tally) = Default::default();
         let mut scheduler = Self {
             runs,
             tell,
             started: 0,
             slots: (0..L::WIDTH).map(|_| None).collect(),
-            two_cables: TwoCableSystem::from_numbers([zero; SYSTEM_NUMBERS]),
-            most_impacts: zero,
-            after_impact: AfterImpact::from_numbers([zero; STATE_NUMBERS]),
-            tally: Tally::from_numbers([zero; TALLY]),
+            two_cables: TwoCableSystem::zip_with(&system, &system, zero),
+            after_impact: AfterImpact::zip_with(&motion, &motion, zero),
+            tally: Tally::zip_with(&tally, &tally, zero),
             usage: Usage {
                 width: L::WIDTH,
                 ..Usage::default()
@@ -217,13 +218,14 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         let mut empty = 0;
         loop {
             let bounce = bounce(&self.two_cables, &self.after_impact);
-            let plain = bounce.plain & self.tally.impacts.below(self.most_impacts);
+            let plain = bounce.plain & self.tally.impacts.below(self.two_cables.max_impacts);
             let (tally, bits) = (self.tally.with(&bounce), plain.bits());
             if bits == all {
                 (self.after_impact, self.tally) = (bounce.next, tally);
             } else {
-                self.after_impact = AfterImpact::select(plain, &bounce.next, &self.after_impact);
-                self.tally = Tally::select(plain, &tally, &self.tally);
+                let chosen = |next, present| L::select(plain, next, present);
+                self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
+                self.tally = tally.zip_with(&self.tally, chosen);
             }
             let plain = bits & !empty;
             self.usage.rounds += 1;
@@ -237,8 +239,8 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         }
     }
 
-    /// Lets the runs of these lanes go on by themselves until they fly freely, and gives lanes that have become free
-    /// to other runs. Returns the lanes that are empty.
+    /// Lets the runs of these lanes go on by themselves until they fly freely, and gives lanes that
+    /// have become free to other runs. Returns the lanes that are empty.
     #[inline(never)]
     fn serve(&mut self, lanes: u32) -> u32 {
         let mut empty = 0;
@@ -261,7 +263,7 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         empty
     }
 
-    /// Gives a lane to the next run that flies freely at some time; those before it stop without.
+    /// Gives a lane to the next run that comes to fly freely; those before it stop without a lane.
     fn refill(&mut self, lane: usize) {
         while let Some(simulation) = self.runs.next() {
             let slot = Box::new(Slot {
@@ -276,14 +278,15 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         }
     }
 
-    /// Puts a run into a lane once it flies freely. If it stops before, says so and leaves the lane free.
+    /// Puts a run into a lane once it flies freely, or hands on its outcome if it stops before
+    /// that. Returns whether the lane is taken.
     fn fill(&mut self, lane: usize, mut slot: Box<Slot>) -> bool {
         loop {
             if slot.simulation.stop().is_some() {
                 (self.tell)(slot.index, slot.outcome.ended(&slot.simulation));
                 return false;
             }
-            // The first impact is kept as such, so it is not made in a lane.
+            // The first impact is part of the outcome, so it is not made in a lane.
             let begun = slot.outcome.first.is_some();
             if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
             {
@@ -314,26 +317,20 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
             v_n: progress.last.v_n,
             repeats: f64::from(progress.last.repeats),
         };
-        let most = slot.simulation.rules().max_impacts as f64;
-        self.most_impacts.set(lane, most);
-        self.two_cables = TwoCableSystem::from_numbers(put(
-            lane,
-            self.two_cables.numbers(),
-            two_cables.numbers(),
-        ));
-        self.after_impact = AfterImpact::from_numbers(put(
-            lane,
-            self.after_impact.numbers(),
-            after_impact.numbers(),
-        ));
-        self.tally = Tally::from_numbers(put(lane, self.tally.numbers(), tally.numbers()));
+        let put = |mut all: L, one| {
+            all.set(lane, one);
+            all
+        };
+        self.two_cables = self.two_cables.zip_with(two_cables, put);
+        self.after_impact = self.after_impact.zip_with(after_impact, put);
+        self.tally = self.tally.zip_with(&tally, put);
     }
 
-    /// Tells a run's simulation what it did in its lane.
+    /// Brings a run's simulation up to what the run did in its lane.
     fn leave(&self, lane: usize, slot: &mut Slot) {
-        let after_impact =
-            AfterImpact::from_numbers(self.after_impact.numbers().map(|number| number.get(lane)));
-        let tally = Tally::from_numbers(self.tally.numbers().map(|number| number.get(lane)));
+        let get = |all: L, _| all.get(lane);
+        let after_impact = self.after_impact.zip_with(&self.after_impact, get);
+        let tally = self.tally.zip_with(&self.tally, get);
         let before = slot.simulation.progress().impacts;
         let progress = Progress {
             impacts: tally.impacts as u64,
@@ -350,13 +347,6 @@ impl<'a, L: Vector> LaneScheduler<'a, L> {
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
     }
-}
-
-fn put<L: Vector, const N: usize>(lane: usize, mut all: [L; N], one: [f64; N]) -> [L; N] {
-    for (all, one) in all.iter_mut().zip(one) {
-        all.set(lane, one);
-    }
-    all
 }
 
 impl Slot {
@@ -390,46 +380,21 @@ impl<L: Lane> Tally<L> {
             repeats: L::select(same, self.repeats + 1.0, L::ONE),
         }
     }
-
-    /// One of two, lane by lane.
-    #[inline(always)]
-    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        let (mut numbers, others) = (no.numbers(), yes.numbers());
-        for k in 0..TALLY {
-            numbers[k] = L::select(mask, others[k], numbers[k]);
-        }
-        Self::from_numbers(numbers)
-    }
 }
 
-/// How many numbers a [`Tally`] is.
-const TALLY: usize = 8;
-
 impl<L: Copy> Tally<L> {
-    fn numbers(&self) -> [L; TALLY] {
-        let Self {
-            impacts,
-            second,
-            rho1,
-            rho2,
-            rho3,
-            cables,
-            v_n,
-            repeats,
-        } = *self;
-        [impacts, second, rho1, rho2, rho3, cables, v_n, repeats]
-    }
-
-    fn from_numbers([impacts, second, rho1, rho2, rho3, cables, v_n, repeats]: [L; TALLY]) -> Self {
-        Self {
-            impacts,
-            second,
-            rho1,
-            rho2,
-            rho3,
-            cables,
-            v_n,
-            repeats,
+    /// What `number` makes of each number and the other tally's.
+    #[inline(always)]
+    fn zip_with<M: Copy, U>(&self, other: &Tally<M>, number: impl Fn(L, M) -> U) -> Tally<U> {
+        Tally {
+            impacts: number(self.impacts, other.impacts),
+            second: number(self.second, other.second),
+            rho1: number(self.rho1, other.rho1),
+            rho2: number(self.rho2, other.rho2),
+            rho3: number(self.rho3, other.rho3),
+            cables: number(self.cables, other.cables),
+            v_n: number(self.v_n, other.v_n),
+            repeats: number(self.repeats, other.repeats),
         }
     }
 }

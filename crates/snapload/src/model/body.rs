@@ -1,6 +1,6 @@
 //! The body: its inertia and its outline.
 
-use crate::arithmetic::lane::length;
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
 
 /// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
@@ -25,8 +25,8 @@ pub enum Shape<T = f64> {
 /// A rigid body of unit mass, or a point mass (docs/model.md section 2).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body<T = f64> {
-    shape: Shape<T>,
-    inverse_inertia: T,
+    pub(crate) shape: Shape<T>,
+    pub(crate) inverse_inertia: T,
 }
 
 impl<T: Real> Body<T> {
@@ -97,7 +97,7 @@ impl<T: Real> Body<T> {
                 half_height: b,
             } => (
                 Outline {
-                    points: [[a, b], [-a, b], [-a, -b], [a, -b]],
+                    points: [[a, b], [-a, b], [-a, -b], [a, -b]].map(Vector2::from),
                     count: 4,
                 },
                 T::ZERO,
@@ -111,7 +111,7 @@ impl<T: Real> Body<T> {
         outline
             .points()
             .iter()
-            .fold(T::ZERO, |reach, point| reach.max(length(*point)))
+            .fold(T::ZERO, |reach, point| reach.max(point.length()))
             + radius
     }
 
@@ -131,20 +131,20 @@ impl<T: Real> Body<T> {
 /// At most four points of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct Outline<T> {
-    points: [[T; 2]; 4],
+    points: [Vector2<T>; 4],
     count: usize,
 }
 
 impl<T: Real> Outline<T> {
     fn centre() -> Self {
         Self {
-            points: [[T::ZERO; 2]; 4],
+            points: [Vector2::ZERO; 4],
             count: 1,
         }
     }
 
     /// The points.
-    pub fn points(&self) -> &[[T; 2]] {
+    pub fn points(&self) -> &[Vector2<T>] {
         &self.points[..self.count]
     }
 }

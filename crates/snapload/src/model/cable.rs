@@ -1,23 +1,22 @@
 //! A cable: its gap, its normal and its lever arm.
 
-use crate::arithmetic::lane::{
-    Lane, Turn, combined, cross, dot, length, length_bound, quarter_turn, scaled, select2, sum,
-};
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 
 /// An inextensible cable from a fixed anchor to a point of the body (docs/model.md section 2).
 ///
-/// It is kept by its span where the body is at rest, x = y = θ = 0, and its gap there, because a gap
-/// computed as an increment from that place rounds in proportion to how far the body has moved, not
-/// to the square of the cable's length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// It is kept by its span where the body is at rest, x = y = θ = 0, and its gap there, because a
+/// gap computed as an increment from that place rounds in proportion to how far the body has moved,
+/// not to the square of the cable's length.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Cable<T = f64> {
-    fairlead: [T; 2],
+    fairlead: Vector2<T>,
     length: T,
     /// 1/r.
     per_length: T,
-    rest_span: [T; 2],
+    rest_span: Vector2<T>,
     rest_gap: T,
     rest_gap_error: T,
 }
@@ -27,7 +26,7 @@ pub struct Cable<T = f64> {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Normal<T = f64> {
     /// Unit normal n = (P − A)/r.
-    pub n: [T; 2],
+    pub n: Vector2<T>,
     /// Moment arm s = ρ_x n_y − ρ_y n_x \[L\].
     pub arm: T,
 }
@@ -36,56 +35,63 @@ impl<L: Lane> Normal<L> {
     /// Normal velocity v_n, positive while the gap closes.
     #[inline(always)]
     pub fn velocity(&self, state: &State<L>) -> L {
-        self.arm
-            .mul_add(state.vtheta, dot(self.n, [state.vx, state.vy]))
+        self.arm.mul_add(state.vtheta, self.n.dot(state.velocity()))
     }
 
     /// W_ij = G_i M⁻¹ G_jᵀ; with itself the inverse effective mass w = 1 + s²/I.
     #[inline(always)]
     pub fn coupling(&self, other: &Self, inverse_inertia: L) -> L {
-        (self.arm * other.arm).mul_add(inverse_inertia, dot(self.n, other.n))
+        (self.arm * other.arm).mul_add(inverse_inertia, self.n.dot(other.n))
     }
 
-    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section 5).
+    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section
+    /// 5).
     #[inline(always)]
     pub fn apply_impulse(&self, state: &mut State<L>, impulse: L, inverse_inertia: L) {
-        // Not fused, so that the impulses of two cables that mirror each other cancel to the last bit.
-        state.vx = state.vx - impulse * self.n[0];
-        state.vy = state.vy - impulse * self.n[1];
+        // Not fused, so that the impulses of two cables that mirror each other cancel to the last
+        // bit.
+        state.vx = state.vx - impulse * self.n.x;
+        state.vy = state.vy - impulse * self.n.y;
         state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
     }
 
-    /// The same for the position: moves the body against the normal by `distance` in the mass metric.
+    /// The same for the position: moves the body against the normal by `distance` in the mass
+    /// metric.
     #[inline(always)]
     pub fn displace(&self, state: &mut State<L>, distance: L, inverse_inertia: L) {
-        state.x = state.x - distance * self.n[0];
-        state.y = state.y - distance * self.n[1];
+        state.x = state.x - distance * self.n.x;
+        state.y = state.y - distance * self.n.y;
         state.theta = state.theta - distance * self.arm * inverse_inertia;
     }
 }
 
 impl<T: Real> Cable<T> {
     /// A cable from `anchor` A to `fairlead` (in the body's frame), of length r > 0.
-    pub fn new(anchor: [T; 2], fairlead: [T; 2], length: T) -> Self {
-        let rest_span = [0, 1].map(|i| fairlead[i] - anchor[i]);
+    pub fn new(anchor: impl Into<Vector2<T>>, fairlead: impl Into<Vector2<T>>, length: T) -> Self {
+        let fairlead = fairlead.into();
+        let rest_span = fairlead - anchor.into();
         Self {
             fairlead,
             length,
             per_length: T::ONE / length,
             rest_span,
-            rest_gap: dot(rest_span, rest_span) - length.squared(),
+            rest_gap: rest_span.dot(rest_span) - length.squared(),
             rest_gap_error: length.squared() * T::EPSILON * 4.0,
         }
     }
 
     /// A cable that is taut by construction where x = y = θ = 0: `rest_span`, which leads from the
     /// anchor to the fairlead there, has the length r up to rounding.
-    pub fn taut_at_rest(rest_span: [T; 2], fairlead: [T; 2], length: T) -> Self {
+    pub fn taut_at_rest(
+        rest_span: impl Into<Vector2<T>>,
+        fairlead: impl Into<Vector2<T>>,
+        length: T,
+    ) -> Self {
         Self {
-            fairlead,
+            fairlead: fairlead.into(),
             length,
             per_length: T::ONE / length,
-            rest_span,
+            rest_span: rest_span.into(),
             rest_gap: T::ZERO,
             rest_gap_error: T::ZERO,
         }
@@ -104,14 +110,14 @@ impl<T: Real> Cable<T> {
     }
 
     /// Anchor A \[L\].
-    pub fn anchor(&self) -> [T; 2] {
-        [0, 1].map(|i| self.fairlead[i] - self.rest_span[i])
+    pub fn anchor(&self) -> Vector2<T> {
+        self.fairlead - self.rest_span
     }
 
     /// Span d = P − A from the anchor to the attachment.
     #[inline(always)]
-    pub fn span(&self, state: &State<T>) -> [T; 2] {
-        self.span_moved(self.moved(state, &Turn::by(state.theta)))
+    pub fn span(&self, state: &State<T>) -> Vector2<T> {
+        self.span_moved(self.moved(state, &Rotation::by(state.theta)))
     }
 
     /// Gap g = |P − A|² − r²: negative while slack, zero while taut.
@@ -123,8 +129,8 @@ impl<T: Real> Cable<T> {
     /// The gap and a bound on its rounding error.
     #[inline(always)]
     pub(crate) fn gap_and_error(&self, state: &State<T>) -> (T, T) {
-        let moved = self.moved(state, &Turn::by(state.theta));
-        let error = self.gap_error(moved, state.theta, length(self.fairlead));
+        let moved = self.moved(state, &Rotation::by(state.theta));
+        let error = self.gap_error(moved, state.theta, self.fairlead.length());
         (self.gap_moved(moved), error)
     }
 
@@ -135,14 +141,14 @@ impl<T: Real> Cable<T> {
         let (sine, cosine) = state.theta.sin_cos();
         let lever = self.lever(sine, cosine);
         let span = self.span(state);
-        let n = [span[0] / self.length, span[1] / self.length];
+        let n = span.map(|component| component / self.length);
         let normal = Normal {
             n,
-            arm: cross(lever, n),
+            arm: lever.cross(n),
         };
-        let (along, across) = (lever[0] / self.length, lever[1] / self.length);
+        let (along, across) = (lever.x / self.length, lever.y / self.length);
         let stretch = T::ONE / self.length;
-        let turning = lever[0] * along + lever[1] * across - dot(n, lever);
+        let turning = lever.x * along + lever.y * across - n.dot(lever);
         let slopes = [
             [stretch, T::ZERO, -across],
             [T::ZERO, stretch, along],
@@ -154,31 +160,27 @@ impl<T: Real> Cable<T> {
     /// The constraint's direction; meant where the gap is closed, so that n has unit length.
     #[inline(always)]
     pub fn normal(&self, state: &State<T>) -> Normal<T> {
-        let turn = Turn::by(state.theta);
+        let turn = Rotation::by(state.theta);
         let span = self.span_moved(self.moved(state, &turn));
         self.normal_along(span, self.lever(turn.sine, turn.cosine))
     }
 }
 
 impl<L: Copy> Cable<L> {
-    /// All its numbers.
-    pub(crate) fn numbers(&self) -> [L; 8] {
-        let ([a, b], [u, v]) = (self.fairlead, self.rest_span);
-        let (gap, error) = (self.rest_gap, self.rest_gap_error);
-        [a, b, self.length, self.per_length, u, v, gap, error]
-    }
-
-    /// From its numbers, in the same order.
-    pub(crate) fn from_numbers(
-        [a, b, length, per_length, u, v, rest_gap, rest_gap_error]: [L; 8],
-    ) -> Self {
-        Self {
-            fairlead: [a, b],
-            length,
-            per_length,
-            rest_span: [u, v],
-            rest_gap,
-            rest_gap_error,
+    /// What `number` makes of each number and the other cable's.
+    #[inline(always)]
+    pub(crate) fn zip_with<M: Copy, U>(
+        &self,
+        other: &Cable<M>,
+        number: impl Fn(L, M) -> U + Copy,
+    ) -> Cable<U> {
+        Cable {
+            fairlead: self.fairlead.zip_with(other.fairlead, number),
+            length: number(self.length, other.length),
+            per_length: number(self.per_length, other.per_length),
+            rest_span: self.rest_span.zip_with(other.rest_span, number),
+            rest_gap: number(self.rest_gap, other.rest_gap),
+            rest_gap_error: number(self.rest_gap_error, other.rest_gap_error),
         }
     }
 }
@@ -198,67 +200,60 @@ impl<L: Lane> Cable<L> {
 
     /// Attachment to the body, in the body's frame \[L\].
     #[inline(always)]
-    pub fn fairlead(&self) -> [L; 2] {
+    pub fn fairlead(&self) -> Vector2<L> {
         self.fairlead
     }
 
     /// Lever ρ = R(θ) · fairlead, from the centre to the attachment.
     #[inline(always)]
-    pub fn lever(&self, sine: L, cosine: L) -> [L; 2] {
-        combined(cosine, self.fairlead, sine, quarter_turn(self.fairlead))
+    pub fn lever(&self, sine: L, cosine: L) -> Vector2<L> {
+        Vector2::combined(cosine, self.fairlead, sine, self.fairlead.quarter_turn())
     }
 
     /// How far the attachment is from where it is at rest, the body being turned by θ.
     #[inline(always)]
-    pub(crate) fn moved(&self, state: &State<L>, turn: &Turn<L>) -> [L; 2] {
-        let quarter = quarter_turn(self.fairlead);
-        let swing = combined(turn.sine, quarter, -turn.versine, self.fairlead);
-        sum([state.x, state.y], swing)
+    pub(crate) fn moved(&self, state: &State<L>, rotation: &Rotation<L>) -> Vector2<L> {
+        let quarter = self.fairlead.quarter_turn();
+        let swing = Vector2::combined(rotation.sine, quarter, -rotation.versine, self.fairlead);
+        state.centre() + swing
     }
 
     /// The span of an attachment that has moved so far.
     #[inline(always)]
-    pub(crate) fn span_moved(&self, moved: [L; 2]) -> [L; 2] {
-        sum(self.rest_span, moved)
+    pub(crate) fn span_moved(&self, moved: Vector2<L>) -> Vector2<L> {
+        self.rest_span + moved
     }
 
     /// The gap of an attachment that has moved so far.
     #[inline(always)]
-    pub(crate) fn gap_moved(&self, moved: [L; 2]) -> L {
-        let linear = dot(self.rest_span, moved);
-        self.rest_gap + linear.mul_add(L::from_f64(2.0), dot(moved, moved))
+    pub(crate) fn gap_moved(&self, moved: Vector2<L>) -> L {
+        let linear = self.rest_span.dot(moved);
+        self.rest_gap + linear.mul_add(L::from_f64(2.0), moved.dot(moved))
     }
 
     /// Bound on the rounding error of [`Cable::gap_moved`]; `reach` is the length of the fairlead.
     #[inline(always)]
-    pub(crate) fn gap_error(&self, moved: [L; 2], theta: L, reach: L) -> L {
-        let square = dot(moved, moved);
-        let size = theta.abs().mul_add(reach, length_bound(moved)) * self.length;
+    pub(crate) fn gap_error(&self, moved: Vector2<L>, theta: L, reach: L) -> L {
+        let square = moved.dot(moved);
+        let size = theta.abs().mul_add(reach, moved.length_bound()) * self.length;
         let size = size.mul_add(L::from_f64(2.0), self.rest_gap.abs() + square);
         size.mul_add(L::EPSILON * 4.0, self.rest_gap_error)
     }
 
     /// n = d/r and s = ρ_x n_y − ρ_y n_x.
     #[inline(always)]
-    pub(crate) fn normal_along(&self, span: [L; 2], lever: [L; 2]) -> Normal<L> {
-        let n = scaled(span, self.per_length);
+    pub(crate) fn normal_along(&self, span: Vector2<L>, lever: Vector2<L>) -> Normal<L> {
+        let n = span.scaled(self.per_length);
         Normal {
             n,
-            arm: cross(lever, n),
+            arm: lever.cross(n),
         }
     }
 
     /// One of two cables, lane by lane.
     #[inline(always)]
     pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        Self {
-            fairlead: select2(mask, yes.fairlead, no.fairlead),
-            length: L::select(mask, yes.length, no.length),
-            per_length: L::select(mask, yes.per_length, no.per_length),
-            rest_span: select2(mask, yes.rest_span, no.rest_span),
-            rest_gap: L::select(mask, yes.rest_gap, no.rest_gap),
-            rest_gap_error: L::select(mask, yes.rest_gap_error, no.rest_gap_error),
-        }
+        yes.zip_with(no, |yes, no| L::select(mask, yes, no))
     }
 }
 
@@ -279,7 +274,7 @@ mod tests {
         let p = [0.3 + 0.2 * c - 0.1 * s, -0.2 + 0.2 * s + 0.1 * c];
         let g = (p[0] - 1.0).powi(2) + (p[1] - 1.3).powi(2) - 2.25;
         assert!((cable.gap(&state) - g).abs() < 2e-15);
-        assert_eq!(cable.anchor(), [1.0, 1.3]);
+        assert_eq!(cable.anchor(), [1.0, 1.3].into());
     }
 
     /// The gap of the standard breakwater 1e-9 away from rest is known to nine digits and more.

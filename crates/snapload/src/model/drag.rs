@@ -1,17 +1,19 @@
 //! The resistance of water to a body that moves through it.
 
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{Polynomial, convolve};
 use crate::arithmetic::real::Real;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 
-/// Below this relative speed the quadratic law is rounded off, |u| = sqrt(u² + δ²): |u|u has no Taylor series
-/// where u = 0, and this has one. The force is off by at most δ²/2 of its coefficient \[L/T\].
+/// Below this relative speed the quadratic law is rounded off, |u| = sqrt(u² + δ²): |u|u has no
+/// Taylor series where u = 0, and this has one. The force is off by at most δ²/2 of its coefficient
+/// \[L/T\].
 const STANDSTILL: f64 = 1e-5;
 
-/// A force D = c₁ u + c₂ |u| u with the velocity u = w − v of the water relative to the body's centre, the second
-/// term being the drag of Morison, O'Brien, Johnson & Schaaf (*Petroleum Transactions AIME* 189 (1950) 149),
-/// and a moment −c_θ θ̇. All are told for unit mass.
+/// A force D = c₁ u + c₂ |u| u with the velocity u = w − v of the water relative to the body's
+/// centre, the second term being the drag of Morison, O'Brien, Johnson & Schaaf (*Petroleum
+/// Transactions AIME* 189 (1950) 149), and a moment −c_θ θ̇. All are per unit mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drag<T = f64> {
     /// c₁ \[1/T\].
@@ -37,11 +39,11 @@ impl<T: Real> Drag<T> {
 
     /// What it adds to (ẍ, ÿ, θ̈).
     pub fn at(&self, t: T, state: &State<T>) -> [T; 3] {
-        let body = [-state.vx, -state.vy];
-        let [u, v] = self.water.iter().fold(body, |sum, wave| {
-            let now = wave.shifted(t).cosine;
-            [sum[0] + now[0], sum[1] + now[1]]
-        });
+        let body = state.velocity().map(|v| -v);
+        let Vector2 { x: u, y: v } = self
+            .water
+            .iter()
+            .fold(body, |sum, wave| sum + wave.shifted(t).cosine);
         let speed = (u * u + v * v + T::from_f64(STANDSTILL).squared()).sqrt();
         let factor = self.linear + self.quadratic * speed;
         [factor * u, factor * v, -(self.turning * state.vtheta)]

@@ -1,19 +1,20 @@
 //! Forces that depend on time alone: a constant one and a sum of sinusoids.
 
-use crate::arithmetic::lane::{Lane, added, combined, length, scaled, sum};
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 
 /// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
 /// amplitudes and phases in x and y are covered.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Harmonic<T = f64> {
     /// Angular frequency Ω \[1/T\]; of either sign, or 0.
     pub omega: T,
     /// c, the force in phase with cos Ωt \[F\].
-    pub cosine: [T; 2],
+    pub cosine: Vector2<T>,
     /// d, the force in phase with sin Ωt \[F\].
-    pub sine: [T; 2],
+    pub sine: Vector2<T>,
 }
 
 impl<L: Lane> Harmonic<L> {
@@ -23,8 +24,8 @@ impl<L: Lane> Harmonic<L> {
         let (s, c) = (self.omega * t0).sin_cos();
         Self {
             omega: self.omega,
-            cosine: combined(c, self.cosine, s, self.sine),
-            sine: combined(c, self.sine, -s, self.cosine),
+            cosine: Vector2::combined(c, self.cosine, s, self.sine),
+            sine: Vector2::combined(c, self.sine, -s, self.cosine),
         }
     }
 }
@@ -33,9 +34,25 @@ impl<L: Lane> Harmonic<L> {
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Forcing<T = f64> {
     /// A constant force, the weight (net buoyancy) among it \[F\].
-    pub constant: [T; 2],
+    pub constant: Vector2<T>,
     /// The sinusoids.
     pub harmonics: Vec<Harmonic<T>>,
+}
+
+impl<L: Copy> Harmonic<L> {
+    /// What `number` makes of each number and the other harmonic's.
+    #[inline(always)]
+    pub(crate) fn zip_with<M: Copy, U>(
+        &self,
+        other: &Harmonic<M>,
+        number: impl Fn(L, M) -> U + Copy,
+    ) -> Harmonic<U> {
+        Harmonic {
+            omega: number(self.omega, other.omega),
+            cosine: self.cosine.zip_with(other.cosine, number),
+            sine: self.sine.zip_with(other.sine, number),
+        }
+    }
 }
 
 impl<T: Real> Harmonic<T> {
@@ -56,10 +73,8 @@ impl<T: Real> Harmonic<T> {
         let [x, y] = into;
         for k in 0..=ORDER {
             let factor = self.omega / (k + 1) as f64;
-            (x[k], y[k]) = (x[k] + c[0], y[k] + c[1]);
-            let turned = [-c[0] * factor, -c[1] * factor];
-            c = [d[0] * factor, d[1] * factor];
-            d = turned;
+            (x[k], y[k]) = (x[k] + c.x, y[k] + c.y);
+            (c, d) = (d.scaled(factor), c.map(|c| -c * factor));
         }
     }
 
@@ -67,8 +82,8 @@ impl<T: Real> Harmonic<T> {
     pub fn ellipse(f_o: T, nu: T, omega: T) -> Self {
         Self {
             omega,
-            cosine: [f_o, T::ZERO],
-            sine: [T::ZERO, nu * f_o],
+            cosine: [f_o, T::ZERO].into(),
+            sine: [T::ZERO, nu * f_o].into(),
         }
     }
 
@@ -78,8 +93,8 @@ impl<T: Real> Harmonic<T> {
         let (sy, cy) = phase[1].sin_cos();
         Self {
             omega,
-            cosine: [amplitude[0] * cx, amplitude[1] * cy],
-            sine: [-amplitude[0] * sx, -amplitude[1] * sy],
+            cosine: [amplitude[0] * cx, amplitude[1] * cy].into(),
+            sine: [-amplitude[0] * sx, -amplitude[1] * sy].into(),
         }
     }
 
@@ -87,14 +102,14 @@ impl<T: Real> Harmonic<T> {
     /// the sum of two circular motions in opposite directions.
     pub fn amplitude(&self) -> T {
         let (c, d) = (self.cosine, self.sine);
-        let forward = length([c[0] + d[1], c[1] - d[0]]);
-        let backward = length([c[0] - d[1], c[1] + d[0]]);
+        let forward = Vector2::from([c.x + d.y, c.y - d.x]).length();
+        let backward = Vector2::from([c.x - d.y, c.y + d.x]).length();
         (forward + backward) * 0.5
     }
 
     /// The largest |f_y(t)|.
     pub fn amplitude_y(&self) -> T {
-        (self.cosine[1].squared() + self.sine[1].squared()).sqrt()
+        (self.cosine.y.squared() + self.sine.y.squared()).sqrt()
     }
 }
 
@@ -102,61 +117,62 @@ impl<T: Real> Harmonic<T> {
 /// gain of velocity ∫₀ˢ f dσ, and the force and its rate at s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Push<T> {
-    pub(crate) drift: [T; 2],
-    pub(crate) gain: [T; 2],
-    pub(crate) force: [T; 2],
+    pub(crate) drift: Vector2<T>,
+    pub(crate) gain: Vector2<T>,
+    pub(crate) force: Vector2<T>,
     /// ḟ.
-    pub(crate) rate: [T; 2],
+    pub(crate) rate: Vector2<T>,
 }
 
 impl<L: Lane> Push<L> {
     /// Of a constant force.
     #[inline(always)]
-    pub(crate) fn constant(force: [L; 2], s: L) -> Self {
+    pub(crate) fn constant(force: Vector2<L>, s: L) -> Self {
         Self {
-            drift: scaled(force, s * s * 0.5),
-            gain: scaled(force, s),
+            drift: force.scaled(s * s * 0.5),
+            gain: force.scaled(s),
             force,
-            rate: [L::ZERO; 2],
+            rate: Vector2::ZERO,
         }
     }
 
     /// Drift and gain a little later, to the third order, f̈ being `bend`.
     #[inline(always)]
-    pub(crate) fn later(&self, s: L, bend: [L; 2]) -> [[L; 2]; 2] {
-        let (force, rate) = (self.force, scaled(self.rate, s));
+    pub(crate) fn later(&self, s: L, bend: Vector2<L>) -> [Vector2<L>; 2] {
+        let (force, rate) = (self.force, self.rate.scaled(s));
         let half = L::from_f64(0.5);
-        let drift = added(scaled(force, half), rate, L::sixth());
-        let gain = added(force, rate, half);
-        let gain = added(gain, bend, s * s * L::sixth());
+        let drift = force.scaled(half).plus_scaled(rate, L::sixth());
+        let gain = force.plus_scaled(rate, half);
+        let gain = gain.plus_scaled(bend, s * s * L::sixth());
         [
-            added(self.drift, added(self.gain, drift, s), s),
-            added(self.gain, gain, s),
+            self.drift.plus_scaled(self.gain.plus_scaled(drift, s), s),
+            self.gain.plus_scaled(gain, s),
         ]
     }
 
-    /// With that of a harmonic added, which must be given relative to s = 0 ([`Harmonic::shifted`]).
+    /// With that of a harmonic added, which must be given relative to s = 0
+    /// ([`Harmonic::shifted`]).
     ///
-    /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s spoils:
-    /// with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S), the gain
-    /// s (c (1 − z S) + d z C), the force c cos z + d sin z with cos z = 1 − z² C, sin z = z − z² S, and its rate
-    /// Ω (d cos z − c sin z).
+    /// The slack flight of docs/model.md section 4 in the form that neither Ω = 0 nor small |Ω|s
+    /// spoils: with z = Ωs, C = (1 − cos z)/z² and S = (z − sin z)/z², the drift is s² (c C + d S),
+    /// the gain s (c (1 − z S) + d z C), the force c cos z + d sin z with cos z = 1 − z² C, sin z =
+    /// z − z² S, and its rate Ω (d cos z − c sin z).
     #[inline(always)]
     pub(crate) fn with_harmonic(self, harmonic: &Harmonic<L>, s: L) -> Self {
         let z = harmonic.omega * s;
         let (even, odd) = z.versines();
         let (c, d) = (harmonic.cosine, harmonic.sine);
-        let drift = combined(even, c, odd, d);
-        let gain = combined((-z).mul_add(odd, L::ONE), c, z * even, d);
+        let drift = Vector2::combined(even, c, odd, d);
+        let gain = Vector2::combined((-z).mul_add(odd, L::ONE), c, z * even, d);
         let square = -(z * z);
         let (sine, cosine) = (square.mul_add(odd, z), square.mul_add(even, L::ONE));
-        let force = combined(cosine, c, sine, d);
-        let rate = combined(cosine, d, -sine, c);
+        let force = Vector2::combined(cosine, c, sine, d);
+        let rate = Vector2::combined(cosine, d, -sine, c);
         Self {
-            drift: added(self.drift, drift, s * s),
-            gain: added(self.gain, gain, s),
-            force: sum(self.force, force),
-            rate: added(self.rate, rate, harmonic.omega),
+            drift: self.drift.plus_scaled(drift, s * s),
+            gain: self.gain.plus_scaled(gain, s),
+            force: self.force + force,
+            rate: self.rate.plus_scaled(rate, harmonic.omega),
         }
     }
 }
@@ -172,17 +188,17 @@ impl<T: Real> Forcing<T> {
 
     /// The force at time t.
     #[inline(always)]
-    pub fn at(&self, t: T) -> [T; 2] {
+    pub fn at(&self, t: T) -> Vector2<T> {
         let mut force = self.constant;
         for harmonic in &self.harmonics {
-            force = sum(force, harmonic.shifted(t).cosine);
+            force = force + harmonic.shifted(t).cosine;
         }
         force
     }
 
     /// Bounds on |dⁿf/dtⁿ| over all time, for n = 0, 1, 2.
     pub fn bounds(&self) -> [T; 3] {
-        let mut bounds = [length(self.constant), T::ZERO, T::ZERO];
+        let mut bounds = [self.constant.length(), T::ZERO, T::ZERO];
         for harmonic in &self.harmonics {
             let mut amplitude = harmonic.amplitude();
             for bound in &mut bounds {
@@ -193,17 +209,17 @@ impl<T: Real> Forcing<T> {
         bounds
     }
 
-    /// The largest upward force.
+    /// Bound on ÿ of the free body of unit mass: the largest upward force.
     pub fn upward_acceleration_bound(&self) -> T {
         self.harmonics
             .iter()
-            .fold(self.constant[1], |sum, h| sum + h.amplitude_y())
+            .fold(self.constant.y, |sum, h| sum + h.amplitude_y())
     }
 
-    /// The largest |f_y|.
+    /// Bound on |ÿ| of the free body of unit mass: the largest |f_y|.
     pub fn vertical_acceleration_bound(&self) -> T {
         let upward = self.upward_acceleration_bound();
-        let downward = self.constant[1] - (upward - self.constant[1]);
+        let downward = self.constant.y - (upward - self.constant.y);
         upward.abs().max(downward.abs())
     }
 }
@@ -223,36 +239,36 @@ mod tests {
                 + f_o / omega.powi(2) * ((omega * t0).cos() - (omega * t).cos());
             let y = (nu * f_o / omega) * (omega * t0).cos() * tau
                 + nu * f_o / omega.powi(2) * ((omega * t0).sin() - (omega * t).sin());
-            let push = Push::constant([0.0; 2], tau).with_harmonic(&harmonic, tau);
-            assert!((push.drift[0] - x).abs() < 2e-15, "{tau}");
-            assert!((push.drift[1] - y).abs() < 2e-15, "{tau}");
+            let push = Push::constant(Vector2::ZERO, tau).with_harmonic(&harmonic, tau);
+            assert!((push.drift.x - x).abs() < 2e-15, "{tau}");
+            assert!((push.drift.y - y).abs() < 2e-15, "{tau}");
             let vx = f_o / omega * ((omega * t).sin() - (omega * t0).sin());
-            assert!((push.gain[0] - vx).abs() < 1e-15);
-            assert!((push.force[1] - nu * f_o * (omega * t).sin()).abs() < 1e-15);
+            assert!((push.gain.x - vx).abs() < 1e-15);
+            assert!((push.force.y - nu * f_o * (omega * t).sin()).abs() < 1e-15);
         }
     }
 
     #[test]
     fn slow_forcing_tends_to_a_constant_force() {
         let slow = Harmonic::ellipse(0.3, 0.5, 1e-6);
-        let push = Push::constant([0.0; 2], 2.0).with_harmonic(&slow, 2.0);
+        let push = Push::constant(Vector2::ZERO, 2.0).with_harmonic(&slow, 2.0);
         // f_x ≈ 0.3 and f_y ≈ 0.15 Ωt: 0.6 and 0.15 Ω s³/6, up to (Ωs)² relative.
-        assert!((push.drift[0] - 0.6).abs() < 1e-12);
-        assert!((push.drift[1] / (0.15e-6 * 8.0 / 6.0) - 1.0).abs() < 1e-11);
+        assert!((push.drift.x - 0.6).abs() < 1e-12);
+        assert!((push.drift.y / (0.15e-6 * 8.0 / 6.0) - 1.0).abs() < 1e-11);
         let still = Harmonic::ellipse(0.3, 0.5, 0.0);
-        let push = Push::constant([0.0; 2], 2.0).with_harmonic(&still, 2.0);
-        assert_eq!(push.drift, [0.6, 0.0]);
+        let push = Push::constant(Vector2::ZERO, 2.0).with_harmonic(&still, 2.0);
+        assert_eq!(push.drift, [0.6, 0.0].into());
     }
 
     #[test]
     fn bounds_are_reached_and_never_passed() {
         let forcing = Forcing {
-            constant: [0.0; 2],
+            constant: Vector2::ZERO,
             harmonics: vec![Harmonic::with_phases(1.3, [0.4, 0.7], [0.3, 1.1])],
         };
         let bound = forcing.bounds()[0];
         let largest = (0..100_000)
-            .map(|k| length(forcing.at(k as f64 * 1e-4)))
+            .map(|k| forcing.at(k as f64 * 1e-4).length())
             .fold(0.0, f64::max);
         assert!(largest <= bound && largest > bound - 1e-8);
     }

@@ -1,5 +1,7 @@
 //! Where the body is and how it moves.
 
+use crate::arithmetic::plane::Vector2;
+
 /// Position and velocity of the body, relative to the thesis's upside-down picture: y points to the
 /// sea floor's anchors, the net buoyancy pulls towards −y, θ turns counter-clockwise.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -33,6 +35,37 @@ impl<T> State<T> {
             vx,
             vy,
             vtheta,
+        }
+    }
+}
+
+impl<T: Copy> State<T> {
+    /// The centre (x, y).
+    #[inline(always)]
+    pub fn centre(&self) -> Vector2<T> {
+        [self.x, self.y].into()
+    }
+
+    /// The velocity (ẋ, ẏ) of the centre.
+    #[inline(always)]
+    pub fn velocity(&self) -> Vector2<T> {
+        [self.vx, self.vy].into()
+    }
+
+    /// What `number` makes of each number and the other state's.
+    #[inline(always)]
+    pub(crate) fn zip_with<M: Copy, U>(
+        &self,
+        other: &State<M>,
+        number: impl Fn(T, M) -> U,
+    ) -> State<U> {
+        State {
+            x: number(self.x, other.x),
+            y: number(self.y, other.y),
+            theta: number(self.theta, other.theta),
+            vx: number(self.vx, other.vx),
+            vy: number(self.vy, other.vy),
+            vtheta: number(self.vtheta, other.vtheta),
         }
     }
 }

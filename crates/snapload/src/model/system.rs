@@ -1,6 +1,6 @@
 //! Body, cables, forces and restitution together.
 
-use crate::arithmetic::lane::dot;
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
 use crate::model::body::{Body, Shape};
 use crate::model::cable::{Cable, Normal};
@@ -44,7 +44,7 @@ impl<T: Real> System<T> {
             body,
             cables: vec![cable(T::ONE), cable(-T::ONE)],
             forcing: Forcing {
-                constant: [T::ZERO, -T::ONE],
+                constant: [T::ZERO, -T::ONE].into(),
                 harmonics: vec![wave],
             },
             drag: None,
@@ -85,7 +85,7 @@ impl<T: Real> System<T> {
     pub fn energy(&self, state: &State<T>) -> T {
         let translation = state.vx.squared() + state.vy.squared();
         let rotation = self.body.inertia() * state.vtheta.squared();
-        (translation + rotation) * 0.5 - dot(self.forcing.constant, [state.x, state.y])
+        (translation + rotation) * 0.5 - self.forcing.constant.dot(state.centre())
     }
 
     /// y of the highest point of the body.
@@ -108,7 +108,7 @@ impl<T: Real> System<T> {
     /// (ẍ, ÿ, θ̈) if no cable pulled: the forces and the drag, for unit mass.
     #[inline(always)]
     pub fn free_acceleration(&self, t: T, state: &State<T>) -> [T; 3] {
-        let [x, y] = self.forcing.at(t);
+        let Vector2 { x, y } = self.forcing.at(t);
         match &self.drag {
             None => [x, y, T::ZERO],
             Some(drag) => {
@@ -131,12 +131,14 @@ impl<T: Real> System<T> {
         let (sine, cosine) = state.theta.sin_cos();
         let lever = tether.lever(sine, cosine);
         let normal = tether.normal(state);
-        let velocity = [
-            state.vx - state.vtheta * lever[1],
-            state.vy + state.vtheta * lever[0],
-        ];
-        dot(normal.n, [x, y]) + normal.arm * turning + dot(velocity, velocity) / tether.length()
-            - state.vtheta.squared() * dot(normal.n, lever)
+        let velocity = Vector2 {
+            x: state.vx - state.vtheta * lever.y,
+            y: state.vy + state.vtheta * lever.x,
+        };
+        normal.n.dot([x, y].into())
+            + normal.arm * turning
+            + velocity.dot(velocity) / tether.length()
+            - state.vtheta.squared() * normal.n.dot(lever)
     }
 }
 

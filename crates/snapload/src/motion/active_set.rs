@@ -115,8 +115,8 @@ pub(crate) fn acceleration<T: Real>(
     taut.iter().fold(free, |[x, y, theta], cable| {
         let (normal, pull) = (system.cables[cable].normal(state), tension[cable]);
         [
-            x - pull * normal.n[0],
-            y - pull * normal.n[1],
+            x - pull * normal.n.x,
+            y - pull * normal.n.y,
             theta - pull * normal.arm * inverse_inertia,
         ]
     })

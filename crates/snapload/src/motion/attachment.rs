@@ -1,24 +1,23 @@
 //! One cable along a slack flight, in closed form.
 
-use crate::arithmetic::lane::{
-    Lane, Turn, added, combined, difference, dot, quarter_turn, select2, sum,
-};
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::model::cable::Cable;
 use crate::model::forcing::{Harmonic, Push};
 use crate::model::state::State;
 
-/// Bounds on derivatives are computed in rounded arithmetic; this much more makes them safe.
+/// Bounds on derivatives are computed in rounded arithmetic; this factor makes them safe.
 pub(crate) const INFLATION: f64 = 1.0 + 1e-9;
 
 /// One cable's attachment at the start of a flight.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Attachment<L> {
     /// d = P − A.
-    pub(crate) span: [L; 2],
+    pub(crate) span: Vector2<L>,
     /// ρ.
-    pub(crate) lever: [L; 2],
+    pub(crate) lever: Vector2<L>,
     /// Ṗ.
-    pub(crate) velocity: [L; 2],
+    pub(crate) velocity: Vector2<L>,
     pub(crate) gap: L,
     pub(crate) gap_rate: L,
     pub(crate) gap_error: L,
@@ -33,8 +32,8 @@ pub(crate) struct Attachment<L> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instant<L> {
     pub(crate) push: Push<L>,
-    /// The turn δ = θ̇s since the start.
-    pub(crate) turn: Turn<L>,
+    /// The rotation by δ = θ̇s since the start.
+    pub(crate) rotation: Rotation<L>,
     /// θ̇.
     pub(crate) spin: L,
 }
@@ -49,26 +48,26 @@ pub(crate) struct GapJet<L> {
     /// Bound on the rounding error of `value`, the motion taken as exact.
     pub(crate) noise: L,
     /// Ṗ.
-    pub(crate) velocity: [L; 2],
+    pub(crate) velocity: Vector2<L>,
 }
 
 impl<L: Lane> Attachment<L> {
-    /// Of a cable whose fairlead is `reach` from the centre, where θ is a `turn` from rest and gap and error are
-    /// known; `force` bounds the force and its derivatives.
+    /// Of a cable whose fairlead is `reach` from the centre, where the body is turned by `rotation`
+    /// and gap and error are known; `force` bounds the force and its derivatives.
     #[inline(always)]
     pub(crate) fn new(
         cable: &Cable<L>,
         reach: L,
         state: &State<L>,
-        turn: &Turn<L>,
+        rotation: &Rotation<L>,
         [gap, gap_error]: [L; 2],
         speed: L,
         force: [L; 3],
     ) -> Self {
-        let span = cable.span_moved(cable.moved(state, turn));
-        let lever = cable.lever(turn.sine, turn.cosine);
+        let span = cable.span_moved(cable.moved(state, rotation));
+        let lever = cable.lever(rotation.sine, rotation.cosine);
         let spin = state.vtheta;
-        let velocity = added([state.vx, state.vy], quarter_turn(lever), spin);
+        let velocity = state.velocity().plus_scaled(lever.quarter_turn(), spin);
         let turning = spin.abs();
         let centripetal = spin * spin * reach;
         let jerk = centripetal * turning;
@@ -77,7 +76,7 @@ impl<L: Lane> Attachment<L> {
             lever,
             velocity,
             gap,
-            gap_rate: dot(span, velocity) * 2.0,
+            gap_rate: span.dot(velocity) * 2.0,
             gap_error,
             length: cable.length(),
             speed,
@@ -91,44 +90,49 @@ impl<L: Lane> Attachment<L> {
 
     /// g, ġ, g̈, g⃛ a time `s` into the flight.
     ///
-    /// With P − P₀ = Ṗ₀ s + q, where q is of second order and free of cancellation,
-    /// g = g₀ + ġ₀ s + 2 d₀·q + |P − P₀|²; so a gap that starts closed, and its rate, are known to a few
-    /// roundings *of their own size*, however short the flight.
+    /// With P − P₀ = Ṗ₀ s + q, where q is of second order and free of cancellation, g = g₀ + ġ₀ s +
+    /// 2 d₀·q + |P − P₀|²; so a gap that starts closed, and its rate, are known to a few roundings
+    /// *of their own size*, however short the flight.
     #[inline(always)]
     pub(crate) fn jet(&self, s: L, now: &Instant<L>) -> GapJet<L> {
-        let (push, turn, spin) = (&now.push, &now.turn, now.spin);
-        let quarter = quarter_turn(self.lever);
-        let bent = combined(turn.versine, self.lever, turn.sine_deficit, quarter);
-        let remainder = difference(push.drift, bent);
-        let moved = added(remainder, self.velocity, s);
-        let span = sum(self.span, moved);
+        let (push, rotation, spin) = (&now.push, &now.rotation, now.spin);
+        let (lever, quarter) = (self.lever, self.lever.quarter_turn());
+        let bent = Vector2::combined(rotation.versine, lever, rotation.angle_minus_sine, quarter);
+        let remainder = push.drift - bent;
+        let moved = remainder.plus_scaled(self.velocity, s);
+        let span = self.span + moved;
         // What the lever and its quarter turn have changed by.
-        let turned = combined(turn.sine, quarter, -turn.versine, self.lever);
-        let lever = sum(self.lever, turned);
-        let gain = added(push.gain, quarter_turn(turned), spin);
-        let velocity = sum(self.velocity, gain);
+        let turned = Vector2::combined(rotation.sine, quarter, -rotation.versine, lever);
+        let lever = lever + turned;
+        let gain = push.gain.plus_scaled(turned.quarter_turn(), spin);
+        let velocity = self.velocity + gain;
         let square_spin = spin * spin;
-        let accel = added(push.force, lever, -square_spin);
-        let jerk = added(push.rate, quarter_turn(lever), -(square_spin * spin));
+        let accel = push.force.plus_scaled(lever, -square_spin);
+        let jerk = push
+            .rate
+            .plus_scaled(lever.quarter_turn(), -(square_spin * spin));
 
         let two = L::from_f64(2.0);
         let linear = self.gap_rate * s;
-        let bend = dot(self.span, remainder);
-        let square = dot(moved, moved);
+        let bend = self.span.dot(remainder);
+        let square = moved.dot(moved);
         let size = self.gap.abs() + linear.abs() + square;
         let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
         GapJet {
             value: self.gap + bend.mul_add(two, linear + square),
-            rate: (dot(moved, self.velocity) + dot(span, gain)).mul_add(two, self.gap_rate),
-            accel: (dot(velocity, velocity) + dot(span, accel)) * 2.0,
-            jerk: dot(velocity, accel).mul_add(L::from_f64(3.0), dot(span, jerk)) * 2.0,
+            rate: (moved.dot(self.velocity) + span.dot(gain)).mul_add(two, self.gap_rate),
+            accel: (velocity.dot(velocity) + span.dot(accel)) * 2.0,
+            jerk: velocity
+                .dot(accel)
+                .mul_add(L::from_f64(3.0), span.dot(jerk))
+                * 2.0,
             noise: noise.mul_add(L::EPSILON, self.gap_error),
             velocity,
         }
     }
 
-    /// What the rounding of the velocities at the flight's start may have changed the gap by, a time `s` into
-    /// it.
+    /// What the rounding of the velocities at the flight's start may have changed the gap by, a
+    /// time `s` into it.
     #[inline(always)]
     pub(crate) fn blur(&self, s: L) -> L {
         self.length * self.speed * s * L::EPSILON * 16.0
@@ -158,23 +162,23 @@ impl<L: Lane> Attachment<L> {
         self.span_bound(speed, s).mul_add(k, fixed) * 2.0
     }
 
-    /// g̈ = 2 (|Ṗ|² + d·P̈), g⃛ = 2 (3 Ṗ·P̈ + d·P⃛) and g⁗ = 2 (3 |P̈|² + 4 Ṗ·P⃛ + d·P⁗) at the start, with the force and
-    /// its derivatives there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ, P⁗ = f̈ + θ̇⁴ρ.
+    /// g̈ = 2 (|Ṗ|² + d·P̈), g⃛ = 2 (3 Ṗ·P̈ + d·P⃛) and g⁗ = 2 (3 |P̈|² + 4 Ṗ·P⃛ + d·P⁗) at the
+    /// start, with the force and its derivatives there: P̈ = f − θ̇²ρ, P⃛ = ḟ − θ̇³ k×ρ, P⁗ = f̈ +
+    /// θ̇⁴ρ.
     #[inline(always)]
-    pub(crate) fn bends_at_start(&self, force: [[L; 2]; 3], spin: L) -> [L; 3] {
+    pub(crate) fn bends_at_start(&self, force: [Vector2<L>; 3], spin: L) -> [L; 3] {
         let square = spin * spin;
         let [force, rate, bend] = force;
         let three = L::from_f64(3.0);
-        let accel = added(force, self.lever, -square);
-        let jerk = added(rate, quarter_turn(self.lever), -(square * spin));
-        let snap = added(bend, self.lever, square * square);
+        let (span, velocity) = (self.span, self.velocity);
+        let accel = force.plus_scaled(self.lever, -square);
+        let jerk = rate.plus_scaled(self.lever.quarter_turn(), -(square * spin));
+        let snap = bend.plus_scaled(self.lever, square * square);
+        let fourth = accel.dot(accel).mul_add(three, span.dot(snap));
         [
-            (dot(self.velocity, self.velocity) + dot(self.span, accel)) * 2.0,
-            dot(self.velocity, accel).mul_add(three, dot(self.span, jerk)) * 2.0,
-            dot(self.velocity, jerk).mul_add(
-                L::from_f64(4.0),
-                dot(accel, accel).mul_add(three, dot(self.span, snap)),
-            ) * 2.0,
+            (velocity.dot(velocity) + span.dot(accel)) * 2.0,
+            velocity.dot(accel).mul_add(three, span.dot(jerk)) * 2.0,
+            velocity.dot(jerk).mul_add(L::from_f64(4.0), fourth) * 2.0,
         ]
     }
 }
@@ -188,10 +192,10 @@ impl<L: Lane> Instant<L> {
 
     /// A time `s` into a flight that turns at `spin` under a constant force; harmonics are added.
     #[inline(always)]
-    pub(crate) fn at(s: L, constant: [L; 2], spin: L) -> Self {
+    pub(crate) fn at(s: L, constant: Vector2<L>, spin: L) -> Self {
         Self {
             push: Push::constant(constant, s),
-            turn: Turn::by(spin * s),
+            rotation: Rotation::by(spin * s),
             spin,
         }
     }
@@ -208,19 +212,19 @@ impl<L: Lane> Instant<L> {
 
 /// The state a time `s` after `start`, as forces have drifted the body and made it gain velocity.
 #[inline(always)]
-pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [[L; 2]; 2]) -> State<L> {
+pub(crate) fn flown<L: Lane>(start: &State<L>, s: L, [drift, gain]: [Vector2<L>; 2]) -> State<L> {
     State {
-        x: start.x + start.vx.mul_add(s, drift[0]),
-        y: start.y + start.vy.mul_add(s, drift[1]),
+        x: start.x + start.vx.mul_add(s, drift.x),
+        y: start.y + start.vy.mul_add(s, drift.y),
         theta: start.vtheta.mul_add(s, start.theta),
-        vx: start.vx + gain[0],
-        vy: start.vy + gain[1],
+        vx: start.vx + gain.x,
+        vy: start.vy + gain.y,
         vtheta: start.vtheta,
     }
 }
 
 impl<L: Lane> GapJet<L> {
-    /// A little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ stays behind.
+    /// The jet a little later, by its cubic, where |g⁗| ≤ `fourth` in between; Ṗ is left as it was.
     #[inline(always)]
     pub(crate) fn later(&self, s: L, fourth: L) -> Self {
         let sixth = self.jerk * L::sixth();
@@ -243,7 +247,8 @@ impl<L: Lane> GapJet<L> {
         bend.mul_add(s, self.rate) * s
     }
 
-    /// About how much later the cubic is zero, by reversion of its series to the third order, and what it is there.
+    /// About how much later the cubic is zero, by reversion of its series to the third order, and
+    /// what it is there.
     #[inline(always)]
     pub(crate) fn root(&self) -> (L, L) {
         let sixth = self.jerk * L::sixth();
@@ -265,7 +270,7 @@ impl<L: Lane> GapJet<L> {
             accel: L::select(mask, yes.accel, no.accel),
             jerk: L::select(mask, yes.jerk, no.jerk),
             noise: L::select(mask, yes.noise, no.noise),
-            velocity: select2(mask, yes.velocity, no.velocity),
+            velocity: Vector2::select(mask, yes.velocity, no.velocity),
         }
     }
 }
@@ -276,8 +281,8 @@ mod tests {
     use crate::arithmetic::precise::Precise;
     use crate::arithmetic::real::Real;
 
-    /// What moves a flight to its crossing is right to the last digit of any arithmetic: with 1, 2 and 6 as derivatives the
-    /// cubic is g + s + s² + s³, and a force that grows by 6 drifts by s³.
+    /// What moves a flight to its crossing is right to the last digit of any arithmetic: with 1, 2
+    /// and 6 as derivatives the cubic is g + s + s² + s³, and a force that grows by 6 drifts by s³.
     #[test]
     fn cubics_keep_all_digits() {
         type Digits = Precise<8>;
@@ -290,7 +295,7 @@ mod tests {
             accel,
             jerk,
             noise: zero,
-            velocity: [zero; 2],
+            velocity: Vector2::ZERO,
         };
         let off = |got: Digits, exact: Digits| (got - exact).to_f64().abs();
         let cubic = |s: Digits| g + s * (rate + s * (rate + s));
@@ -299,12 +304,12 @@ mod tests {
         assert!(off(left, cubic(root)) < 1e-150 && left.to_f64().abs() < 1e-7);
 
         let push = Push {
-            drift: [zero; 2],
-            gain: [zero; 2],
-            force: [zero; 2],
-            rate: [jerk, zero],
+            drift: Vector2::ZERO,
+            gain: Vector2::ZERO,
+            force: Vector2::ZERO,
+            rate: [jerk, zero].into(),
         };
-        let [drift, gain] = push.later(s, [zero, jerk]);
-        assert!(off(drift[0], s * s * s) < 1e-150 && off(gain[1], s * s * s) < 1e-150);
+        let [drift, gain] = push.later(s, [zero, jerk].into());
+        assert!(off(drift.x, s * s * s) < 1e-150 && off(gain.y, s * s * s) < 1e-150);
     }
 }

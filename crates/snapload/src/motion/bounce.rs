@@ -1,22 +1,27 @@
-//! From one impact to the next: a slack flight of a body on two cables under one sinusoid, and one cable
-//! snapping taut at its end. Nearly every step of nearly every run is such a bounce.
+//! From one impact to the next: a slack flight of a body on two cables under one sinusoid, and one
+//! cable snapping taut at its end. Nearly every step of nearly every run is such a bounce.
 //!
 //! Written over [`Lane`], so that one text is the ordinary motion and that of several cases side by
 //! side. A bounce is found by a guess and proven afterwards:
 //!
-//! 1. *Guess*, from the Taylor polynomial of both gaps at the start, which cable closes first, and when.
-//! 2. *Meet*: look at both gaps there, to the third derivative; the cubic has the crossing once what it leaves out is
-//!    below rounding. Else look again from its root.
-//! 3. *Exclude*: with value, rate and bend known at *both* ends of the flight, and bounds on what is beyond, each
-//!    gap is shown to stay open in between, the early part from the start and the late part from the end.
-//!    The rotation and the height of the body are bounded likewise.
+//! 1. *Guess*, from the Taylor polynomials of both gaps at the start, which cable closes first, and
+//!    when.
+//! 2. *Search*: evaluate both gaps there, to the third derivative. The root of the cubic is the
+//!    crossing once what the cubic leaves out is below rounding; otherwise evaluate again at its
+//!    root.
+//! 3. *Exclude* an earlier crossing: with value, rate and second derivative known at *both* ends of
+//!    the flight, and bounds on the higher derivatives, each gap is shown to stay open in between,
+//!    the early part from the start and the late part from the end. The rotation and the height of
+//!    the body are bounded likewise.
 //! 4. *Law*: one cable, closed by itself and closing; p = (1 + e) v_n/w.
 //!
-//! Whatever does not fit (a bound that is too weak, cables that close together, a cable that may stick, a
-//! stop, a graze) is left to the general loop in [`crate::motion::simulation`]: a step is a bounce or it is not, by
-//! what it is, and never by which lane it is in. So the bits of a run do not depend on lanes.
+//! Whatever does not fit (a bound that is too weak, cables that close together, a cable that may
+//! stick, a stop, a graze) is left to the general loop in [`crate::motion::simulation`]. Whether a
+//! step is a bounce depends on the motion alone and never on its lane, so the bits of a run do not
+//! depend on lanes.
 
-use crate::arithmetic::lane::{Lane, Turn, length_bound, select2};
+use crate::arithmetic::lane::{Lane, select_each};
+use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
 use crate::model::contact_law::{ContactLaw, Snap};
@@ -29,8 +34,8 @@ use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// A stop closer than this is left to the general search \[L\], \[rad\].
 const NEAR_STOP: f64 = 1e-9;
-/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable which
-/// an impulse neither loads nor unloads.
+/// A normal velocity of this many roundings of the attachment's speed is zero: that of a taut cable
+/// which an impulse neither loads nor unloads.
 pub(crate) const UNMOVED: f64 = 64.0;
 
 /// What a bounce came to, in the lanes in which it is one.
@@ -39,7 +44,7 @@ pub(crate) struct Bounce<L: Lane> {
     /// Whether the flight ends as told here.
     pub(crate) arrived: L::Mask,
     /// Whether the highest point of the flight is known, too.
-    pub(crate) topped: L::Mask,
+    pub(crate) top_known: L::Mask,
     /// Whether, besides, the law of one cable is all that happens.
     pub(crate) plain: L::Mask,
     /// Which cable: the second instead of the first.
@@ -66,13 +71,13 @@ pub(crate) fn highest_point<T: Real>(
     let wave = two_cables.wave.shifted(from.t);
     let height = |s: T| {
         let push = Push::constant(two_cables.constant, s).with_harmonic(&wave, s);
-        let y = from.state.y + (from.state.vy * s + push.drift[1]);
-        (y, from.state.vy + push.gain[1])
+        let y = from.state.y + (from.state.vy * s + push.drift.y);
+        (y, from.state.vy + push.gain.y)
     };
     highest(
         &height,
         s,
-        two_cables.upward,
+        two_cables.upward_acceleration_bound,
         two_cables.vertical_acceleration_bound,
         record,
     )
@@ -84,32 +89,32 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
     let start = TwoCableFlight::new(two_cables, from);
     let (second, guess) = start.guess();
     let horizon = two_cables.t_end - from.t;
-    let (look, found) = start.meet(second, guess, horizon);
+    let (trial, found) = start.search(second, guess, horizon);
 
-    let FlightEnd { s, state, jets } = start.arrival(second, &look, from);
+    let FlightEnd { s, state, jets } = start.arrival(second, &trial, from);
     let blurs = [start.attachments[0].blur(s), start.attachments[1].blur(s)];
     let alone = closes_alone(from.t, s, second, &jets, blurs);
     let end_value = [
         L::select(second, jets[0].value, L::ZERO),
         L::select(second, L::ZERO, jets[1].value),
     ];
-    let open = start.stays_open(0, s, &look, &jets[0], end_value[0])
-        & start.stays_open(1, s, &look, &jets[1], end_value[1]);
+    let open = start.stays_open(0, s, &trial, &jets[0], end_value[0])
+        & start.stays_open(1, s, &trial, &jets[1], end_value[1]);
     let arrived =
         found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, s, &state);
-    let topped = !rises_above(two_cables, from, s, &state);
+    let top_known = !rises_above(two_cables, from, s, &state);
     land(
         two_cables,
         from,
         (s, second),
         &state,
         &jets,
-        (arrived, topped),
+        (arrived, top_known),
     )
 }
 
-/// Whether the struck cable is closing, and the other one does not close at the same
-/// instant: no sooner than the errors of both times, and of t + s, allow (see [`crate::motion::events`]).
+/// Whether the struck cable is closing, and the other one does not close at the same instant: no
+/// sooner than the errors of both times, and of t + s, allow (see [`crate::motion::events`]).
 #[inline(always)]
 fn closes_alone<L: Lane>(
     t: L,
@@ -146,8 +151,8 @@ fn height_bound<L: Lane>(
         .mul_add(s * s * 0.125, ends)
 }
 
-/// Whether no stop is near: the rotation is largest at an end, as it is linear in time, and the height exceeds
-/// its ends by at most |ÿ|s²/8.
+/// Whether no stop is near: the rotation is largest at an end, as it is linear in time, and the
+/// height exceeds its ends by at most |ÿ|s²/8.
 #[inline(always)]
 fn stops_nowhere<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -172,7 +177,7 @@ fn rises_above<L: Lane>(
     state: &State<L>,
 ) -> L::Mask {
     let height = height_bound(two_cables, from, s, state);
-    let change = two_cables.upward.positive() * s;
+    let change = two_cables.upward_acceleration_bound.positive() * s;
     let falls = (from.state.vy + change).at_most(L::ZERO);
     let climbs = L::ZERO.at_most(state.vy - change);
     from.y_max.below(height) & !falls & !climbs
@@ -180,8 +185,8 @@ fn rises_above<L: Lane>(
 
 /// The impact at the end of a flight, docs/model.md section 5: p = (1 + e) v_n/w.
 ///
-/// Before it the body is put back onto the cable, from which it is a rounding away: by a translation, as
-/// the metric does not matter for so little, so that its rotation is known already.
+/// Before it the body is put back onto the cable, from which it is a rounding away: by a
+/// translation, as the metric does not matter for so little, so that its rotation is known already.
 #[inline(always)]
 fn land<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -189,18 +194,18 @@ fn land<L: Lane>(
     (s, second): (L, L::Mask),
     state: &State<L>,
     jets: &[GapJet<L>; 2],
-    (arrived, topped): (L::Mask, L::Mask),
+    (arrived, top_known): (L::Mask, L::Mask),
 ) -> Bounce<L> {
-    let turn = Turn::by(state.theta);
+    let rotation = Rotation::by(state.theta);
     let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
     let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
-    let moved = struck.moved(state, &turn);
-    let lever = struck.lever(turn.sine, turn.cosine);
+    let moved = struck.moved(state, &rotation);
+    let lever = struck.lever(rotation.sine, rotation.cosine);
     let normal = struck.normal_along(struck.span_moved(moved), lever);
     let off = struck.gap_moved(moved) * struck.per_length() * -0.5;
     let before = State {
-        x: off.mul_add(normal.n[0], state.x),
-        y: off.mul_add(normal.n[1], state.y),
+        x: off.mul_add(normal.n.x, state.x),
+        y: off.mul_add(normal.n.y, state.y),
         ..*state
     };
     let contact = ContactLaw {
@@ -212,18 +217,18 @@ fn land<L: Lane>(
     let mut after = before;
     normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
 
-    let first = speed_bound(length_bound([before.vx, before.vy]), before.vtheta, reach);
-    let last = speed_bound(length_bound([after.vx, after.vy]), after.vtheta, reach);
+    let first = speed_bound(before.velocity().length_bound(), before.vtheta, reach);
+    let last = speed_bound(after.velocity().length_bound(), after.vtheta, reach);
     let rounding = first.larger(last) * L::EPSILON;
     let rebounds =
         two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n) & (rounding * UNMOVED).below(-v_after);
     let t = from.t + s;
-    let other = other_gap(two_cables, second, state, &turn, jets);
+    let other = other_gap(two_cables, second, state, &rotation, jets);
     let closed = [L::ZERO; 2];
     Bounce {
         arrived,
-        topped,
-        plain: arrived & topped & rebounds & from.t.below(t),
+        top_known,
+        plain: arrived & top_known & rebounds & from.t.below(t),
         second,
         s,
         before,
@@ -233,11 +238,11 @@ fn land<L: Lane>(
         next: AfterImpact {
             t,
             state: after,
-            turn,
+            rotation,
             before: [before.vx, before.vy, before.vtheta],
             gaps: [
-                select2(second, other, closed),
-                select2(second, closed, other),
+                select_each(second, other, closed),
+                select_each(second, closed, other),
             ],
             y_max: from.y_max.larger(state.y),
             theta_max: from.theta_max.larger(state.theta.abs()),
@@ -245,19 +250,19 @@ fn land<L: Lane>(
     }
 }
 
-/// Value and error of the gap that did not close: carried forward, or evaluated afresh where that is better
-/// known.
+/// Value and error of the gap that did not close: carried forward, or evaluated afresh where that
+/// is better known.
 #[inline(always)]
 fn other_gap<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     second: L::Mask,
     state: &State<L>,
-    turn: &Turn<L>,
+    rotation: &Rotation<L>,
     jets: &[GapJet<L>; 2],
 ) -> [L; 2] {
     let cable = Cable::select(second, &two_cables.cables[0], &two_cables.cables[1]);
     let reach = L::select(second, two_cables.reach[0], two_cables.reach[1]);
-    let moved = cable.moved(state, turn);
+    let moved = cable.moved(state, rotation);
     let error = cable.gap_error(moved, state.theta, reach);
     let carried = GapJet::select(second, &jets[0], &jets[1]);
     let better = carried.noise.below(error);

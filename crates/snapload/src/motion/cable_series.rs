@@ -1,6 +1,6 @@
 //! Taylor series of the cables' geometry and of what they pull, for two cables side by side.
 
-use crate::arithmetic::lane::cross;
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::{VectorSeries, convolve};
 use crate::model::cable::Normal;
@@ -14,7 +14,7 @@ type Quad<T> = [T; 4];
 /// Two cables; where their number is odd, the last is alone.
 #[derive(Clone, Copy, Debug, Default)]
 struct CablePair<T: Real> {
-    /// The fairleads, and they turned by a quarter.
+    /// The fairleads, and the fairleads turned by a quarter.
     fairleads: [Quad<T>; 2],
     /// 1/r.
     per_length: Quad<T>,
@@ -30,7 +30,7 @@ struct CablePair<T: Real> {
     tension: VectorSeries<T, 4>,
     /// T n turned back by a quarter, (T n_y, −T n_x): ρ times this adds up to the moment ρ × T n.
     turned_pull: VectorSeries<T, 4>,
-    /// Of the gaps' latest coefficients what does not depend on the latest of d.
+    /// The part of the gaps' latest coefficients that does not depend on the latest of d.
     bend: [T; 2],
 }
 
@@ -57,18 +57,18 @@ impl<T: Real> CableSeries<T> {
             }
             pair.bend = [T::ZERO; 2];
             for (place, cable) in cables.iter().enumerate() {
-                let [x, y] = cable.fairlead();
-                put(&mut pair.fairleads[0], place, [x, y]);
-                put(&mut pair.fairleads[1], place, [-y, x]);
-                put(&mut pair.per_length, place, [cable.per_length(); 2]);
+                let fairlead = cable.fairlead();
+                put(&mut pair.fairleads[0], place, fairlead);
+                put(&mut pair.fairleads[1], place, fairlead.quarter_turn());
+                put(&mut pair.per_length, place, [cable.per_length(); 2].into());
             }
         }
     }
 
     /// ρ and d to order k; d but for its constant.
     #[inline(always)]
-    pub(crate) fn extend(&mut self, k: usize, centre: [T; 2], sine: T, cosine: T) {
-        let centre = [centre[0], centre[1], centre[0], centre[1]];
+    pub(crate) fn extend(&mut self, k: usize, centre: Vector2<T>, sine: T, cosine: T) {
+        let centre = [centre.x, centre.y, centre.x, centre.y];
         for pair in &mut self.pairs {
             let lever = pair.turned(sine, cosine);
             pair.lever[k] = lever;
@@ -78,7 +78,7 @@ impl<T: Real> CableSeries<T> {
 
     /// Gives d at the start.
     #[inline(always)]
-    pub(crate) fn set_span(&mut self, cable: usize, span: [T; 2]) {
+    pub(crate) fn set_span(&mut self, cable: usize, span: Vector2<T>) {
         put(&mut self.pairs[cable / 2].span[0], cable % 2, span);
     }
 
@@ -93,8 +93,8 @@ impl<T: Real> CableSeries<T> {
                 let per_length = pair.per_length[2 * place];
                 if carries {
                     let (span, lever) = (get(&pair.span[0], place), get(&pair.lever[0], place));
-                    let n = [span[0] * per_length, span[1] * per_length];
-                    let arm = cross(lever, n);
+                    let n = span.scaled(per_length);
+                    let arm = lever.cross(n);
                     normals[cable] = Normal { n, arm };
                 }
                 let half = if carries { 0.5 } else { 0.0 };
@@ -106,8 +106,8 @@ impl<T: Real> CableSeries<T> {
         normals
     }
 
-    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders give them; keeps each T n,
-    /// to which [`CableSeries::find_tensions`] adds the rest.
+    /// Σ T n and Σ ρ × T n to order k of the cables with tensions, as far as those of lower orders
+    /// give them; keeps each T n, to which [`CableSeries::find_tensions`] adds the rest.
     #[inline(always)]
     pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
         let mut sums = [T::ZERO; 3];
@@ -133,9 +133,9 @@ impl<T: Real> CableSeries<T> {
         sums
     }
 
-    /// Finds the k-th coefficients of the tensions, which hold the lengths of the carrying cables; returns Σ T n and Σ s T of
-    /// them. `accel` are those of (ẍ, ÿ, θ̈) but for these tensions, and `turned` those of order k + 2 of sine and cosine but
-    /// for that of θ.
+    /// Finds the k-th coefficients of the tensions, which hold the lengths of the carrying cables;
+    /// returns Σ T n and Σ s T of them. `accel` are those of (ẍ, ÿ, θ̈) but for these tensions, and
+    /// `turned` those of order k + 2 of sine and cosine but for that of θ.
     #[inline(always)]
     pub(crate) fn find_tensions(
         &mut self,
@@ -144,7 +144,7 @@ impl<T: Real> CableSeries<T> {
         turned: [T; 2],
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) -> [T; 3] {
-        // The usual two are done in registers.
+        // Two cables are usual, and their numbers stay in registers.
         if let [pair] = &mut self.pairs[..] {
             let load = pair.load(k, accel, turned);
             return pair.take(k, ready.solve_two(load));
@@ -183,8 +183,8 @@ impl<T: Real> CableSeries<T> {
 }
 
 impl<T: Real> CablePair<T> {
-    /// What each carrying cable has to hold back: (k+1)(k+2) times the coefficient of order k + 2 of its constraint, but for
-    /// the tensions of order k.
+    /// What each carrying cable has to hold back: (k+1)(k+2) times the coefficient of order k + 2
+    /// of its constraint, but for the tensions of order k.
     #[inline(always)]
     fn load(&mut self, k: usize, accel: [T; 3], [sine, cosine]: [T; 2]) -> [T; 2] {
         let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
@@ -236,11 +236,11 @@ fn add<T: Real>(sums: &mut [T; 3], forces: &Quad<T>, moment: T) {
 }
 
 #[inline(always)]
-fn put<T>(quad: &mut Quad<T>, place: usize, [x, y]: [T; 2]) {
-    (quad[2 * place], quad[2 * place + 1]) = (x, y);
+fn put<T>(quad: &mut Quad<T>, place: usize, vector: Vector2<T>) {
+    (quad[2 * place], quad[2 * place + 1]) = (vector.x, vector.y);
 }
 
 #[inline(always)]
-fn get<T: Copy>(quad: &Quad<T>, place: usize) -> [T; 2] {
-    [quad[2 * place], quad[2 * place + 1]]
+fn get<T: Copy>(quad: &Quad<T>, place: usize) -> Vector2<T> {
+    [quad[2 * place], quad[2 * place + 1]].into()
 }

@@ -1,6 +1,6 @@
 //! Slack flight, in closed form.
 
-use crate::arithmetic::lane::{Turn, length};
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::real::Real;
 use crate::model::forcing::Harmonic;
 use crate::model::rules::Rules;
@@ -12,13 +12,14 @@ use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::limits::{Flying, Limits};
 
-/// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of sinusoids).
+/// The free motion from a state, with no cable taut (docs/model.md section 4; any sum of
+/// sinusoids).
 #[derive(Clone, Debug)]
 pub(crate) struct Flight<T> {
     start: State<T>,
     sine: T,
     cosine: T,
-    constant: [T; 2],
+    constant: Vector2<T>,
     harmonics: Vec<Harmonic<T>>,
     attachments: Vec<Attachment<T>>,
     /// The cables that are known to be closed and at rest at the start.
@@ -55,22 +56,23 @@ impl<T: Real> Flight<T> {
         contacts: &Contacts<T>,
     ) {
         self.start = *start;
-        let turn = Turn::by(start.theta);
-        (self.sine, self.cosine) = (turn.sine, turn.cosine);
+        let rotation = Rotation::by(start.theta);
+        (self.sine, self.cosine) = (rotation.sine, rotation.cosine);
         for (local, harmonic) in self.harmonics.iter_mut().zip(&system.forcing.harmonics) {
             *local = harmonic.shifted(t);
         }
         let force = system.forcing.bounds();
         let speed =
-            |state: &State<T>, reach: T| length([state.vx, state.vy]) + state.vtheta.abs() * reach;
+            |state: &State<T>, reach: T| state.velocity().length() + state.vtheta.abs() * reach;
         self.resting = TautSet::SLACK;
         self.attachments.clear();
         for (index, cable) in system.cables.iter().enumerate() {
             let contact: &Contact<T> = &contacts[index];
-            let reach = length(cable.fairlead());
+            let reach = cable.fairlead().length();
             let speed = speed(start, reach).max(speed(before, reach));
             let known = [contact.gap, contact.error];
-            let mut attachment = Attachment::new(cable, reach, start, &turn, known, speed, force);
+            let mut attachment =
+                Attachment::new(cable, reach, start, &rotation, known, speed, force);
             if contact.resting {
                 attachment.gap_rate = T::ZERO;
                 self.resting = self.resting.with(index);
@@ -127,7 +129,7 @@ impl<T: Real> Flight<T> {
         let attachment = &self.attachments[cable];
         let [a, j, _] = attachment.bounds;
         Jet {
-            third: (length(jet.velocity) * a * 3.0 + attachment.length * j) * 2.0,
+            third: (jet.velocity.length() * a * 3.0 + attachment.length * j) * 2.0,
             fourth: a * a * 6.0,
             noise: jet.noise,
             blur: attachment.blur(s),
@@ -141,7 +143,7 @@ impl<T: Real> Flight<T> {
         let attachment = &self.attachments[cable];
         let [a, j, k] = attachment.bounds;
         // Over one unit of time; a longer first step is never needed.
-        let speed = length(attachment.velocity) + a;
+        let speed = attachment.velocity.length() + a;
         Jet {
             resting: true,
             blur: attachment.length.squared() * T::EPSILON * 4.0,
@@ -153,7 +155,7 @@ impl<T: Real> Flight<T> {
 
     #[inline(always)]
     fn limit_jets(&self, s: T, now: &Instant<T>, jets: &mut Jets<T>) {
-        let Turn { sine, cosine, .. } = now.turn;
+        let Rotation { sine, cosine, .. } = now.rotation;
         self.limits.in_flight(
             &Flying {
                 state: &now.state(&self.start, s),

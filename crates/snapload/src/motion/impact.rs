@@ -139,7 +139,7 @@ pub(crate) fn slope_of_impact_alone(
 ) -> [[f64; 6]; 3] {
     let inverse_inertia = system.body.inverse_inertia();
     let (normal, slopes) = system.cables[cable].normal_and_slopes(before);
-    let g = [normal.n[0], normal.n[1], normal.arm];
+    let g = [normal.n.x, normal.n.y, normal.arm];
     let inverse_mass = [1.0, 1.0, inverse_inertia];
     let v_n = normal.velocity(before);
     let w = normal.coupling(&normal, inverse_inertia);
@@ -257,8 +257,8 @@ mod tests {
         let normals = system.normals(&at, system.all_cables());
         let coupling = normals[0].coupling(&normals[1], system.body.inverse_inertia());
         let along = State {
-            vx: normals[1].n[1],
-            vy: -normals[1].n[0],
+            vx: normals[1].n.y,
+            vy: -normals[1].n.x,
             ..at
         };
         let closing = normals[0].velocity(&along);

@@ -5,7 +5,7 @@
 //! power series in taut motion, and what a deviation of the state changes it by. Whoever adds a limit adds a
 //! variant to [`Limit`] and is led by the compiler through every match below.
 
-use crate::arithmetic::lane::length;
+use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
@@ -64,7 +64,7 @@ pub(crate) struct Flying<'a, T> {
     pub(crate) sine: T,
     pub(crate) cosine: T,
     /// The force, which is the acceleration of the centre.
-    pub(crate) force: [T; 2],
+    pub(crate) force: Vector2<T>,
     /// A bound on |ḟ| over the flight.
     pub(crate) force_rate: T,
 }
@@ -76,7 +76,7 @@ impl<T: Real> Limits<T> {
         Self {
             rotation: Limit::Rotation.bound(rules),
             upper_bound: Limit::UpperBound.bound(rules),
-            reach: length(outline.points()[0]),
+            reach: outline.points()[0].length(),
             outline,
             radius,
         }
@@ -108,9 +108,9 @@ impl<T: Real> Limits<T> {
         };
         let spin = state.vtheta.abs();
         let third = (now.force_rate + spin * spin * spin * self.reach) * INFLATION;
-        for [px, py] in self.outline.points() {
-            let height = *px * now.sine + *py * now.cosine;
-            let swing = *px * now.cosine - *py * now.sine;
+        for &Vector2 { x: px, y: py } in self.outline.points() {
+            let height = px * now.sine + py * now.cosine;
+            let swing = px * now.cosine - py * now.sine;
             jets.push(Jet {
                 third,
                 noise: (level.abs() + state.y.abs() + height.abs()) * T::EPSILON * 4.0,
@@ -118,7 +118,7 @@ impl<T: Real> Limits<T> {
                     EventFunction::Limit(Limit::UpperBound),
                     state.y + height + self.radius - level,
                     state.vy + state.vtheta * swing,
-                    now.force[1] - state.vtheta.squared() * height,
+                    now.force.y - state.vtheta.squared() * height,
                 )
             });
         }
@@ -143,11 +143,11 @@ impl<T: Real> Limits<T> {
         let Some(level) = self.upper_bound else {
             return;
         };
-        for [px, py] in self.outline.points() {
+        for &Vector2 { x: px, y: py } in self.outline.points() {
             let mut top = Polynomial::default();
             for k in 0..=ORDER {
                 let [cosine, sine] = circle[k];
-                top[k] = y[k] + *px * sine + *py * cosine;
+                top[k] = y[k] + px * sine + py * cosine;
             }
             top[0] = top[0] + self.radius - level;
             each(EventFunction::Limit(Limit::UpperBound), &top);

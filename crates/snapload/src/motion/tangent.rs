@@ -135,7 +135,7 @@ impl Tangent {
         if let Some(cable) = reached.gaps.iter().next() {
             let normal = system.cables[cable].normal(before);
             let v_n = normal.velocity(before);
-            return [normal.n[0], normal.n[1], normal.arm, 0.0, 0.0, 0.0].map(|n| -n / v_n);
+            return [normal.n.x, normal.n.y, normal.arm, 0.0, 0.0, 0.0].map(|n| -n / v_n);
         }
         let Some(limit) = reached.limits.iter().next() else {
             return [0.0; 6];

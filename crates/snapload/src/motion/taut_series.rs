@@ -1,4 +1,5 @@
-//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its Taylor series.
+//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its
+//! Taylor series.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -6,33 +7,35 @@
 //! (ẍ, ÿ) = f(t) − Σ T_i n_i,   θ̈ = −Σ T_i s_i / I,   g̈_i = 0 for the taut cables i
 //! ```
 //!
-//! All of it is polynomial in x, y, θ, sin θ, cos θ and the tensions, so the coefficients of their Taylor
-//! series follow one after the other. With the motion known to order k + 1 and the tensions to k − 1,
+//! All of it is polynomial in x, y, θ, sin θ, cos θ and the tensions, so the coefficients of their
+//! Taylor series follow one after the other. With the motion known to order k + 1 and the tensions
+//! to k − 1,
 //!
 //! ```text
 //! (k+1)(k+2) (x, y)_{k+2} = f_k − Σ q_{i,k},   (k+1)(k+2) θ_{k+2} = −Σ (ρ_i × q_i)_k / I,   q_i = T_i n_i
 //! ```
 //!
-//! are linear in the T_{i,k}, and so is the coefficient of order k + 2 of |P_i − A_i|² = r_i², the constraint:
+//! are linear in the T_{i,k}, and so is the coefficient of order k + 2 of |P_i − A_i|² = r_i², the
+//! constraint:
 //!
 //! ```text
 //! Σ_j W_ij T_{j,k} = n_i·a + s_i α + (k+1)(k+2) b_i,   W_ij = n_i·n_j + s_i s_j / I
 //! ```
 //!
-//! with W, n and s at the start, a and α the accelerations but for T_k, and b_i what bends the path whatever the
-//! accelerations are: n_i·ρ_i of the orders of θ below k + 2, and Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0
-//! this is the centripetal term, b_i = |Ṗ_i|²/2r_i − θ̇² n_i·ρ_i/2. One text serves every taut set, parallel
-//! cables and b ≠ 0 among them; the gaps of the slack cables and the tensions come out as
-//! polynomials on the step, in which [`crate::motion::events`] finds events with the guarantee it has in flight.
+//! with W, n and s at the start, a and α the accelerations without the part of T_k, and b_i the part
+//! of the constraint that no acceleration changes: n_i·ρ_i of the orders of θ below k + 2, and
+//! Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0 this is the centripetal term, b_i = |Ṗ_i|²/2r_i −
+//! θ̇² n_i·ρ_i/2. It holds for every taut set, with parallel cables and b ≠ 0; the gaps of
+//! the slack cables and the tensions come out as polynomials on the step, in which
+//! [`crate::motion::events`] finds events with the guarantee it has in flight.
 //!
 //! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
 //! their step control raises to powers with the platform's libm, and they allocate their output as
 //! they go), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff systems).
-//! None gives dense output near rounding, which the guarantee needs. A Taylor method of fixed order is
-//! some hundred lines of plain arithmetic, gives the same bits everywhere, and does not allocate.
-//! Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
+//! None gives dense output near rounding, which the guarantee needs. A Taylor method of fixed order
+//! is some hundred lines of plain arithmetic, gives the same bits everywhere, and does not
+//! allocate. Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
 
-use crate::arithmetic::lane::dot;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
@@ -45,17 +48,14 @@ use crate::motion::active_set::ActiveSet;
 use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
-use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+use crate::motion::events::EventFunction;
 use crate::motion::limits::Limits;
+
+mod events;
 
 /// A motion by less than this along a step counts as rest: its terms need not converge among
 /// themselves, only stay below rounding of this \[L\], \[rad\].
 const STILL: f64 = 1e-12;
-
-/// A tension below this along a whole step is none \[F\].
-const NOTHING: f64 = 1e-7;
-/// A taut cable that carries nothing may be off its length by so many times what a resting one may.
-const HELD: f64 = 64.0;
 
 /// The gap of a cable, and its tension where it carries.
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,12 +87,14 @@ pub(crate) struct Series<T: Real> {
     touch: PerCable<T>,
     limits: Limits<T>,
     step: T,
-    /// What may be reached within the step: event functions, as far as they are not the gaps of `lines`.
+    /// What may be reached within the step: event functions, as far as they are not the gaps of
+    /// `lines`.
     watched: Vec<(EventFunction, Polynomial<T>, usize)>,
 }
 
 impl<T: Real> Series<T> {
-    /// An expansion not yet made. Room for the cables comes with the first that is, as most runs make none.
+    /// An expansion not yet made. Room for the cables comes with the first that is, as most runs
+    /// make none.
     pub(crate) fn new(system: &System<T>, rules: &Rules<T>) -> Self {
         Self {
             active: ActiveSet::default(),
@@ -159,56 +161,12 @@ impl<T: Real> Series<T> {
         self.choose_watched();
     }
 
-    /// Whether a taut cable stays so within the step: it carries, or its gap is nothing but rounding.
-    #[inline(always)]
-    fn holds(&self, cable: usize) -> bool {
-        let gap = &self.lines[cable].gap;
-        self.active.carrying.contains(cable)
-            || gap.derivative_bound(0, self.step, ORDER) <= self.touch[cable] * HELD
-    }
-
-    /// Leaves out what provably is not reached within the step.
-    #[inline(always)]
-    fn choose_watched(&mut self) {
-        let step = self.step;
-        self.watched.clear();
-        let ActiveSet { taut, carrying } = self.active;
-        let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
-        for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
-            let line = &self.lines[cable];
-            let (watch, function, order) = if carrying.contains(cable) {
-                (
-                    EventFunction::Tension(cable),
-                    line.tension.negated(),
-                    ORDER - 2,
-                )
-            } else {
-                (EventFunction::Gap(cable), line.gap, ORDER)
-            };
-            // A cable that carries nothing among others that could is no event.
-            let nothing = taut != carrying
-                && carrying.contains(cable)
-                && function.derivative_bound(0, step, order) <= T::from_decimal(NOTHING);
-            if !nothing && !function.stays_negative(step, order) {
-                self.watched.push((watch, function, order));
-            }
-        }
-        let watched = &mut self.watched;
-        self.limits
-            .in_series(&self.y, &self.theta, &self.circle, |function, series| {
-                if !series.stays_negative(step, ORDER) {
-                    watched.push((function, *series, ORDER));
-                }
-            });
-    }
-
     /// f(t0 + s) as a power series.
     #[inline(always)]
     fn expand_force(&mut self, system: &System<T>, t: T) {
         self.force = [Polynomial::default(); 2];
-        for i in 0..2 {
-            self.force[i][0] = system.forcing.constant[i];
-        }
+        let constant = system.forcing.constant;
+        (self.force[0][0], self.force[1][0]) = (constant.x, constant.y);
         for harmonic in &system.forcing.harmonics {
             harmonic.expand(t, &mut self.force);
         }
@@ -236,7 +194,8 @@ impl<T: Real> Series<T> {
         self.spin[k] = [theta * k as f64; 2];
     }
 
-    /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j S_{k−j}.
+    /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j
+    /// S_{k−j}.
     #[inline(always)]
     fn rotation(&self, k: usize) -> (T, T) {
         let [sine, cosine] = self.spin.convolve(&self.circle, k);
@@ -248,7 +207,8 @@ impl<T: Real> Series<T> {
     #[inline(always)]
     fn extend_pairs(&mut self, k: usize) {
         let [cosine, sine] = self.circle[k];
-        self.pairs.extend(k, [self.x[k], self.y[k]], sine, cosine);
+        let centre = [self.x[k], self.y[k]].into();
+        self.pairs.extend(k, centre, sine, cosine);
     }
 
     /// All coefficients, order by order.
@@ -276,7 +236,7 @@ impl<T: Real> Series<T> {
         inverse_inertia: T,
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) {
-        // θ_{k+2} is zero as yet, so this is what the orders of θ below give.
+        // θ_{k+2} is still zero, so this is the part that the lower orders of θ give.
         self.turn(k + 2, T::ZERO);
         let (sine, cosine) = self.rotation(k + 2);
         let share = T::ONE / ((k + 1) * (k + 2)) as f64;
@@ -296,7 +256,8 @@ impl<T: Real> Series<T> {
         self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
     }
 
-    /// The gap of every cable to order k, once d is known to that; where all carry, there is none.
+    /// The gap of every cable to order k, once d is known to that order; where all cables carry, no
+    /// gap is needed.
     #[inline(always)]
     fn keep_gaps(&mut self, k: usize) {
         if self.active.carrying.len() == self.lines.len() {
@@ -339,7 +300,7 @@ impl<T: Real> Series<T> {
         let mut light = T::ONE;
         for cable in self.active.carrying.iter() {
             let fairlead = system.cables[cable].fairlead();
-            light = light.max(T::ONE + dot(fairlead, fairlead) * system.body.inverse_inertia());
+            light = light.max(T::ONE + fairlead.dot(fairlead) * system.body.inverse_inertia());
         }
         let still = T::from_f64(STILL);
         let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
@@ -418,52 +379,5 @@ impl<T: Real> Series<T> {
             self.y.derivative_bound(2, self.step, ORDER),
             self.theta.derivative_bound(2, self.step, ORDER),
         ]
-    }
-
-    #[inline(always)]
-    fn jet(&self, watch: EventFunction, polynomial: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
-        let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
-        Jet {
-            third: polynomial.derivative_bound(3, self.step, order),
-            noise,
-            ..Jet::new(watch, value, rate, accel)
-        }
-    }
-
-    #[inline(always)]
-    fn gap_jet(&self, cable: usize, s: T) -> Jet<T> {
-        let gap = &self.lines[cable].gap;
-        let contact = &self.contacts[cable];
-        let jet = self.jet(EventFunction::Gap(cable), gap, ORDER, s);
-        if s > T::ZERO {
-            return Jet {
-                noise: jet.noise + contact.error,
-                ..jet
-            };
-        }
-        Jet {
-            noise: contact.error,
-            blur: self.touch[cable],
-            resting: contact.resting,
-            jerk: gap[3] * 6.0,
-            fourth: if contact.resting {
-                gap.derivative_bound(4, self.step, ORDER)
-            } else {
-                T::ZERO
-            },
-            ..jet
-        }
-    }
-}
-
-impl<T: Real> HasEvents<T> for Series<T> {
-    #[inline(always)]
-    fn jets_at(&self, s: T, jets: &mut Jets<T>) {
-        for (watch, polynomial, order) in &self.watched {
-            jets.push(match *watch {
-                EventFunction::Gap(cable) => self.gap_jet(cable, s),
-                other => self.jet(other, polynomial, *order, s),
-            });
-        }
     }
 }

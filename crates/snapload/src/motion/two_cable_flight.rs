@@ -1,33 +1,36 @@
-//! A flight from its start: when a cable closes, the state there, and the proof that none closed before.
+//! The slack flight of a body on two cables from its start: when a cable closes, the state there,
+//! and the proof that none closed before.
 
-use crate::arithmetic::lane::{Lane, Mask, difference, length_bound, scaled, sum};
+use crate::arithmetic::lane::{Lane, Mask};
+use crate::arithmetic::plane::Vector2;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
 use crate::motion::two_cables::{AfterImpact, NEVER, TwoCableSystem};
 
-/// The most looks of one search; one is usual.
-const MOST_LOOKS: usize = 10;
-/// What a look leaves out is so many times smaller than what rounding may come to.
+/// The most trials of one search; one is usual.
+const MAX_TRIALS: usize = 10;
+/// A trial is near enough if what its cubic leaves out is smaller than the rounding by this factor.
 const BELOW_ROUNDING: f64 = 16.0;
-/// The part of a flight in which its start has to prove a gap open; there a higher derivative is known.
+/// The first part of a flight, in which the proof that a gap stays open starts from the beginning
+/// of the flight, where one more derivative is known.
 const EARLY: f64 = 0.6;
 
-/// A flight seen at one instant near its end.
-pub(crate) struct Look<L: Lane> {
+/// A flight evaluated at an instant near its end.
+pub(crate) struct Trial<L: Lane> {
     s: L,
     now: Instant<L>,
     jets: [GapJet<L>; 2],
     /// That of the cable that is to close.
     struck: GapJet<L>,
-    /// How much later it closes, by the cubic.
-    rest: L,
+    /// How much later that cable closes, by its cubic.
+    to_root: L,
     /// Bounds on |g⁗| up to there.
     fourths: [L; 2],
     /// Whether the gap closes there.
-    rising: L::Mask,
+    closes: L::Mask,
     /// Whether what the cubic leaves out is below rounding.
-    near: L::Mask,
+    near_enough: L::Mask,
 }
 
 /// Where the parabola of a gap crosses zero.
@@ -83,7 +86,7 @@ pub(crate) struct TwoCableFlight<L> {
     bends: [[L; 3]; 2],
     /// The wave, seen from there.
     wave: Harmonic<L>,
-    constant: [L; 2],
+    constant: Vector2<L>,
     /// Bounds on the force and its derivatives.
     force: [L; 3],
     spin: L,
@@ -94,13 +97,13 @@ impl<L: Lane> TwoCableFlight<L> {
     pub(crate) fn new(two_cables: &TwoCableSystem<L>, from: &AfterImpact<L>) -> Self {
         let spin = from.state.vtheta;
         let wave = two_cables.wave.shifted(from.t);
-        let force = sum(two_cables.constant, wave.cosine);
-        let force_rate = scaled(wave.sine, wave.omega);
+        let force = two_cables.constant + wave.cosine;
+        let force_rate = wave.sine.scaled(wave.omega);
         let attachments = [
             attachment(two_cables, from, 0),
             attachment(two_cables, from, 1),
         ];
-        let force_bend = scaled(wave.cosine, -(wave.omega * wave.omega));
+        let force_bend = wave.cosine.scaled(-(wave.omega * wave.omega));
         let forces = [force, force_rate, force_bend];
         let bends = [
             attachments[0].bends_at_start(forces, spin),
@@ -116,15 +119,17 @@ impl<L: Lane> TwoCableFlight<L> {
         }
     }
 
-    /// Which cable closes first, and about when, by their Taylor polynomials at the start: the root of the parabola, a step of
-    /// Newton's from there to that of the cubic, and for the first of them one more to that of fourth order.
+    /// Which cable closes first, and about when, by the Taylor polynomials of the gaps at the
+    /// start: the root of the parabola, a step of Newton's method from there to the root of the
+    /// cubic, and for the cable that closes first one more to the root of the polynomial of fourth
+    /// order.
     #[inline(always)]
     pub(crate) fn guess(&self) -> (L::Mask, L) {
         let (first, other) = (self.parabola(0), self.parabola(1));
         // One division serves both.
         let shared = L::ONE / (first.slope * other.slope);
-        let (guess, per_slope) = self.beyond(0, &first, other.slope * shared);
-        let (other_guess, other_per_slope) = self.beyond(1, &other, first.slope * shared);
+        let (guess, per_slope) = self.root_of_cubic(0, &first, other.slope * shared);
+        let (other_guess, other_per_slope) = self.root_of_cubic(1, &other, first.slope * shared);
         let second = other_guess.below(guess);
         let s = guess.smaller(other_guess);
         let (value, slope) = self.fourth_order(second, s);
@@ -170,10 +175,11 @@ impl<L: Lane> TwoCableFlight<L> {
         }
     }
 
-    /// A step of Newton's from the root of a parabola to that of the cubic, and the reciprocal of the slope for it;
-    /// `per_slope` is that of the parabola. A gap that does not cross never closes.
+    /// A step of Newton's method from the root of a parabola to that of the cubic, and the
+    /// reciprocal of the slope for it; `per_slope` is that of the parabola. A gap whose parabola
+    /// does not cross zero counts as one that never closes.
     #[inline(always)]
-    fn beyond(&self, i: usize, parabola: &Parabola<L>, per_slope: L) -> (L, L) {
+    fn root_of_cubic(&self, i: usize, parabola: &Parabola<L>, per_slope: L) -> (L, L) {
         let [_, jerk, _] = self.bends[i];
         let s = parabola.s;
         let bend = jerk * s * s;
@@ -184,137 +190,146 @@ impl<L: Lane> TwoCableFlight<L> {
         (L::select(parabola.crosses, stepped, never), per_slope)
     }
 
-    /// Looks at the flight at `s`, and from there for where the gap of one cable closes.
+    /// Evaluates the flight at `s`, and finds from there where the gap of one cable closes.
     #[inline(always)]
-    fn look(&self, s: L, second: L::Mask) -> Look<L> {
+    fn trial(&self, s: L, second: L::Mask) -> Trial<L> {
         let now = Instant::at(s, self.constant, self.spin).with(&self.wave, s);
         let jets = [
             self.attachments[0].jet(s, &now),
             self.attachments[1].jet(s, &now),
         ];
         let struck = GapJet::select(second, &jets[1], &jets[0]);
-        let (rest, left) = struck.root();
-        let ahead = s + rest;
-        let longest = s.larger(ahead);
+        let (to_root, left) = struck.root();
+        let root = s + to_root;
+        let longest = s.larger(root);
         let fourths = [
             self.attachments[0].fourth(longest),
             self.attachments[1].fourth(longest),
         ];
-        let square = rest * rest;
+        let square = to_root * to_root;
         let quartic = square * square * (1.0 / 24.0);
         let left = L::select(second, fourths[1], fourths[0]).mul_add(quartic, left.abs());
-        // Both to be well below rounding: of the gap, and of the velocities, of which the centre's speed is a part. Positions
-        // are off by less, as a length times that is what the gap is off by.
+        // Both errors have to be well below rounding: that of the gap, and that of the velocities,
+        // of which the centre's speed is a part. Positions have smaller errors, as a length times
+        // such an error is one of the gap.
         let lost = self.force[2] * self.wave.omega.abs() * quartic;
         let speed = self.force[0].mul_add(longest, self.attachments[0].speed);
-        // The bounds hold as long as the look is at most half of the flight away.
-        let near = (left * BELOW_ROUNDING).at_most(struck.noise)
+        // The bounds hold as long as the root is at most half of the flight away.
+        let near_enough = (left * BELOW_ROUNDING).at_most(struck.noise)
             & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON)
-            & (rest.abs() * 2.0).at_most(s);
-        Look {
+            & (to_root.abs() * 2.0).at_most(s);
+        Trial {
             s,
             now,
             jets,
             struck,
-            rest,
+            to_root,
             fourths,
-            rising: L::ZERO.below(struck.rate) & L::ZERO.below(ahead),
-            near,
+            closes: L::ZERO.below(struck.rate) & L::ZERO.below(root),
+            near_enough,
         }
     }
 
-    /// When the gap of a cable closes: looks on from a guess, until what the cubic at the last look leaves out is below
-    /// rounding. One look is usual.
+    /// Searches from a guess for the instant at which the gap of a cable closes: each trial is at
+    /// the root of the cubic of the one before, until what the cubic leaves out is below rounding.
+    /// One trial is usual. Returns the last one, and whether it is near enough.
     #[inline(always)]
-    pub(crate) fn meet(&self, second: L::Mask, guess: L, horizon: L) -> (Look<L>, L::Mask) {
+    pub(crate) fn search(&self, second: L::Mask, guess: L, horizon: L) -> (Trial<L>, L::Mask) {
         let mut active = guess.below(horizon);
         let mut s = guess.detached();
-        let mut looks = 1;
+        let mut trials = 1;
         loop {
-            let look = self.look(s, second);
-            active = active & look.rising;
-            let again = active & !look.near;
-            if looks == MOST_LOOKS || !again.any() {
-                let found = active & look.near;
-                return (look, found);
+            let trial = self.trial(s, second);
+            active = active & trial.closes;
+            let again = active & !trial.near_enough;
+            if trials == MAX_TRIALS || !again.any() {
+                let found = active & trial.near_enough;
+                return (trial, found);
             }
-            // A lane that is near looks again where it did, and sees the same.
-            s = L::select(again, (s + look.rest).detached(), s);
-            looks += 1;
+            // A lane that is near enough is evaluated again where it was, and stays as it is.
+            s = L::select(again, (s + trial.to_root).detached(), s);
+            trials += 1;
         }
     }
 
-    /// The end of the flight, a little after a look.
+    /// The end of the flight, a little after a trial.
     #[inline(always)]
     pub(crate) fn arrival(
         &self,
         second: L::Mask,
-        look: &Look<L>,
+        trial: &Trial<L>,
         from: &AfterImpact<L>,
     ) -> FlightEnd<L> {
-        let arrival = self.after(look, look.rest.detached(), from);
+        let arrival = self.after(trial, trial.to_root.detached(), from);
         if !L::CARRIES_SLOPES {
             return arrival;
         }
-        // Where the search looked is no part of the motion: the crossing moves by −∂g/ġ, as seen from the crossing, as the
-        // slopes of what is moved there by its cubic have an order less.
-        let there = self.look(arrival.s.detached(), second);
+        // Where the search made its trials is no part of the motion: the crossing moves by −∂g/ġ.
+        // Both are taken at the crossing itself, as the slopes of what is moved there by its cubic
+        // are of lower order.
+        let there = self.trial(arrival.s.detached(), second);
         let value = there.struck.value;
         let moved = (value.detached() - value) / there.struck.rate;
         arrival.with_slopes_of(&self.after(&there, moved, from))
     }
 
+    /// The flight a time `later` after a trial, by the cubics there.
     #[inline(always)]
-    fn after(&self, look: &Look<L>, rest: L, from: &AfterImpact<L>) -> FlightEnd<L> {
-        let s = look.s + rest;
-        let [jet, other] = &look.jets;
-        let push = look.now.push.later(rest, self.force_bend(&look.now));
+    fn after(&self, trial: &Trial<L>, later: L, from: &AfterImpact<L>) -> FlightEnd<L> {
+        let s = trial.s + later;
+        let [jet, other] = &trial.jets;
+        let push = trial.now.push.later(later, self.force_bend(&trial.now));
         FlightEnd {
             s,
             state: flown(&from.state, s, push),
             jets: [
-                jet.later(rest, look.fourths[0]),
-                other.later(rest, look.fourths[1]),
+                jet.later(later, trial.fourths[0]),
+                other.later(later, trial.fourths[1]),
             ],
         }
     }
 
     /// f̈ = −Ω² (f − f₀), where f₀ is constant.
     #[inline(always)]
-    fn force_bend(&self, now: &Instant<L>) -> [L; 2] {
+    fn force_bend(&self, now: &Instant<L>) -> Vector2<L> {
         let square = -(self.wave.omega * self.wave.omega);
-        scaled(difference(now.push.force, self.constant), square)
+        (now.push.force - self.constant).scaled(square)
     }
 
-    /// Whether a gap is proven to stay open within a flight of length `s`, at whose end it is `end`.
+    /// Whether a gap is proven to stay open within a flight of length `s`, at whose end it is
+    /// `end`.
     ///
-    /// Early, g(σ) ≤ g₀ + ġ₀σ + g̈₀σ²/2 + g⃛₀σ³/6 + Kσ⁴/24 with |g⁗| ≤ K = 2 (3 |P̈|² + 4 |Ṗ||P⃛| + |d||P⁗|);
-    /// late, told backwards from the end, g ≤ g₁ − ġ₁σ + g̈₁σ²/2 + Kσ³/6 with
-    /// |g⃛| ≤ K = 2 (3 |Ṗ||P̈| + |d||P⃛|). In either case g ≤ g₀ + σB, where B is the sum of what multiplies σ
-    /// with each term after the first at its largest, so it is enough that g₀ ≤ 0 and that g₀ + σB is below
-    /// zero at the end of the stretch. A cable that closed at the end, or that was closed at the start, is
-    /// known to have g = 0 there.
+    /// In the early part, g(σ) ≤ g₀ + ġ₀σ + g̈₀σ²/2 + g⃛₀σ³/6 + Kσ⁴/24 with |g⁗| ≤ K = 2 (3 |P̈|² +
+    /// 4 |Ṗ||P⃛| + |d||P⁗|); in the late part, backwards from the end, g ≤ g₁ − ġ₁σ + g̈₁σ²/2 +
+    /// Kσ³/6 with |g⃛| ≤ K = 2 (3 |Ṗ||P̈| + |d||P⃛|). In either part g ≤ g₀ + σB, where B is the
+    /// sum of what multiplies σ, with each term after the first at its largest, so it is enough
+    /// that g₀ ≤ 0 and that g₀ + σB is below zero at the end of the part. A cable that closes at
+    /// the end, or that was closed at the start, is known to have g = 0 there.
     ///
-    /// |d| ≤ r at both ends, so in between it is at most r + |Ṗ|s/2, and up to a look later by less than half of that. That
-    /// the other gap is open at the end is seen with an error told by K itself; twice that is allowed for, and the K of the
-    /// |d| so allowed is not twice as large.
+    /// |d| ≤ r at both ends, so in between it is at most r + |Ṗ|s/2, and up to the trial, which may
+    /// be later than the end, by less than half of that. The error of the other gap at the end is
+    /// bounded by K itself: twice that is allowed for, and the K that belongs to the |d| so allowed
+    /// is not twice as large.
     ///
-    /// The jet at the end is that of a look nearby, moved by
-    /// its cubic over `rest`: ġ₁ may be off by K rest³/6 and g̈₁ by K rest²/2, with the K of g⁗; `astray` and
-    /// `astray` times `rest` are more than that.
+    /// The jet at the end is that of the trial, moved to the end by its cubic over the time h =
+    /// `to_root`: ġ₁ may be off by K h³/6 and g̈₁ by K h²/2, with the K of g⁗. `shift_error` and
+    /// `shift_error` times h are more than that.
     #[inline(always)]
     pub(crate) fn stays_open(
         &self,
         i: usize,
         s: L,
-        look: &Look<L>,
+        trial: &Trial<L>,
         end: &GapJet<L>,
         end_value: L,
     ) -> L::Mask {
         let (attachment, [accel, jerk, _]) = (&self.attachments[i], self.bends[i]);
         let (early, late) = (s * EARLY, s * (1.0 - EARLY));
-        let (third, fourth) = (attachment.third(s) * INFLATION, look.fourths[i] * INFLATION);
-        let astray = fourth * look.rest * look.rest;
+        let (third, fourth) = (
+            attachment.third(s) * INFLATION,
+            trial.fourths[i] * INFLATION,
+        );
+        let shift_error = fourth * trial.to_root * trial.to_root;
 
         let half = L::from_f64(0.5);
         let bound = fourth.mul_add(early * 0.25, jerk).positive() * early * (1.0 / 6.0);
@@ -326,13 +341,13 @@ impl<L: Lane> TwoCableFlight<L> {
             .mul_add(early, attachment.gap)
             .below(-attachment.gap_error);
 
-        let bound = (end.accel + astray)
+        let bound = (end.accel + shift_error)
             .positive()
             .mul_add(half, third * late * (1.0 / 6.0));
-        let slowest = astray.mul_add(-look.rest.abs(), end.rate);
+        let slowest = shift_error.mul_add(-trial.to_root.abs(), end.rate);
         let bound = bound.mul_add(late * INFLATION, -slowest);
         let late_open = bound.mul_add(late, end_value).below(-end.noise);
-        // The struck cable's own value at the end is zero, not its noise.
+        // Of the struck cable the value at the end is known to be zero, without noise.
         let late_open = late_open | (L::ZERO.at_most(end_value) & bound.below(L::ZERO));
         early_open & late_open
     }
@@ -347,27 +362,28 @@ fn attachment<L: Lane>(
 ) -> Attachment<L> {
     let (state, [ux, uy, turning]) = (&from.state, from.before);
     let (cable, reach) = (&two_cables.cables[i], two_cables.reach[i]);
-    let speed = speed_bound(length_bound([state.vx, state.vy]), state.vtheta, reach);
-    let before = speed_bound(length_bound([ux, uy]), turning, reach);
+    let speed = speed_bound(state.velocity().length_bound(), state.vtheta, reach);
+    let before = speed_bound(Vector2::from([ux, uy]).length_bound(), turning, reach);
     let speed = speed.larger(before);
     Attachment::new(
         cable,
         reach,
         state,
-        &from.turn,
+        &from.rotation,
         from.gaps[i],
         speed,
         two_cables.force,
     )
 }
 
-/// A step of Newton's from the reciprocal of another number, not far away, to that of `x`.
+/// About 1/x, by one step of Newton's method from the reciprocal of a number close to x.
 #[inline(always)]
-fn reciprocal<L: Lane>(near: L, x: L) -> L {
-    near * (-x).mul_add(near, L::from_f64(2.0))
+fn reciprocal<L: Lane>(estimate: L, x: L) -> L {
+    estimate * (-x).mul_add(estimate, L::from_f64(2.0))
 }
 
-/// `next` where it is between half and twice `s`, else `s`: a longer step of Newton's is none.
+/// `next` where it is between half and twice `s`, else `s`: a longer step of Newton's method is of
+/// no use.
 #[inline(always)]
 fn within_twice<L: Lane>(s: L, next: L) -> L {
     let sound = (s * 0.5).below(next) & next.below(s * 2.0);

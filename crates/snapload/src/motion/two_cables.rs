@@ -1,9 +1,12 @@
-//! A body on two cables under one sinusoid, and a moment of its motion, as numbers that a lane can hold.
+//! A body on two cables under one sinusoid, and a moment of its motion, as numbers that a lane can
+//! hold: what the fast path takes in place of a system, its rules and a state.
 
-use crate::arithmetic::lane::{Lane, Turn, length};
+use crate::arithmetic::lane::zip;
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::real::Real;
+use crate::model::body::Body;
 use crate::model::cable::Cable;
-use crate::model::forcing::Harmonic;
+use crate::model::forcing::{Forcing, Harmonic};
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -12,34 +15,37 @@ use crate::model::system::System;
 pub(crate) const NEVER: f64 = 1e300;
 
 /// What does not change along a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TwoCableSystem<L> {
     pub(crate) cables: [Cable<L>; 2],
     /// Length of the fairleads.
     pub(crate) reach: [L; 2],
     pub(crate) inverse_inertia: L,
     pub(crate) restitution: L,
-    pub(crate) constant: [L; 2],
+    pub(crate) constant: Vector2<L>,
     pub(crate) wave: Harmonic<L>,
     /// Bounds on the force and its derivatives.
     pub(crate) force: [L; 3],
-    /// Bounds on ÿ and on |ÿ|.
-    pub(crate) upward: L,
+    /// Bound on ÿ.
+    pub(crate) upward_acceleration_bound: L,
+    /// Bound on |ÿ|.
     pub(crate) vertical_acceleration_bound: L,
     pub(crate) rotation_limit: L,
     /// The upper bound, less what the outline reaches above the centre at most.
     pub(crate) level: L,
     pub(crate) t_end: L,
+    /// More impacts than this stop a run.
+    pub(crate) max_impacts: L,
     pub(crate) v_stick: L,
 }
 
 /// A motion just after an impact.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct AfterImpact<L> {
     pub(crate) t: L,
     pub(crate) state: State<L>,
     /// The rotation by θ.
-    pub(crate) turn: Turn<L>,
+    pub(crate) rotation: Rotation<L>,
     /// ẋ, ẏ, θ̇ before the impact.
     pub(crate) before: [L; 3],
     /// What is known of the gaps: value and error.
@@ -48,218 +54,111 @@ pub(crate) struct AfterImpact<L> {
     pub(crate) theta_max: L,
 }
 
-/// How many numbers a [`AfterImpact`] is.
-pub(crate) const STATE_NUMBERS: usize = 20;
-
 impl<L: Copy> AfterImpact<L> {
-    /// All its numbers, to take one lane from or put one in.
-    pub(crate) fn numbers(&self) -> [L; STATE_NUMBERS] {
-        let [x, y, theta, vx, vy, vtheta] = self.state.components();
-        let [ux, uy, utheta] = self.before;
-        let [[gap, error], [other_gap, other_error]] = self.gaps;
-        let (t, y_max, theta_max) = (self.t, self.y_max, self.theta_max);
-        let Turn {
-            sine,
-            cosine,
-            versine,
-            sine_deficit,
-        } = self.turn;
-        [
-            t,
-            x,
-            y,
-            theta,
-            vx,
-            vy,
-            vtheta,
-            ux,
-            uy,
-            utheta,
-            gap,
-            error,
-            other_gap,
-            other_error,
-            y_max,
-            theta_max,
-            sine,
-            cosine,
-            versine,
-            sine_deficit,
-        ]
-    }
-
-    /// From its numbers, in the same order.
-    pub(crate) fn from_numbers(
-        [
-            t,
-            x,
-            y,
-            theta,
-            vx,
-            vy,
-            vtheta,
-            ux,
-            uy,
-            utheta,
-            gap,
-            error,
-            other_gap,
-            other_error,
-            y_max,
-            theta_max,
-            sine,
-            cosine,
-            versine,
-            sine_deficit,
-        ]: [L; STATE_NUMBERS],
-    ) -> Self {
-        Self {
-            t,
-            state: State::from_components([x, y, theta, vx, vy, vtheta]),
-            turn: Turn {
-                sine,
-                cosine,
-                versine,
-                sine_deficit,
-            },
-            before: [ux, uy, utheta],
-            gaps: [[gap, error], [other_gap, other_error]],
-            y_max,
-            theta_max,
-        }
-    }
-}
-
-impl<L: Lane> AfterImpact<L> {
-    /// One of two, lane by lane.
+    /// What `number` makes of each number and the other motion's.
     #[inline(always)]
-    pub(crate) fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        let (mut numbers, others) = (no.numbers(), yes.numbers());
-        for k in 0..STATE_NUMBERS {
-            numbers[k] = L::select(mask, others[k], numbers[k]);
+    pub(crate) fn zip_with<M: Copy, U>(
+        &self,
+        other: &AfterImpact<M>,
+        number: impl Fn(L, M) -> U + Copy,
+    ) -> AfterImpact<U> {
+        AfterImpact {
+            t: number(self.t, other.t),
+            state: self.state.zip_with(&other.state, number),
+            rotation: self.rotation.zip_with(&other.rotation, number),
+            before: zip(self.before, other.before, number),
+            gaps: zip(self.gaps, other.gaps, |a, b| zip(a, b, number)),
+            y_max: number(self.y_max, other.y_max),
+            theta_max: number(self.theta_max, other.theta_max),
         }
-        Self::from_numbers(numbers)
     }
 }
-
-/// How many numbers a [`TwoCableSystem`] is.
-pub(crate) const SYSTEM_NUMBERS: usize = 36;
 
 impl<L: Copy> TwoCableSystem<L> {
-    /// All its numbers, to put one lane in.
-    pub(crate) fn numbers(&self) -> [L; SYSTEM_NUMBERS] {
-        let [a, b, c, d, e, f, g, h] = self.cables[0].numbers();
-        let [i, j, k, l, m, n, o, p] = self.cables[1].numbers();
-        let Harmonic {
-            omega,
-            cosine: [cx, cy],
-            sine: [dx, dy],
-        } = self.wave;
-        let [force, rate, bend] = self.force;
-        [
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            g,
-            h,
-            i,
-            j,
-            k,
-            l,
-            m,
-            n,
-            o,
-            p,
-            self.reach[0],
-            self.reach[1],
-            self.inverse_inertia,
-            self.restitution,
-            self.constant[0],
-            self.constant[1],
-            omega,
-            cx,
-            cy,
-            dx,
-            dy,
-            force,
-            rate,
-            bend,
-            self.upward,
-            self.vertical_acceleration_bound,
-            self.rotation_limit,
-            self.level,
-            self.t_end,
-            self.v_stick,
-        ]
-    }
-
-    /// From its numbers, in the same order.
-    pub(crate) fn from_numbers(n: [L; SYSTEM_NUMBERS]) -> Self {
-        Self {
-            cables: [
-                Cable::from_numbers([n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]]),
-                Cable::from_numbers([n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15]]),
-            ],
-            reach: [n[16], n[17]],
-            inverse_inertia: n[18],
-            restitution: n[19],
-            constant: [n[20], n[21]],
-            wave: Harmonic {
-                omega: n[22],
-                cosine: [n[23], n[24]],
-                sine: [n[25], n[26]],
-            },
-            force: [n[27], n[28], n[29]],
-            upward: n[30],
-            vertical_acceleration_bound: n[31],
-            rotation_limit: n[32],
-            level: n[33],
-            t_end: n[34],
-            v_stick: n[35],
+    /// What `number` makes of each number and the other system's.
+    #[inline(always)]
+    pub(crate) fn zip_with<M: Copy, U>(
+        &self,
+        other: &TwoCableSystem<M>,
+        number: impl Fn(L, M) -> U + Copy,
+    ) -> TwoCableSystem<U> {
+        TwoCableSystem {
+            cables: zip(self.cables, other.cables, |a, b| a.zip_with(&b, number)),
+            reach: zip(self.reach, other.reach, number),
+            inverse_inertia: number(self.inverse_inertia, other.inverse_inertia),
+            restitution: number(self.restitution, other.restitution),
+            constant: self.constant.zip_with(other.constant, number),
+            wave: self.wave.zip_with(&other.wave, number),
+            force: zip(self.force, other.force, number),
+            upward_acceleration_bound: number(
+                self.upward_acceleration_bound,
+                other.upward_acceleration_bound,
+            ),
+            vertical_acceleration_bound: number(
+                self.vertical_acceleration_bound,
+                other.vertical_acceleration_bound,
+            ),
+            rotation_limit: number(self.rotation_limit, other.rotation_limit),
+            level: number(self.level, other.level),
+            t_end: number(self.t_end, other.t_end),
+            max_impacts: number(self.max_impacts, other.max_impacts),
+            v_stick: number(self.v_stick, other.v_stick),
         }
     }
 }
 
 impl<T: Real> TwoCableSystem<T> {
-    /// Of a system with two cables and one harmonic, without drag; others are left to the general loop.
+    /// The door of the fast path: a system with two cables and one sinusoid, without drag; others
+    /// are left to the general loop.
+    ///
+    /// Everything that a system and its rules say is named here, so that what is added to either
+    /// does not compile before it is said what it means for the fast path.
     pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Option<Self> {
-        let ([first, second], [wave], None) = (
-            &system.cables[..],
-            &system.forcing.harmonics[..],
-            &system.drag,
-        ) else {
-            return None;
-        };
-        // A rule that is added has to be answered for here: a bounce on its own ends no other way than by a limit,
-        // by the end of time, or by too many impacts, which the lanes count; what else ends a run needs a cable
-        // that sticks, and that is no such bounce.
+        let System {
+            body,
+            cables,
+            forcing,
+            drag,
+            restitution,
+        } = system;
+        let Forcing {
+            constant,
+            harmonics,
+        } = forcing;
+        let Body {
+            inverse_inertia,
+            // As far as it matters, it is the body's reach.
+            shape: _,
+        } = body;
         let Rules {
             rotation_limit,
             upper_bound,
+            // These two are asked where a cable sticks or two are taut, and that is no bounce.
             settled_below: _,
             sliding_above: _,
             t_end,
-            max_impacts: _,
+            // Counted by the lanes.
+            max_impacts,
             v_stick,
         } = *rules;
+        let ([first, second], [wave], None) = (&cables[..], &harmonics[..], drag) else {
+            return None;
+        };
         let never = T::from_f64(NEVER);
-        let upward = system.forcing.upward_acceleration_bound();
         Some(Self {
             cables: [*first, *second],
-            reach: [length(first.fairlead()), length(second.fairlead())],
-            inverse_inertia: system.body.inverse_inertia(),
-            restitution: system.restitution,
-            constant: system.forcing.constant,
+            reach: [first.fairlead().length(), second.fairlead().length()],
+            inverse_inertia: *inverse_inertia,
+            restitution: *restitution,
+            constant: *constant,
             wave: *wave,
-            force: system.forcing.bounds(),
-            upward,
-            vertical_acceleration_bound: system.forcing.vertical_acceleration_bound(),
+            force: forcing.bounds(),
+            upward_acceleration_bound: forcing.upward_acceleration_bound(),
+            vertical_acceleration_bound: forcing.vertical_acceleration_bound(),
             rotation_limit: rotation_limit.unwrap_or(never),
-            level: upper_bound.unwrap_or(never) - system.body.reach(),
+            level: upper_bound.unwrap_or(never) - body.reach(),
             t_end,
+            max_impacts: T::from_f64(max_impacts as f64),
             v_stick,
         })
     }

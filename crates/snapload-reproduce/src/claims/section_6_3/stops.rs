@@ -67,7 +67,7 @@ fn parts_pass_first(tabled: &Tabled) -> Judged {
         let system = simulation.system();
         let tilted = |k: i32| [0.0, 0.0, f64::from(k).to_radians(), 0.0, 0.0, 0.0];
         let tops = (-90..=90).map(|k| system.top(&State::from_components(tilted(k))));
-        let below = system.cables[0].anchor()[1] - end.state.y;
+        let below = system.cables[0].anchor().y - end.state.y;
         Ok((min(tops), (end.reason == Stop::UpperBound).then_some(below)))
     })?;
     let least = min(found.iter().map(|(top, _)| *top));

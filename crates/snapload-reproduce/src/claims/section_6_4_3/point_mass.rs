@@ -86,7 +86,7 @@ fn slack_at_start() -> Judged {
         let simulation = case.simulation();
         let cables = simulation.system().cables.iter();
         min(cables.map(|cable| {
-            let [x, y] = cable.span(simulation.state());
+            let [x, y] = cable.span(simulation.state()).components();
             cable.length() - x.hypot(y)
         }))
     };

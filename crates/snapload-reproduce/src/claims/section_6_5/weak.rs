@@ -114,7 +114,7 @@ fn on_arc(system: &System, given: usize, value: f64) -> State {
             // Half of each gap and of its gradient.
             let [(a, gap_a), (b, gap_b)] = [0, 1].map(|k| {
                 let cable = &system.cables[k];
-                let ([x, y], lever) = (cable.span(&state), cable.lever(sine, cosine));
+                let ([x, y], lever) = (cable.span(&state).components(), cable.lever(sine, cosine).components());
                 ([x, y, y * lever[0] - x * lever[1]], 0.5 * cable.gap(&state))
             });
             let determinant = a[p] * b[q] - a[q] * b[p];
@@ -132,9 +132,9 @@ fn horizontal(of: &Material) -> Judged {
     let (mut along, mut up) = (0.0, 0.0);
     let turning = |now: &&Motion| now.state.vtheta.abs() > 1e-3;
     for now in of.weak[0].motion.iter().filter(turning) {
-        let ([f_x, f_y], state) = (forcing.at(now.t), &now.state);
+        let ([f_x, f_y], state) = (forcing.at(now.t).components(), &now.state);
         along += (f_x * state.vx / state.vtheta).powi(2);
-        up += ((f_y - forcing.constant[1]) * state.vy / state.vtheta).powi(2);
+        up += ((f_y - forcing.constant.y) * state.vy / state.vtheta).powi(2);
     }
     let ratio = (up / along).sqrt();
     Ok(Finding::of(ratio < LITTLE).value("ratio", ratio))

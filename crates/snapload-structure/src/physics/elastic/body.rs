@@ -26,11 +26,11 @@ pub(super) struct Stretch {
 impl SprungBody<'_> {
     pub(super) fn stretch(&self, line: usize, state: &State) -> Stretch {
         let cable = &self.system.cables[line];
-        let span = cable.span(state);
+        let span = cable.span(state).components();
         let reach = span[0].hypot(span[1]);
         let n = span.map(|component| component / reach);
         let (sine, cosine) = state.theta.sin_cos();
-        let lever = cable.lever(sine, cosine);
+        let lever = cable.lever(sine, cosine).components();
         let arm = lever[0] * n[1] - lever[1] * n[0];
         // From the gap |d|² − r², which is free of cancellation.
         let stretch = cable.gap(state) / (reach + cable.length());

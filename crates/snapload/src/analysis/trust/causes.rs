@@ -54,8 +54,8 @@ pub(super) fn cause_at_start(
         let tether = &system.cables[*cable];
         let normal = tether.normal(simulation.state());
         let Normal { n, arm } = normal;
-        let gap = 2.0 * tether.length() * covariance.along(&[n[0], n[1], arm, 0.0, 0.0, 0.0]);
-        let speed = REACH * covariance.along(&[0.0, 0.0, 0.0, n[0], n[1], arm]);
+        let gap = 2.0 * tether.length() * covariance.along(&[n.x, n.y, arm, 0.0, 0.0, 0.0]);
+        let speed = REACH * covariance.along(&[0.0, 0.0, 0.0, n.x, n.y, arm]);
         let turns = if resting.contains(*cable) {
             speed > START_TOLERANCE
         } else {
@@ -127,13 +127,13 @@ fn may_snap(
 ) -> bool {
     let tether = &simulation.system().cables[cable];
     // A bound first: |n| = 1, and the arm is no longer than the lever.
-    let [a, b] = tether.fairlead();
+    let [a, b] = tether.fairlead().components();
     let most = 2.0 * tether.length() * REACH * covariance.at_most([1.0, 1.0, a.abs() + b.abs()]);
     if simulation.gap(cable) <= -most && !simulation.comes_near(step, cable, most) {
         return false;
     }
     let Normal { n, arm } = tether.normal(&step.before);
-    let direction = [n[0], n[1], arm, 0.0, 0.0, 0.0];
+    let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
     let margin = 2.0 * tether.length() * REACH * covariance.along(&direction);
     simulation.gap(cable) > -margin || simulation.comes_near(step, cable, margin)
 }

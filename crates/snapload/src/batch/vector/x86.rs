@@ -1,330 +1,215 @@
 //! Vectors in the registers of x86 processors: four doubles with AVX2, eight with AVX-512.
 //!
-//! `unsafe` here says only that the processor has the instructions. The proof is one for all of it: a value of these
-//! types exists only in a scheduler of [`crate::batch::lanes`], and the two functions there that make such fleets ask the
-//! processor first: for [`Avx2`] whether it has AVX2 and FMA, for [`Avx512`] whether it has AVX-512F. (That most of it is compiled with the instructions enabled is for speed.)
+//! `unsafe` here says only that the processor has the instructions, and one proof holds for all of
+//! it: a value of these types exists only in a scheduler of [`crate::batch::lanes`], and the two
+//! functions there that make such schedulers ask the processor first, for [`Avx2`] whether it has
+//! AVX2 and FMA, for [`Avx512`] whether it has AVX-512F. That most of it is compiled with the
+//! instructions enabled is for speed.
 #![expect(unsafe_code, reason = "the instructions of a processor; see above")]
+#![expect(
+    unused_unsafe,
+    reason = "the masks of AVX-512 are integers, whose operators are safe"
+)]
 
 use crate::arithmetic::elementary;
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
-use crate::batch::vector::{Bits, Vector};
 use std::arch::x86_64::*;
+use std::mem::transmute;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-/// Four doubles.
-#[derive(Clone, Copy)]
-pub(crate) struct Avx2(__m256d);
-
-/// Four answers: all bits of a lane, or none.
-#[derive(Clone, Copy)]
-pub(crate) struct Avx2Mask(__m256d);
-
-/// Eight doubles.
-#[derive(Clone, Copy)]
-pub(crate) struct Avx512(__m512d);
-
-/// Eight answers.
-#[derive(Clone, Copy)]
-pub(crate) struct Avx512Mask(__mmask8);
-
-impl Mask for Avx2Mask {
-    #[inline(always)]
-    fn any(self) -> bool {
-        self.bits() != 0
-    }
-}
-
-impl Bits for Avx2Mask {
-    const WIDTH: usize = 4;
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { _mm256_movemask_pd(self.0) as u32 }
-    }
-}
-
-impl BitAnd for Avx2Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_and_pd(self.0, other.0)) }
-    }
-}
-
-impl BitOr for Avx2Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_or_pd(self.0, other.0)) }
-    }
-}
-
-impl Not for Avx2Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        // SAFETY: the processor has AVX2, as the head of this file says.
-        unsafe {
-            let all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
-            Self(_mm256_xor_pd(self.0, all))
-        }
-    }
-}
-
-impl Mask for Avx512Mask {
-    #[inline(always)]
-    fn any(self) -> bool {
-        self.0 != 0
-    }
-}
-
-impl Bits for Avx512Mask {
-    const WIDTH: usize = 8;
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        u32::from(self.0)
-    }
-}
-
-impl BitAnd for Avx512Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self(self.0 & other.0)
-    }
-}
-
-impl BitOr for Avx512Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-impl Not for Avx512Mask {
-    type Output = Self;
-    #[inline(always)]
-    fn not(self) -> Self {
-        Self(!self.0)
-    }
-}
-
-/// One operator.
+/// An operator of a register.
 macro_rules! operator {
-    ($type:ident, $trait:ident, $method:ident, $instruction:ident) => {
+    ($type:ident, $trait:ident, $method:ident, |$a:ident $(, $b:ident)?| $result:expr) => {
         impl $trait for $type {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
+            fn $method(self $(, $b: Self)?) -> Self {
+                let $a = self.0;
+                $(let $b = $b.0;)?
                 // SAFETY: the processor has the instruction, as the head of this file says.
-                unsafe { Self($instruction(self.0, other.0)) }
+                Self(unsafe { $result })
             }
         }
     };
 }
-operator!(Avx2, Add, add, _mm256_add_pd);
-operator!(Avx2, Sub, sub, _mm256_sub_pd);
-operator!(Avx2, Mul, mul, _mm256_mul_pd);
-operator!(Avx2, Div, div, _mm256_div_pd);
-operator!(Avx512, Add, add, _mm512_add_pd);
-operator!(Avx512, Sub, sub, _mm512_sub_pd);
-operator!(Avx512, Mul, mul, _mm512_mul_pd);
-operator!(Avx512, Div, div, _mm512_div_pd);
-with_doubles!([] Avx2);
-with_doubles!([] Avx512);
 
-impl Neg for Avx2 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_xor_pd(self.0, Self::from_f64(-0.0).0)) }
-    }
-}
-
-impl Neg for Avx512 {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe {
-            let bits = _mm512_castpd_si512(self.0);
-            let sign = _mm512_castpd_si512(Self::from_f64(-0.0).0);
-            Self(_mm512_castsi512_pd(_mm512_xor_si512(bits, sign)))
-        }
-    }
-}
-
-/// What the two vectors do alike.
+/// A vector and its mask, by the instruction of each operation on a, b and c.
 macro_rules! vector {
-    ($type:ident, $register:ident, $width:literal) => {
-        impl $type {
+    (
+        $vector:ident($register:ident, $width:literal), $mask:ident($answers:ident),
+        |$a:ident, $b:ident, $c:ident|
+        bits: $bits:expr, and: $and:expr, or: $or:expr, not: $not:expr,
+        add: $add:expr, sub: $sub:expr, mul: $mul:expr, div: $div:expr, neg: $neg:expr,
+        splat: $splat:expr, mul_add: $mul_add:expr, sqrt: $sqrt:expr, abs: $abs:expr,
+        below: $below:expr, at_most: $at_most:expr, select: $select:expr,
+        larger: $larger:expr, smaller: $smaller:expr,
+    ) => {
+        #[doc = concat!("Vector of ", $width, " doubles.")]
+        #[derive(Clone, Copy)]
+        pub(crate) struct $vector($register);
+
+        /// What comparing two such vectors gives.
+        #[derive(Clone, Copy)]
+        pub(crate) struct $mask($answers);
+
+        operator!($mask, BitAnd, bitand, |$a, $b| $and);
+        operator!($mask, BitOr, bitor, |$a, $b| $or);
+        operator!($mask, Not, not, |$a| $not);
+        operator!($vector, Add, add, |$a, $b| $add);
+        operator!($vector, Sub, sub, |$a, $b| $sub);
+        operator!($vector, Mul, mul, |$a, $b| $mul);
+        operator!($vector, Div, div, |$a, $b| $div);
+        operator!($vector, Neg, neg, |$a| $neg);
+        with_doubles!([] $vector);
+
+        impl Mask for $mask {
+            const WIDTH: usize = $width;
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                let $a = self.0;
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                unsafe { $bits as u32 }
+            }
+        }
+
+        impl $vector {
             const fn of(value: f64) -> Self {
                 // SAFETY: a register is as many doubles, and any bits are legal in both.
-                Self(unsafe { std::mem::transmute::<[f64; $width], $register>([value; $width]) })
-            }
-
-            fn to_array(self) -> [f64; $width] {
-                // SAFETY: a register is as many doubles, and any bits are legal in both.
-                unsafe { std::mem::transmute::<$register, [f64; $width]>(self.0) }
-            }
-
-            fn from_array(array: [f64; $width]) -> Self {
-                // SAFETY: a register is as many doubles, and any bits are legal in both.
-                Self(unsafe { std::mem::transmute::<[f64; $width], $register>(array) })
+                Self(unsafe { transmute::<[f64; $width], $register>([value; $width]) })
             }
         }
 
-        impl Doubles for $type {
-            fn each(self, f: fn(f64) -> (f64, f64)) -> (Self, Self) {
-                let both = self.to_array().map(f);
-                (
-                    Self::from_array(both.map(|b| b.0)),
-                    Self::from_array(both.map(|b| b.1)),
-                )
-            }
-        }
-
-        impl Vector for $type {
+        impl Doubles for $vector {
             fn get(&self, lane: usize) -> f64 {
-                self.to_array()[lane]
+                // SAFETY: a register is as many doubles, and any bits are legal in both.
+                unsafe { transmute::<$register, [f64; $width]>(self.0)[lane] }
             }
             fn set(&mut self, lane: usize, value: f64) {
                 let register: *mut [f64; $width] = (&raw mut self.0).cast();
-                // SAFETY: a register is as many doubles, and any bits are legal in both. In place, because a register that
-                // is read right after a part of it was written to memory waits for the store.
+                // SAFETY: a register is as many doubles, and any bits are legal in both. In place,
+                // because a register that is read right after a part of it was written to memory
+                // waits for the store.
                 unsafe { (*register)[lane] = value };
+            }
+        }
+
+        impl Lane for $vector {
+            type Mask = $mask;
+            const EPSILON: Self = Self::of(f64::EPSILON);
+            const ZERO: Self = Self::of(0.0);
+            const ONE: Self = Self::of(1.0);
+
+            #[inline(always)]
+            fn from_f64($a: f64) -> Self {
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $splat })
+            }
+            #[inline(always)]
+            fn mul_add(self, by: Self, plus: Self) -> Self {
+                let ($a, $b, $c) = (self.0, by.0, plus.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $mul_add })
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                let $a = self.0;
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $sqrt })
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                let $a = self.0;
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $abs })
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                elementary::sin_cos(self)
+            }
+            #[inline(always)]
+            fn versines(self) -> (Self, Self) {
+                elementary::versines(self)
+            }
+            #[inline(always)]
+            fn below(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                $mask(unsafe { $below })
+            }
+            #[inline(always)]
+            fn at_most(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                $mask(unsafe { $at_most })
+            }
+            #[inline(always)]
+            fn select(mask: $mask, yes: Self, no: Self) -> Self {
+                let ($a, $b, $c) = (mask.0, yes.0, no.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $select })
+            }
+            // The instructions give the second of two that are equal, or of which one is not a
+            // number.
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $larger })
+            }
+            #[inline(always)]
+            fn smaller(self, other: Self) -> Self {
+                let ($a, $b) = (self.0, other.0);
+                // SAFETY: the processor has the instruction, as the head of this file says.
+                Self(unsafe { $smaller })
             }
         }
     };
 }
-vector!(Avx2, __m256d, 4);
-vector!(Avx512, __m512d, 8);
 
-impl Lane for Avx2 {
-    type Mask = Avx2Mask;
-    const EPSILON: Self = Self::of(f64::EPSILON);
-    const ZERO: Self = Self::of(0.0);
-    const ONE: Self = Self::of(1.0);
-
-    #[inline(always)]
-    fn from_f64(value: f64) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_set1_pd(value)) }
-    }
-    #[inline(always)]
-    fn mul_add(self, by: Self, plus: Self) -> Self {
-        // SAFETY: the processor has FMA, as the head of this file says.
-        unsafe { Self(_mm256_fmadd_pd(self.0, by.0, plus.0)) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_sqrt_pd(self.0)) }
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_andnot_pd(Self::from_f64(-0.0).0, self.0)) }
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn versines(self) -> (Self, Self) {
-        elementary::versines(self)
-    }
-    #[inline(always)]
-    fn below(self, other: Self) -> Avx2Mask {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Avx2Mask(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0)) }
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Avx2Mask {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Avx2Mask(_mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0)) }
-    }
-    #[inline(always)]
-    fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_blendv_pd(no.0, yes.0, mask.0)) }
-    }
-    // The instructions give the second of two that are equal, or of which one is not a number.
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_max_pd(other.0, self.0)) }
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX, as the head of this file says.
-        unsafe { Self(_mm256_min_pd(other.0, self.0)) }
-    }
+vector! {
+    Avx2(__m256d, 4), Avx2Mask(__m256d), |a, b, c|
+    bits: _mm256_movemask_pd(a),
+    and: _mm256_and_pd(a, b),
+    or: _mm256_or_pd(a, b),
+    not: _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi64x(-1))),
+    add: _mm256_add_pd(a, b),
+    sub: _mm256_sub_pd(a, b),
+    mul: _mm256_mul_pd(a, b),
+    div: _mm256_div_pd(a, b),
+    neg: _mm256_xor_pd(a, _mm256_set1_pd(-0.0)),
+    splat: _mm256_set1_pd(a),
+    mul_add: _mm256_fmadd_pd(a, b, c),
+    sqrt: _mm256_sqrt_pd(a),
+    abs: _mm256_andnot_pd(_mm256_set1_pd(-0.0), a),
+    below: _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
+    at_most: _mm256_cmp_pd::<_CMP_LE_OQ>(a, b),
+    select: _mm256_blendv_pd(c, b, a),
+    larger: _mm256_max_pd(b, a),
+    smaller: _mm256_min_pd(b, a),
 }
 
-impl Lane for Avx512 {
-    type Mask = Avx512Mask;
-    const EPSILON: Self = Self::of(f64::EPSILON);
-    const ZERO: Self = Self::of(0.0);
-    const ONE: Self = Self::of(1.0);
-
-    #[inline(always)]
-    fn from_f64(value: f64) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_set1_pd(value)) }
-    }
-    #[inline(always)]
-    fn mul_add(self, by: Self, plus: Self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_fmadd_pd(self.0, by.0, plus.0)) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_sqrt_pd(self.0)) }
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_abs_pd(self.0)) }
-    }
-    #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn versines(self) -> (Self, Self) {
-        elementary::versines(self)
-    }
-    #[inline(always)]
-    fn below(self, other: Self) -> Avx512Mask {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Avx512Mask(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)) }
-    }
-    #[inline(always)]
-    fn at_most(self, other: Self) -> Avx512Mask {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Avx512Mask(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)) }
-    }
-    #[inline(always)]
-    fn select(mask: Avx512Mask, yes: Self, no: Self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_mask_blend_pd(mask.0, no.0, yes.0)) }
-    }
-    // The instructions give the second of two that are equal, or of which one is not a number.
-    #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_max_pd(other.0, self.0)) }
-    }
-    #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        // SAFETY: the processor has AVX-512, as the head of this file says.
-        unsafe { Self(_mm512_min_pd(other.0, self.0)) }
-    }
+vector! {
+    Avx512(__m512d, 8), Avx512Mask(__mmask8), |a, b, c|
+    bits: a,
+    and: a & b,
+    or: a | b,
+    not: !a,
+    add: _mm512_add_pd(a, b),
+    sub: _mm512_sub_pd(a, b),
+    mul: _mm512_mul_pd(a, b),
+    div: _mm512_div_pd(a, b),
+    neg: _mm512_castsi512_pd(_mm512_xor_si512(
+        _mm512_castpd_si512(a),
+        _mm512_castpd_si512(_mm512_set1_pd(-0.0)),
+    )),
+    splat: _mm512_set1_pd(a),
+    mul_add: _mm512_fmadd_pd(a, b, c),
+    sqrt: _mm512_sqrt_pd(a),
+    abs: _mm512_abs_pd(a),
+    below: _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b),
+    at_most: _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b),
+    select: _mm512_mask_blend_pd(a, c, b),
+    larger: _mm512_max_pd(b, a),
+    smaller: _mm512_min_pd(b, a),
 }

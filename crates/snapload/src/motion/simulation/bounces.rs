@@ -1,6 +1,6 @@
 //! The steps of a motion that are bounces, made here or in a lane.
 
-use crate::arithmetic::lane::Turn;
+use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
@@ -36,7 +36,7 @@ impl<T: Real> Simulation<T> {
         Some(AfterImpact {
             t: self.t,
             state: self.state,
-            turn: Turn::by(self.state.theta),
+            rotation: Rotation::by(self.state.theta),
             before: [self.before.vx, self.before.vy, self.before.vtheta],
             gaps: [[first.gap, first.error], [second.gap, second.error]],
             y_max: self.extremes.y_max,
@@ -133,7 +133,7 @@ impl<T: Real> Simulation<T> {
     fn cover(&mut self, bounce: &Bounce<T>) {
         let next = &bounce.next;
         if let (false, Some(two_cables), Some(from)) =
-            (bounce.topped, &self.two_cables, &self.bounce_start)
+            (bounce.top_known, &self.two_cables, &self.bounce_start)
         {
             let record = self.extremes.y_max;
             self.extremes.y_max = highest_point(two_cables, from, bounce.s, record);

@@ -1,6 +1,5 @@
 //! What happens at the end of a step: the law that is applied, the next taut set, and the rules that stop a run.
 
-use crate::arithmetic::lane::length;
 use crate::arithmetic::real::Real;
 use crate::model::rules::Stop;
 use crate::model::state::State;
@@ -107,8 +106,8 @@ impl<T: Real> Simulation<T> {
         if struck.contains(cable) && result.v_before[cable] <= T::ZERO {
             return true;
         }
-        let reach = length(self.system.cables[cable].fairlead());
-        let speed = |s: &State<T>| length([s.vx, s.vy]) + s.vtheta.abs() * reach;
+        let reach = self.system.cables[cable].fairlead().length();
+        let speed = |s: &State<T>| s.velocity().length() + s.vtheta.abs() * reach;
         let rounding = speed(&self.state).max(speed(&self.before)) * T::EPSILON;
         result.v_after[cable].abs() <= rounding * UNMOVED
     }

@@ -1,6 +1,5 @@
 //! What the latest step of a motion was like within.
 
-use crate::arithmetic::lane::length;
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::rules::Limit;
@@ -185,11 +184,11 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     fn gap_bend(&self, step: &Step<T>, cable: usize) -> T {
         let tether = &self.system.cables[cable];
-        let (start, reach) = (&step.start, length(tether.fairlead()));
+        let (start, reach) = (&step.start, tether.fairlead().length());
         let spin = start.vtheta.abs();
         let accel = self.system.forcing.bounds()[0] + spin * spin * reach;
         let s = step.t_end - step.t_start;
-        let speed = length([start.vx, start.vy]) + spin * reach + accel * s;
+        let speed = start.velocity().length() + spin * reach + accel * s;
         (speed * speed + tether.length() * accel) * 2.0
     }
 
