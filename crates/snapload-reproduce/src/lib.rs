@@ -31,6 +31,9 @@ pub enum ReportError {
     /// The list of figures or the page asks for something that was not computed.
     #[error("the report asks for {0}, which was not computed")]
     Missing(String),
+    /// Words and judge of a claim do not fit each other, or a run on which it rests is not there.
+    #[error("a claim can not be told: {0}")]
+    Claim(String),
 }
 
 /// The report: its page, and the data beside it.

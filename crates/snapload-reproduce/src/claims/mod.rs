@@ -1,7 +1,10 @@
-//! What the chapter's text claims, checked. No verdict is typed in: each comes out of a computation.
+//! What the chapter's text claims, checked. No verdict is typed in: each comes out of a
+//! computation.
+//!
+//! What a claim says, and how its evidence is told, stands in `claims/*.toml` ([`words`]); its
+//! judge stands in the table `JUDGES` of its section here, and answers with a verdict and the
+//! values that the words tell. To add a claim, add one entry to each.
 
-mod engine;
-mod equations;
 mod newton;
 mod numbers;
 mod runs;
@@ -14,25 +17,31 @@ mod section_6_5_1_1;
 mod section_6_5_1_2;
 mod section_6_5_2_1;
 mod verdict;
+mod words;
 
 pub use verdict::{Claim, Verdict};
 
+use crate::ReportError;
 use crate::study::Study;
 
 /// Checks all claims, in the order of their names.
 ///
 /// # Errors
-/// [`snapload::CaseError`] only for a fault of the program.
-pub fn claims(study: &Study) -> Result<Vec<Claim>, snapload::CaseError> {
+/// [`ReportError`] only for a fault of the program.
+pub fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     let tabled = runs::Tabled::new(study)?;
-    let mut all = section_6_3::claims(study, &tabled)?;
-    all.extend(section_6_4_1::claims(study, &tabled)?);
-    all.extend(section_6_4_2::claims(study)?);
-    all.extend(section_6_4_3::claims(study)?);
-    all.extend(section_6_5::claims(study)?);
-    all.extend(section_6_5_1_1::claims(study));
-    all.extend(section_6_5_1_2::claims(study)?);
-    all.extend(section_6_5_2_1::claims(study)?);
+    let sections = [
+        section_6_3::claims(&tabled)?,
+        section_6_4_1::claims(&tabled)?,
+        section_6_4_2::claims(study)?,
+        section_6_4_3::claims(study)?,
+        section_6_5::claims(study)?,
+        section_6_5_1_1::claims(study)?,
+        section_6_5_1_2::claims(study)?,
+        section_6_5_2_1::claims(study)?,
+    ];
+    let mut all = sections.concat();
     all.sort_by_key(|claim| claim.id);
+    words::check_all(&all.iter().map(|claim| claim.id).collect::<Vec<_>>())?;
     Ok(all)
 }

@@ -1,283 +1,188 @@
-//! A moored body held by its cables, in x, y and θ alone: Newton's second law with multipliers for the
-//! cables' gaps, from their definition. What the chapter derives is measured against it.
+//! Newton's second law for a body on taut cables, M q̈ = Q + Σ λ grad g with g̈ = 0 for each of
+//! them. The chapter's equations are measured against it, and so are the tensions −2 λ r that the
+//! engine finds.
+//!
+//! It is a check because it shares nothing with either but the place P of a cable's end, by which
+//! its gap is g = |P − A|² − r². The derivatives of g come from dual numbers, not from a formula of
+//! normals and lever arms.
 
-use super::verdict::{Claim, Finding, Verdict, claim};
-use snapload::{Real, anchor_height};
-use std::ops::{Add, Div, Mul, Sub};
+use super::numbers::holds;
+use super::verdict::{Finding, Judged};
+use snapload::{Cable, Dual, Motion, Playback, Real, State, TautSet, Trajectory, anchor_height};
 
-/// A function of time with its first and second derivative at one moment, exact by the rules of
-/// differentiation.
+/// Cable 1, of the gap g1, and cable 2, of the gap g2, as one sees them in the chapter's figures.
+pub(super) const RIGHT: usize = 0;
+pub(super) const LEFT: usize = 1;
+pub(super) const BOTH: [usize; 2] = [RIGHT, LEFT];
+
+/// A function of time with its first and second derivative at one moment.
+pub(super) type Jet = Dual<Dual<f64, 1>, 1>;
+
+pub(super) fn jet([value, rate, second]: [f64; 3]) -> Jet {
+    let first = |value, rate| Dual {
+        value,
+        slope: [rate],
+    };
+    Dual {
+        value: first(value, rate),
+        slope: [first(rate, second)],
+    }
+}
+
+/// Value, first and second derivative.
+pub(super) fn derivatives(jet: Jet) -> [f64; 3] {
+    let [rate] = jet.slope;
+    [jet.value.value, rate.value, rate.slope[0]]
+}
+
+/// Half-sizes a and b of a body, the length r of its cables, and its moment of inertia I.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Jet {
-    pub(super) value: f64,
-    pub(super) rate: f64,
-    pub(super) second: f64,
-}
-
-impl Jet {
-    pub(super) fn new(value: f64, rate: f64, second: f64) -> Self {
-        Self {
-            value,
-            rate,
-            second,
-        }
-    }
-
-    pub(super) fn constant(value: f64) -> Self {
-        Self::new(value, 0.0, 0.0)
-    }
-
-    /// f(self), where f has this value and these derivatives.
-    fn through(self, value: f64, first: f64, second: f64) -> Self {
-        Self::new(
-            value,
-            first * self.rate,
-            second * self.rate * self.rate + first * self.second,
-        )
-    }
-
-    pub(super) fn sin_cos(self) -> (Self, Self) {
-        let (s, c) = Real::sin_cos(self.value);
-        (self.through(s, c, -s), self.through(c, -s, -c))
-    }
-
-    pub(super) fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        let first = 0.5 / root;
-        self.through(root, first, -0.5 * first / self.value)
-    }
-
-    pub(super) fn square(self) -> Self {
-        self * self
-    }
-}
-
-impl Add for Jet {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self::new(
-            self.value + other.value,
-            self.rate + other.rate,
-            self.second + other.second,
-        )
-    }
-}
-
-impl Sub for Jet {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        self + other * -1.0
-    }
-}
-
-impl Mul for Jet {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self::new(
-            self.value * other.value,
-            self.rate * other.value + self.value * other.rate,
-            self.second * other.value + 2.0 * self.rate * other.rate + self.value * other.second,
-        )
-    }
-}
-
-impl Div for Jet {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        let inverse = 1.0 / other.value;
-        let square = inverse * inverse;
-        self * other.through(inverse, -square, 2.0 * square * inverse)
-    }
-}
-
-impl Mul<f64> for Jet {
-    type Output = Self;
-    fn mul(self, factor: f64) -> Self {
-        Self::new(
-            self.value * factor,
-            self.rate * factor,
-            self.second * factor,
-        )
-    }
-}
-
-impl Add<f64> for Jet {
-    type Output = Self;
-    fn add(self, term: f64) -> Self {
-        Self::new(self.value + term, self.rate, self.second)
-    }
-}
-
-/// A cable, as one sees it in the chapter's figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    /// Cable 1, of the gap g1.
-    Right,
-    /// Cable 2, of the gap g2.
-    Left,
-}
-
-impl Side {
-    pub(super) const BOTH: [Self; 2] = [Self::Right, Self::Left];
-
-    /// The cable's index in the engine.
-    pub(super) fn cable(self) -> usize {
-        match self {
-            Self::Right => 0,
-            Self::Left => 1,
-        }
-    }
-
-    /// The one of a cable's index.
-    pub(super) fn of(cable: usize) -> Self {
-        if cable == 0 { Self::Right } else { Self::Left }
-    }
-
-    /// x of its anchor; the fairlead lies on the same side.
-    fn anchor(self) -> f64 {
-        match self {
-            Self::Right => 1.0,
-            Self::Left => -1.0,
-        }
-    }
-}
-
-/// Sizes of a body and its mooring.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Mooring {
+pub(super) struct Sizes {
     pub(super) a: f64,
     pub(super) b: f64,
     pub(super) r: f64,
-    pub(super) inertia: f64,
+    pub(super) i: f64,
 }
 
-/// One body and its motion: place and velocity in x, y and θ, and the wave's force.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
-    pub(super) mooring: Mooring,
-    pub(super) place: [f64; 3],
-    pub(super) velocity: [f64; 3],
-    pub(super) force: [f64; 2],
-}
-
-/// What holds a body on taut cables: the multiplier of each gap, and the acceleration.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Held<const N: usize> {
-    pub(super) lambda: [f64; N],
-    pub(super) acceleration: [f64; 3],
-}
-
-impl Mooring {
+impl Sizes {
     /// Height h of the anchors over the fairleads at rest.
     pub(super) fn h(&self) -> f64 {
         anchor_height(self.r, self.a)
     }
 
-    /// Span from the anchor to the fairlead of a body at x, y, θ.
-    fn span(&self, side: Side, [x, y, theta]: [Jet; 3]) -> [Jet; 2] {
-        let (sine, cosine) = theta.sin_cos();
-        let a = side.anchor() * self.a;
-        [
-            x + cosine * a - sine * self.b + -side.anchor(),
-            y + sine * a + cosine * self.b + -(self.h() + self.b),
-        ]
-    }
-
-    /// Gap |P − A|² − r².
-    pub(super) fn gap(&self, side: Side, at: [Jet; 3]) -> Jet {
-        let [x, y] = self.span(side, at);
-        x.square() + y.square() + -self.r * self.r
-    }
-
-    /// The gap of a body that stands still.
-    pub(super) fn gap_at(&self, side: Side, place: [f64; 3]) -> f64 {
-        self.gap(side, place.map(Jet::constant)).value
+    /// A cable by its two ends.
+    pub(super) fn cable<T: Real>(&self, side: usize) -> Cable<T> {
+        let x = if side == RIGHT { 1.0 } else { -1.0 };
+        let ends = [[x, self.h() + self.b], [x * self.a, self.b]];
+        let [anchor, fairlead] = ends.map(|end| end.map(T::from_f64));
+        Cable::new(anchor, fairlead, T::from_f64(self.r))
     }
 }
 
+/// A body on its two cables at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    pub(super) sizes: Sizes,
+    /// x, y, θ and their rates.
+    pub(super) place: [f64; 3],
+    pub(super) velocity: [f64; 3],
+    /// The wave's force; the weight comes to it.
+    pub(super) force: [f64; 2],
+}
+
+/// What holds a body: the multiplier of each gap, 0 where the cable is slack, and the acceleration.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held {
+    pub(super) lambda: [f64; 2],
+    pub(super) acceleration: [f64; 3],
+}
+
 impl Moment {
+    /// Of a run.
+    fn of(run: &Trajectory, now: &Motion) -> Self {
+        let (system, [x, y, theta, vx, vy, vtheta]) = (run.system(), now.state.components());
+        let ([a, b], r) = (system.cables[0].fairlead(), system.cables[0].length());
+        let (i, [fx, fy]) = (system.body.inertia(), system.forcing.at(now.t));
+        Self {
+            sizes: Sizes { a, b, r, i },
+            place: [x, y, theta],
+            velocity: [vx, vy, vtheta],
+            force: [fx, fy - system.forcing.constant[1]],
+        }
+    }
+
+    /// Gap, gap rate and g̈ of the body as it moves on from its place at this velocity.
+    fn gap_along(&self, side: usize, velocity: [f64; 3]) -> [f64; 3] {
+        let [x, y, theta] = [0, 1, 2].map(|k| jet([self.place[k], velocity[k], 0.0]));
+        let zero = Jet::default();
+        let state = State::from_components([x, y, theta, zero, zero, zero]);
+        let [x, y] = self.sizes.cable(side).span(&state);
+        derivatives(x * x + y * y - self.sizes.r * self.sizes.r)
+    }
+
+    pub(super) fn gap(&self, side: usize) -> f64 {
+        self.gap_along(side, self.velocity)[0]
+    }
+
+    /// Gradient of a gap.
+    pub(super) fn gradient(&self, side: usize) -> [f64; 3] {
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+            .map(|along| self.gap_along(side, along)[1])
+    }
+
     /// Force and weight over the mass, in x, y and θ.
     fn free(&self) -> [f64; 3] {
         [self.force[0], self.force[1] - 1.0, 0.0]
     }
 
-    /// The place, moving on at these velocities without acceleration.
-    pub(super) fn path(&self, velocity: [f64; 3]) -> [Jet; 3] {
-        let [x, y, theta] = self.place;
-        let [vx, vy, vtheta] = velocity;
-        [
-            Jet::new(x, vx, 0.0),
-            Jet::new(y, vy, 0.0),
-            Jet::new(theta, vtheta, 0.0),
-        ]
-    }
-
-    /// Velocity of the fairlead.
-    pub(super) fn fairlead_velocity(&self, side: Side) -> [f64; 2] {
-        self.mooring
-            .span(side, self.path(self.velocity))
-            .map(|span| span.rate)
-    }
-
-    /// Gradient of a gap.
-    pub(super) fn gradient(&self, side: Side) -> [f64; 3] {
-        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-            .map(|along| self.mooring.gap(side, self.path(along)).rate)
-    }
-
-    /// Product of two gradients in the inverse of the masses.
-    fn product(&self, p: [f64; 3], q: [f64; 3]) -> f64 {
-        p[0] * q[0] + p[1] * q[1] + p[2] * q[2] / self.mooring.inertia
-    }
-
     /// g̈ of a gap if no cable pulled.
-    pub(super) fn opening(&self, side: Side) -> f64 {
+    pub(super) fn opening(&self, side: usize) -> f64 {
         let [g, free] = [self.gradient(side), self.free()];
-        let bend = self.mooring.gap(side, self.path(self.velocity)).second;
-        g[0] * free[0] + g[1] * free[1] + bend
+        g[0] * free[0] + g[1] * free[1] + self.gap_along(side, self.velocity)[2]
     }
 
-    /// How the pull of one cable changes the gap of another.
-    pub(super) fn coupling(&self, p: Side, q: Side) -> f64 {
-        self.product(self.gradient(p), self.gradient(q))
+    /// How the pull of one cable changes the gap of another: grad g M⁻¹ grad g.
+    pub(super) fn coupling(&self, p: usize, q: usize) -> f64 {
+        let [p, q] = [self.gradient(p), self.gradient(q)];
+        p[0] * q[0] + p[1] * q[1] + p[2] * q[2] / self.sizes.i
     }
 
-    fn pulled(&self, pulls: impl IntoIterator<Item = (Side, f64)>) -> [f64; 3] {
-        let mut sum = self.free();
-        for (side, lambda) in pulls {
-            let g = self.gradient(side);
-            sum[0] += lambda * g[0];
-            sum[1] += lambda * g[1];
-            sum[2] += lambda * g[2] / self.mooring.inertia;
-        }
-        sum
-    }
-
-    /// Held by one cable: M q̈ = Q + λ grad g with g̈ = 0.
-    pub(super) fn held(&self, side: Side) -> Held<1> {
-        let lambda = -self.opening(side) / self.coupling(side, side);
-        Held {
-            lambda: [lambda],
-            acceleration: self.pulled([(side, lambda)]),
-        }
-    }
-
-    /// Held by both.
-    pub(super) fn held_by_both(&self) -> Held<2> {
+    /// Held by these cables.
+    pub(super) fn held(&self, taut: TautSet) -> Held {
+        let mut lambda = [0.0; 2];
+        let c = BOTH.map(|side| self.opening(side));
         let w = |p, q| self.coupling(p, q);
-        let (right, left) = (Side::Right, Side::Left);
-        let [c1, c2] = [self.opening(right), self.opening(left)];
-        let [a, b, c] = [w(right, right), w(right, left), w(left, left)];
-        let determinant = a * c - b * b;
-        let lambda = [
-            -(c * c1 - b * c2) / determinant,
-            -(a * c2 - b * c1) / determinant,
-        ];
+        if taut.len() == 1 {
+            for side in taut.iter() {
+                lambda[side] = -c[side] / w(side, side);
+            }
+        } else if taut.len() == 2 {
+            let [a, b, d] = [w(RIGHT, RIGHT), w(RIGHT, LEFT), w(LEFT, LEFT)];
+            let determinant = a * d - b * b;
+            lambda = [
+                -(d * c[0] - b * c[1]) / determinant,
+                -(a * c[1] - b * c[0]) / determinant,
+            ];
+        }
+        let mut acceleration = self.free();
+        for side in taut.iter() {
+            let (g, lambda) = (self.gradient(side), lambda[side]);
+            acceleration[0] += lambda * g[0];
+            acceleration[1] += lambda * g[1];
+            acceleration[2] += lambda * g[2] / self.sizes.i;
+        }
         Held {
             lambda,
-            acceleration: self.pulled(Side::BOTH.into_iter().zip(lambda)),
+            acceleration,
         }
     }
+
+    pub(super) fn held_by_both(&self) -> Held {
+        self.held(BOTH.into_iter().collect())
+    }
+}
+
+/// The tensions that a run has while so many cables are taut, 1 or 2, against −2 λ r at the same
+/// states; and at how many times that was looked at.
+pub(super) fn tension_residual(run: &Trajectory, taut: usize) -> (f64, usize) {
+    /// How many intervals of the run are looked at, and at how many times each.
+    const INTERVALS: usize = 40;
+    const TIMES: usize = 20;
+    let mut playback = Playback::new(run);
+    let mut residuals = Vec::new();
+    let intervals = run.modes().iter().filter(|mode| mode.taut.len() == taut);
+    for mode in intervals.take(INTERVALS) {
+        for k in 0..TIMES {
+            let part = (k as f64 + 0.5) / TIMES as f64;
+            let now = playback.at(mode.t_start + part * (mode.t_end - mode.t_start));
+            let moment = Moment::of(run, &now);
+            let lambda = moment.held(now.taut).lambda;
+            let residual = |cable| now.tensions[cable] + 2.0 * lambda[cable] * moment.sizes.r;
+            residuals.extend(now.taut.iter().map(residual));
+        }
+    }
+    let times = residuals.len() / taut.max(1);
+    (largest(residuals), times)
 }
 
 /// Numbers that look random and are the same everywhere (SplitMix64).
@@ -299,6 +204,16 @@ impl Numbers {
         low + (high - low) * (bits as f64 / (1_u64 << 53) as f64)
     }
 
+    /// Sizes of a body of this half-height.
+    pub(super) fn sizes(&mut self, b: f64) -> Sizes {
+        Sizes {
+            a: self.between(0.05, 0.4),
+            b,
+            r: self.between(1.2, 3.0),
+            i: self.between(0.005, 0.2),
+        }
+    }
+
     /// Nearly normal with this deviation: a sum of twelve even ones.
     pub(super) fn normal(&mut self, deviation: f64) -> f64 {
         (0..12).map(|_| self.between(-0.5, 0.5)).sum::<f64>() * deviation
@@ -316,41 +231,35 @@ pub(super) fn largest(residuals: impl IntoIterator<Item = f64>) -> f64 {
     })
 }
 
-/// Residuals below this are rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// Whether an identity with such residuals holds.
-pub(super) fn holds(residual: f64) -> bool {
-    residual < ROUNDING
+/// The largest of what an equation leaves over in some states.
+pub(super) fn over<S, I: IntoIterator<Item = f64>>(
+    states: &[S],
+    residual: impl Fn(&S) -> I,
+) -> f64 {
+    largest(states.iter().flat_map(residual))
 }
 
-/// The verdict on such an identity.
-pub(super) fn verdict(residual: f64) -> Verdict {
-    Verdict::of(holds(residual))
+/// Judges an equation by what it leaves over in some states.
+pub(super) fn identity<S, I: IntoIterator<Item = f64>>(
+    states: &[S],
+    residual: impl Fn(&S) -> I,
+) -> Judged {
+    let most = over(states, residual);
+    Ok(Finding::of(holds(most) && !states.is_empty())
+        .value("residual", most)
+        .value("states", states.len()))
 }
 
-/// A claim that an equation holds, by the largest residual in so many states.
-pub(super) fn identity(
-    id: &'static str,
-    text: &'static str,
-    residual: f64,
-    states: usize,
-) -> Claim {
-    let evidence = format!("largest residual {} in {states} states", words(residual));
-    let finding = Finding::new(Verdict::of(holds(residual) && states > 0), evidence);
-    claim(id, text, finding)
+/// What one side of an equation is more than the other.
+pub(super) fn differences<const N: usize>(p: [f64; N], q: [f64; N]) -> [f64; N] {
+    std::array::from_fn(|k| p[k] - q[k])
 }
 
-/// A residual in words: rounding by its decade, anything else as it is.
-pub(super) fn words(residual: f64) -> String {
-    if !holds(residual) {
-        return format!("{residual:.2}");
-    }
-    let mut bound = 1e-9;
-    let mut decade = 9;
-    while decade < 16 && residual < bound / 10.0 {
-        bound /= 10.0;
-        decade += 1;
-    }
-    format!("below 1e-{decade}")
+pub(super) fn length(vector: impl IntoIterator<Item = f64>) -> f64 {
+    vector.into_iter().map(|z| z * z).sum::<f64>().sqrt()
+}
+
+/// Sine and cosine as the engine has them.
+pub(super) fn sin_cos(angle: f64) -> (f64, f64) {
+    Real::sin_cos(angle)
 }

@@ -3,14 +3,12 @@
 /// Spearman's rank correlation; ties share their mean rank.
 pub(super) fn spearman(points: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<f64> {
-        values
-            .iter()
-            .map(|v| {
-                let below = values.iter().filter(|w| *w < v).count() as f64;
-                let equal = values.iter().filter(|w| *w == v).count() as f64;
-                below + 0.5 * (equal + 1.0)
-            })
-            .collect()
+        let rank = |v: &f64| {
+            let below = values.iter().filter(|w| *w < v).count() as f64;
+            let equal = values.iter().filter(|w| *w == v).count() as f64;
+            below + 0.5 * (equal + 1.0)
+        };
+        values.iter().map(rank).collect()
     };
     let x = ranks(points.iter().map(|p| p.0).collect());
     let y = ranks(points.iter().map(|p| p.1).collect());
@@ -41,24 +39,36 @@ pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// The least and the greatest value.
-pub(super) fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
-    let start = (f64::INFINITY, f64::NEG_INFINITY);
-    values
-        .into_iter()
-        .fold(start, |(low, high), v| (low.min(v), high.max(v)))
+/// Of how many a statement holds.
+pub(super) fn count<T>(of: &[T], holds: impl Fn(&T) -> bool) -> usize {
+    of.iter().filter(|one| holds(one)).count()
+}
+
+/// The mean of those values that are marked over the mean of the others.
+pub(super) fn marked_over_others(values: impl IntoIterator<Item = (bool, f64)>) -> f64 {
+    let values: Vec<(bool, f64)> = values.into_iter().collect();
+    let of = |marked| mean(values.iter().filter(|v| v.0 == marked).map(|v| v.1));
+    of(true) / of(false)
+}
+
+/// The least value; infinite of none.
+pub(super) fn min(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// The greatest value; minus infinity of none.
+pub(super) fn max(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Whether each value is above the one before it; of fewer than two there is nothing to say.
 pub(super) fn rising(values: &[f64]) -> bool {
-    let up = |pair: &[f64]| matches!(pair, [a, b] if a < b);
-    values.len() > 1 && values.windows(2).all(up)
+    values.len() > 1 && values.windows(2).all(|pair| pair[0] < pair[1])
 }
 
 /// Whether each value is below the one before it.
 pub(super) fn falling(values: &[f64]) -> bool {
-    let down = |pair: &[f64]| matches!(pair, [a, b] if a > b);
-    values.len() > 1 && values.windows(2).all(down)
+    values.len() > 1 && values.windows(2).all(|pair| pair[0] > pair[1])
 }
 
 /// Values as a list in words.
@@ -69,13 +79,44 @@ pub(super) fn list(values: &[f64], digits: usize) -> String {
 
 /// The least and the greatest value in words; one number where they read the same.
 pub(super) fn span(values: impl IntoIterator<Item = f64>, digits: usize) -> String {
-    let (low, high) = range(values);
-    let [low, high] = [low, high].map(|v| format!("{v:.digits$}"));
+    between(values, |v| format!("{v:.digits$}"))
+}
+
+/// The same, each number written as asked.
+pub(super) fn between(
+    values: impl IntoIterator<Item = f64>,
+    written: impl Fn(f64) -> String,
+) -> String {
+    let values: Vec<f64> = values.into_iter().collect();
+    let low = written(min(values.iter().copied()));
+    let high = written(max(values));
     if low == high {
         low
     } else {
         format!("{low} to {high}")
     }
+}
+
+/// Residuals below this are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether an identity with such residuals holds.
+pub(super) fn holds(residual: f64) -> bool {
+    residual < ROUNDING
+}
+
+/// A residual in words: rounding by its decade, anything else as it is.
+pub(super) fn residual(residual: f64) -> String {
+    if !holds(residual) {
+        return format!("{residual:.2}");
+    }
+    let mut bound = ROUNDING;
+    let mut decade = 9;
+    while decade < 16 && residual < bound / 10.0 {
+        bound /= 10.0;
+        decade += 1;
+    }
+    format!("below 1e-{decade}")
 }
 
 #[cfg(test)]
@@ -103,6 +144,7 @@ mod tests {
         assert_eq!(list(&[1.0, 0.25], 1), "1.0, 0.2");
         assert_eq!(span([0.31, 0.3, 0.33], 2), "0.30 to 0.33");
         assert_eq!(span([0.311, 0.312], 2), "0.31");
+        assert_eq!([3e-12, 0.25].map(residual), ["below 1e-11", "0.25"]);
         let (mean, deviation) = mean_and_deviation(&[1.0, 3.0]);
         assert_eq!((mean, deviation), (2.0, 1.0));
     }

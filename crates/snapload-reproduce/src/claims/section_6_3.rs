@@ -1,41 +1,27 @@
-//! Section 6.3: the numbering of the cases and the printed Table 6.1.
+//! Section 6.3: the numbering of the cases and the printed Table 6.1; the stop rules and the start
+//! of the standard case have a file of their own.
 
 mod stops;
 
 use super::runs::Tabled;
-use super::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::Study;
-use snapload::{CaseError, Parameters, anchor_height};
+use super::verdict::{Claim, Finding, Judged, Judges, ask};
+use crate::ReportError;
+use snapload::{Parameters, anchor_height};
 
 /// Table 6.1 as printed.
 const PRINTED: &str = include_str!("../../data/table_6_1.csv");
 
+const JUDGES: &Judges<fn(&Table) -> Judged> = &[
+    ("6.3-01", |table| Ok(codes(table))),
+    ("6.3-02", |table| Ok(one_parameter(table))),
+    ("6.3-03", |_| Ok(standard_code())),
+    ("6.3-04", |table| Ok(heights(table))),
+];
+
 /// Checks the claims of sections 6.3 to 6.3.2.
-pub(super) fn claims(study: &Study, tabled: &Tabled) -> Result<Vec<Claim>, CaseError> {
-    let table = Table::read(PRINTED);
-    let mut all = vec![
-        claim(
-            "6.3-01",
-            "A case number spells out the values in its row of Table 6.1.",
-            codes(&table),
-        ),
-        claim(
-            "6.3-02",
-            "Every series of Table 6.1 varies a single parameter.",
-            one_parameter(&table),
-        ),
-        claim(
-            "6.3-03",
-            "The standard case bears the number 1910001000-559.",
-            standard_code(),
-        ),
-        claim(
-            "6.3-04",
-            "The heights h in Table 6.1 are those of its r and a.",
-            heights(&table),
-        ),
-    ];
-    all.extend(stops::claims(study, tabled)?);
+pub(super) fn claims(tabled: &Tabled) -> Result<Vec<Claim>, ReportError> {
+    let mut all = ask(&[JUDGES], &Table::read(PRINTED))?;
+    all.extend(ask(&[stops::JUDGES], tabled)?);
     Ok(all)
 }
 
@@ -67,15 +53,15 @@ impl Table {
     }
 
     /// The keys that vary over some rows.
-    fn varied(&self, rows: &[&Row]) -> Vec<&'static str> {
-        let varies = |column: &&&str| {
+    fn varied(&self, rows: &[Row]) -> Vec<&'static str> {
+        let varies = |column: &&str| {
             let mut values = rows.iter().map(|row| self.text(row, column));
             let first = values.next();
             values.any(|value| Some(value) != first)
         };
-        let columns = self.columns.iter().filter(varies).copied();
-        columns
-            .filter(|column| !["series", "case", "h"].contains(column))
+        let keys = self.columns.iter().copied();
+        keys.filter(|column| !["series", "case", "h"].contains(column))
+            .filter(varies)
             .collect()
     }
 }
@@ -106,72 +92,47 @@ fn encode(value: impl Fn(&str) -> f64) -> String {
 }
 
 fn codes(table: &Table) -> Finding {
-    let with_force = |row: &Row, f_o: Option<f64>| {
+    let number = |row: &Row, f_o: Option<f64>| {
         encode(|key| match (key, f_o) {
             ("f_o", Some(f_o)) => f_o,
             _ => table.number(row, key),
         })
     };
-    let agrees = |row: &&Row, f_o| with_force(row, f_o) == table.text(row, "case");
-    let wrong: Vec<&Row> = table.rows.iter().filter(|r| !agrees(r, None)).collect();
+    let agrees = |row: &Row, f_o| number(row, f_o) == table.text(row, "case");
+    let (right, wrong): (Vec<&Row>, Vec<_>) = table.rows.iter().partition(|r| agrees(r, None));
     let mut series: Vec<&str> = wrong.iter().map(|row| table.text(row, "series")).collect();
     series.dedup();
     let only_force = wrong.iter().filter(|row| agrees(row, Some(0.3))).count();
-    let evidence = format!(
-        "{} of {} rows agree; {} do not (series {}), {only_force} of them in f_o alone: 0.3 by \
-         the number",
-        table.rows.len() - wrong.len(),
-        table.rows.len(),
-        wrong.len(),
-        series.join(", ")
-    );
-    Finding::new(
-        Verdict::of(wrong.is_empty() && !table.rows.is_empty()),
-        evidence,
-    )
-    .because(
-        Verdict::NotReproduced,
-        only_force == wrong.len(),
-        "A slip in the column f_o of the table: captions of figures bear the same numbers. The \
-         number is taken here; both forces are computed.",
-    )
+    Finding::of(wrong.is_empty() && !table.rows.is_empty())
+        .values("right wrong", [right.len(), wrong.len()])
+        .values("all only_force", [table.rows.len(), only_force])
+        .value("series", series.join(", "))
+        .found("only_force", only_force == wrong.len())
 }
 
 fn one_parameter(table: &Table) -> Finding {
     let mut found = Vec::new();
     let mut wrong = Vec::new();
     for rows in table.rows.chunk_by(|p, q| p.first() == q.first()) {
-        let rows: Vec<&Row> = rows.iter().collect();
-        let mut keys = table.varied(&rows);
+        let mut keys = table.varied(rows);
         // A square has one size, in two columns.
-        if rows
-            .iter()
-            .all(|r| table.text(r, "a") == table.text(r, "b"))
-        {
+        let square = |row: &Row| table.text(row, "a") == table.text(row, "b");
+        if rows.iter().all(square) {
             keys.retain(|key| *key != "b");
         }
-        let series = rows.first().map_or("", |row| table.text(row, "series"));
+        let series = table.text(&rows[0], "series");
         found.push(format!("{series}: {}", keys.join(" and ")));
         if keys.len() != 1 {
             wrong.push(rows);
         }
     }
     // A grid varies one key at a time all the same, in its parts.
-    let shape = |row: &&Row| [table.text(row, "a"), table.text(row, "b")];
-    let mut parts = wrong
-        .iter()
-        .flat_map(|rows| rows.chunk_by(|p, q| shape(p) == shape(q)));
-    let grid = parts.all(|rows| table.varied(rows) == ["r"]);
-    Finding::new(
-        Verdict::of(wrong.is_empty() && !found.is_empty()),
-        format!("varied in series {}", found.join("; ")),
-    )
-    .because(
-        Verdict::NotReproduced,
-        grid,
-        "What varies more is a grid of cable length and shape: for each of its shapes r alone \
-         varies.",
-    )
+    let shape = |row: &Row| [table.text(row, "a"), table.text(row, "b")];
+    let of_one = |p: &Row, q: &Row| shape(p) == shape(q);
+    let mut parts = wrong.iter().flat_map(|rows| rows.chunk_by(of_one));
+    Finding::of(wrong.is_empty() && !found.is_empty())
+        .value("varied", found.join("; "))
+        .found("grid", parts.all(|rows| table.varied(rows) == ["r"]))
 }
 
 fn standard_code() -> Finding {
@@ -183,16 +144,9 @@ fn standard_code() -> Finding {
         })
     };
     let (named, follows) = ("1910001000-559", with_force(Parameters::STANDARD.f_o));
-    Finding::new(
-        Verdict::of(follows == named),
-        format!("the values of eq. 6.1 give {follows}"),
-    )
-    .because(
-        Verdict::NotReproduced,
-        with_force(0.5) == named,
-        "The number is that of f_o = 0.5, the force of the point mass's standard case: perhaps \
-         left over from there.",
-    )
+    Finding::of(follows == named)
+        .found("force_of_point", with_force(0.5) == named)
+        .value("code", follows)
 }
 
 fn heights(table: &Table) -> Finding {
@@ -201,32 +155,22 @@ fn heights(table: &Table) -> Finding {
     let h = |row: &Row| anchor_height(table.number(row, "r"), table.number(row, "a"));
     let printed = |row: &Row| table.number(row, "h");
     let agrees = |p: &Row, q: &Row| (h(p) - printed(q)).abs() <= PRINTED_WITHIN;
-    let wrong: Vec<&Row> = table.rows.iter().filter(|row| !agrees(row, row)).collect();
-    let of_another = |row: &&&Row| table.rows.iter().any(|other| agrees(other, row));
-    let taken = wrong.iter().filter(of_another).count();
-    let words = wrong.iter().map(|row| {
+    let (right, wrong): (Vec<&Row>, Vec<_>) = table.rows.iter().partition(|row| agrees(row, row));
+    let of_another = |row: &&Row| table.rows.iter().any(|other| agrees(other, row));
+    let misprints = wrong.iter().map(|row| {
         let code = table.text(row, "case");
         format!("{code} prints {:.3} for {:.3}", printed(row), h(row))
     });
-    let (all, bad) = (table.rows.len(), wrong.len());
-    Finding::new(
-        Verdict::of(bad == 0 && all > 0),
-        format!(
-            "{} of {all} rows agree; {}",
-            all - bad,
-            words.collect::<Vec<_>>().join(", ")
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        taken == bad,
-        "Misprints: each is the height of another row. The runs take h from r and a.",
-    )
+    Finding::of(wrong.is_empty() && !table.rows.is_empty())
+        .values("right all", [right.len(), table.rows.len()])
+        .value("misprints", misprints.collect::<Vec<_>>().join(", "))
+        .found("of_another_row", wrong.iter().all(of_another))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::Verdict;
 
     /// Table 6.1 with one text put in the place of another.
     fn altered(from: &str, to: &str) -> Table {
@@ -237,36 +181,20 @@ mod tests {
 
     #[test]
     fn a_table_without_slips_is_reproduced_and_a_slip_is_seen() {
-        let row = |table: &Table, keep: &dyn Fn(&str) -> bool| Table {
-            columns: table.columns.clone(),
-            rows: table
-                .rows
-                .iter()
-                .filter(|row| keep(row[0]))
-                .cloned()
-                .collect(),
+        let series_e = |mut table: Table| {
+            table.rows.retain(|row| row[0] == "e");
+            table
         };
-        let series = |name: &'static str| move |series: &str| series == name;
-        let table = Table::read(PRINTED);
-        let good = row(&table, &series("e"));
+        let good = series_e(Table::read(PRINTED));
         for check in [codes, one_parameter, heights] {
             assert_eq!(check(&good).verdict, Verdict::Reproduced);
         }
-        let bad = altered(
-            "e,1510001000-359,1.5,1.200,0.5",
-            "e,1510001000-359,1.5,1.250,0.6",
-        );
-        let bad = row(&bad, &series("e"));
+        let from = "e,1510001000-359,1.5,1.200,0.5,0.1";
+        let bad = series_e(altered(from, "e,1510001000-359,1.5,1.250,0.6,0.1"));
         for check in [codes, heights] {
             assert_eq!(check(&bad).verdict, Verdict::NotReproduced);
         }
-        let bad = altered(
-            "e,1510001000-359,1.5,1.200,0.5,0.1",
-            "e,1510001000-359,1.5,1.200,0.5,0.2",
-        );
-        assert_eq!(
-            one_parameter(&row(&bad, &series("e"))).verdict,
-            Verdict::NotReproduced
-        );
+        let bad = series_e(altered(from, "e,1510001000-359,1.5,1.200,0.5,0.2"));
+        assert_eq!(one_parameter(&bad).verdict, Verdict::NotReproduced);
     }
 }

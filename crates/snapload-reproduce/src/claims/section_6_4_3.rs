@@ -1,24 +1,128 @@
-//! Section 6.4.3: the norms over the force amplitude, and the comparison with the point mass.
+//! Section 6.4.3: the norms over the force amplitude. The claims on the swings of the rotation, and
+//! the comparison with the point mass, have files of their own.
 
-mod heights;
 mod point_mass;
 mod swings;
 
-use super::numbers::{falling, list, mean, mean_and_deviation, range, span};
-use super::runs::{LARGE_SWING, MANY, chapter, ensemble, near, of_all, swings, table_codes};
-use super::verdict::{Claim, Finding, Verdict, claim};
+use super::numbers::{count, falling, max, mean, mean_and_deviation, min, spearman};
+use super::runs::{
+    LARGE_SWING, MANY, case, chapter, from_starts, near, run, standard, swings, table_codes,
+};
+use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
+use super::words::Value;
+use crate::ReportError;
 use crate::study::Study;
 use snapload::{CaseError, Norms, Parameters, Stop, Trajectory};
+use std::f64::consts::FRAC_PI_2;
 
 /// Checks the claims of the section.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
-    let sweeps = Sweeps::new(study)?;
-    let mut all = heights::claims(&sweeps);
-    all.extend(of_norms(study, &sweeps)?);
-    all.extend(swings::claims(&sweeps));
-    all.extend(point_mass::claims(&sweeps)?);
-    Ok(all)
+pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
+    let of = |r| Sweeps::of(study, r);
+    let (short, long) = (of(1.5)?, of(2.5)?);
+    let sweeps = Sweeps { study, short, long };
+    ask(&[JUDGES, swings::JUDGES, point_mass::JUDGES], &sweeps)
 }
+
+const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+    ("6.4.3-01", |sweeps| {
+        let at_limit = |run: &Run| run.norms.theta_max > FRAC_PI_2 - 1e-9;
+        let correlation = |sweep: &[Run]| spearman(&over_force(sweep, |run| run.norms.theta_max));
+        let grows = |sweep: &[Run]| {
+            let first = sweep.iter().position(at_limit);
+            correlation(sweep) >= 0.9 && first == Some(sweep.len() - 1)
+        };
+        let text = |sweep: &[Run]| {
+            let before = max(below_critical(sweep).iter().map(|run| run.norms.theta_max));
+            let (f_cr, rho) = (sweep[sweep.len() - 1].f_o, correlation(sweep));
+            format!("rank correlation {rho:.2}, largest below f_cr = {f_cr:.2} is {before:.3}")
+        };
+        Ok(sweeps.judge(grows).both(sweeps, text))
+    }),
+    ("6.4.3-02", |sweeps| {
+        let low = |sweep: &[Run]| sweep.iter().all(|run| run.f_o > WEAK || !rises(run));
+        let last = |sweep: &[Run]| {
+            let low = sweep.iter().take_while(|run| !rises(run));
+            low.last().map_or(0.0, |run| run.f_o)
+        };
+        Ok(sweeps.judge(low).both(sweeps, last))
+    }),
+    ("6.4.3-03", |sweeps| {
+        Ok(height(&sweeps.short, |rises| rises > 0))
+    }),
+    ("6.4.3-04", |sweeps| {
+        Ok(height(&sweeps.long, |rises| rises == 0))
+    }),
+    ("6.4.3-05", |sweeps| {
+        let spread = |sweep: &[Run]| spread(sweep.iter().map(|run| run.norms.rho1));
+        let steady = sweeps.judge(|sweep| spread(sweep) < STEADY);
+        Ok(steady.both(sweeps, |sweep| 100.0 * spread(sweep)))
+    }),
+    ("6.4.3-07", first_is_largest),
+    ("6.4.3-10", |sweeps| {
+        /// A deviation that one calls constant, in parts of the mean.
+        const CONSTANT: f64 = 0.05;
+        let erratic = |[low, high]: [(f64, f64); 2]| {
+            low.1 < CONSTANT * low.0 && high.1 >= 2.0 * low.1 && high.0 < low.0
+        };
+        let text = |figure: fn(&Run) -> f64| {
+            let words = |(mean, deviation)| format!("{mean:.2} ± {deviation:.2}");
+            halves(&sweeps.short[0], figure).map(words).join(", then ")
+        };
+        let both = |sweep: &Sweep| SUMS.iter().all(|sum| erratic(halves(sweep, sum)));
+        Ok(Finding::robust(&sweeps.short, both).values("rho2 rho3", SUMS.map(text)))
+    }),
+    ("6.4.3-13", |sweeps| {
+        let both = |sweep: &Sweep| {
+            SUMS.iter()
+                .all(|sum| falls_rises_falls(&figure(sweep, sum)))
+        };
+        Ok(Finding::robust(&sweeps.long, both).list("rho3", figure(&sweeps.long[0], SUMS[1])))
+    }),
+    ("6.4.3-19", |sweeps| {
+        let back = |sweep: &[Run]| {
+            let falls = |values: Vec<f64>| values.windows(2).filter(|pair| falling(pair)).count();
+            SUMS.map(|sum| falls(figure(sweep, sum)))
+        };
+        let text = |sweep: &[Run]| {
+            let ([rho2, rho3], steps) = (back(sweep), sweep.len() - 1);
+            format!("ρ2 falls in {rho2} and ρ3 in {rho3} of {steps} steps of f_o")
+        };
+        Ok(sweeps
+            .judge(|sweep| !back(sweep).contains(&0))
+            .both(sweeps, text))
+    }),
+    ("6.4.3-20", optimum),
+    ("6.4.3-15", |sweeps| {
+        let over = |run: &Run| run.t <= 10.0 && run.norms.rho2 == run.norms.rho3;
+        let (codes, mut soon) = (table_codes(), 0);
+        for code in &codes {
+            soon += usize::from(case(sweeps.study, code)?.runs.chapter.end().t <= 10.0);
+        }
+        let usual = sweeps.judge(|sweep| share(sweep, over) > USUAL);
+        Ok(usual
+            .both(sweeps, |sweep| 100.0 * share(sweep, over))
+            .values("soon cases", [soon, codes.len()]))
+    }),
+    ("6.4.3-16", |sweeps| {
+        let differ = |run: &Run| (run.norms.rho3 - run.norms.rho2).abs() / run.norms.rho3;
+        let alike = |sweep: &[Run]| share(sweep, |run| differ(run) < 0.05) >= USUAL;
+        let most = |sweep: &[Run]| 100.0 * max(sweep.iter().map(differ));
+        Ok(sweeps.judge(alike).both(sweeps, most))
+    }),
+    ("6.4.3-18", |sweeps| {
+        let soon = |run: &Run| run.reason == Stop::Settled && run.t < 10.0;
+        let text = |sweep: &[Run]| {
+            let below = below_critical(sweep);
+            format!(
+                "{} of {}",
+                below.iter().filter(|run| soon(run)).count(),
+                below.len()
+            )
+        };
+        let usual = sweeps.judge(|sweep| share(below_critical(sweep), soon) >= USUAL);
+        Ok(usual.both(sweeps, text))
+    }),
+];
 
 /// What is asked of one run.
 struct Run {
@@ -28,31 +132,26 @@ struct Run {
     t: f64,
     /// Which impact is the largest snap, from 1.
     strongest: usize,
-    /// The swings of θ between its turning points.
-    swings: Vec<f64>,
+    largest_swing: f64,
+    /// Those swings of θ between its turning points that are large.
+    large_swings: Vec<f64>,
 }
 
 impl Run {
-    fn new(f_o: f64, run: &Trajectory) -> Self {
-        Self {
-            f_o,
+    fn new(case: &Parameters) -> Result<Self, CaseError> {
+        let run = run(case)?;
+        let mut swings = swings(&run);
+        let largest_swing = swings.iter().copied().fold(0.0, f64::max);
+        swings.retain(|swing| *swing > LARGE_SWING);
+        Ok(Self {
+            f_o: case.f_o,
             norms: *run.norms(),
             reason: run.end().reason,
             t: run.end().t,
-            strongest: strongest(run),
-            swings: swings(run),
-        }
-    }
-
-    fn largest_swing(&self) -> f64 {
-        self.swings.iter().copied().fold(0.0, f64::max)
-    }
-
-    fn large_swings(&self) -> impl Iterator<Item = f64> {
-        self.swings
-            .iter()
-            .copied()
-            .filter(|swing| *swing > LARGE_SWING)
+            strongest: strongest(&run),
+            largest_swing,
+            large_swings: swings,
+        })
     }
 }
 
@@ -65,65 +164,47 @@ fn strongest(run: &Trajectory) -> usize {
 /// Runs over f_o = 0.01 .. f_cr.
 type Sweep = Vec<Run>;
 
-/// The sweeps from all starts, the case itself first.
-struct Sweeps {
+/// The sweeps from all starts, the case itself first, with the shorter and with the longer cables.
+struct Sweeps<'a> {
+    study: &'a Study,
     short: Vec<Sweep>,
     long: Vec<Sweep>,
 }
 
-impl Sweeps {
-    fn new(study: &Study) -> Result<Self, CaseError> {
-        let of = |r: f64| -> Result<Vec<Sweep>, CaseError> {
-            let norms = study.norms.iter().filter(|norms| norms.r == r);
-            let forces: Vec<f64> = norms
-                .flat_map(|norms| norms.points.chapter.iter().map(|p| p.0))
-                .collect();
-            let case = chapter(Parameters {
-                r,
-                ..Parameters::STANDARD
-            });
-            ensemble(&case, MANY)
-                .iter()
-                .map(|member| sweep(member, &forces))
-                .collect()
-        };
-        Ok(Self {
-            short: of(1.5)?,
-            long: of(2.5)?,
-        })
+impl Sweeps<'_> {
+    /// With cables of this length.
+    fn of(study: &Study, r: f64) -> Result<Vec<Sweep>, CaseError> {
+        let curves = study.norms.iter().filter(|norms| norms.r == r);
+        let forces = curves.flat_map(|norms| norms.points.chapter.iter().map(|p| p.0));
+        let cases = forces.map(|f_o| chapter(standard(|p| (p.r, p.f_o) = (r, f_o))));
+        from_starts(&cases.collect::<Vec<_>>(), MANY, Run::new)
     }
 
     /// A statement of the runs at either length, from all starts.
-    fn judge(&self, holds: impl Fn(&[Run]) -> bool) -> Verdict {
-        Verdict::robust(self.short.iter().chain(&self.long).map(|s| holds(s)))
-    }
-
-    /// A figure of the case itself at either length.
-    fn show(&self, text: impl Fn(&[Run]) -> String) -> String {
-        let [short, long] = [&self.short, &self.long].map(|members| text(own(members)));
-        format!("r = 1.5: {short}; r = 2.5: {long}")
+    fn judge(&self, holds: impl Fn(&[Run]) -> bool) -> Finding {
+        let all = self.short.iter().chain(&self.long);
+        Finding::new(Verdict::robust(all.map(|sweep| holds(sweep))))
     }
 }
 
-fn sweep(case: &Parameters, forces: &[f64]) -> Result<Sweep, CaseError> {
-    let cases: Vec<Parameters> = forces
-        .iter()
-        .map(|f_o| Parameters { f_o: *f_o, ..*case })
-        .collect();
-    of_all(&cases, |case| case.run()).map(|runs| {
-        let pairs = forces.iter().zip(&runs);
-        pairs.map(|(f_o, run)| Run::new(*f_o, run)).collect()
-    })
-}
-
-/// The case itself.
-fn own(members: &[Sweep]) -> &[Run] {
-    members.first().map_or(&[], Vec::as_slice)
+impl Finding {
+    /// Gives a value of the case itself for both lengths of the cables: `short` and `long`.
+    fn both<V: Into<Value>>(self, sweeps: &Sweeps, value: impl Fn(&[Run]) -> V) -> Self {
+        self.values(
+            "short long",
+            [&sweeps.short, &sweeps.long].map(|starts| value(&starts[0])),
+        )
+    }
 }
 
 /// All but the last, which exceeds.
 fn below_critical(sweep: &[Run]) -> &[Run] {
-    sweep.split_last().map_or(&[], |(_, rest)| rest)
+    &sweep[..sweep.len().saturating_sub(1)]
+}
+
+/// A figure of each run.
+fn figure(sweep: &[Run], figure: impl Fn(&Run) -> f64) -> Vec<f64> {
+    sweep.iter().map(figure).collect()
 }
 
 /// A figure over the force amplitude.
@@ -135,65 +216,17 @@ fn over_force(sweep: &[Run], figure: impl Fn(&Run) -> f64) -> Vec<(f64, f64)> {
 const SUMS: [fn(&Run) -> f64; 2] = [|run| run.norms.rho2, |run| run.norms.rho3];
 
 /// Mean and deviation of a figure at the lower and at the higher amplitudes below f_cr.
-fn halves(sweep: &[Run], figure: impl Fn(&Run) -> f64) -> [(f64, f64); 2] {
-    let values: Vec<f64> = below_critical(sweep).iter().map(figure).collect();
+fn halves(sweep: &[Run], of: impl Fn(&Run) -> f64) -> [(f64, f64); 2] {
+    let values = figure(below_critical(sweep), of);
     let (low, high) = values.split_at(values.len() / 2);
     [mean_and_deviation(low), mean_and_deviation(high)]
 }
 
-fn share(sweep: &[Run], holds: impl Fn(&Run) -> bool) -> f64 {
-    sweep.iter().filter(|run| holds(run)).count() as f64 / sweep.len().max(1) as f64
-}
+/// A share that one would call usual: four of five.
+const USUAL: f64 = 0.8;
 
-fn of_norms(study: &Study, sweeps: &Sweeps) -> Result<Vec<Claim>, CaseError> {
-    Ok(vec![
-        claim(
-            "6.4.3-05",
-            "ρ1 hardly changes as f_o grows (Figs 6.33, 6.37).",
-            steady_largest(sweeps),
-        ),
-        claim(
-            "6.4.3-07",
-            "The largest snap is about the first impact (Figs 6.22-6.26).",
-            first_is_largest(study, sweeps)?,
-        ),
-        claim(
-            "6.4.3-10",
-            "For r = 1.5, ρ2 and ρ3 are constant under weak forces, lower and erratic under \
-             strong ones.",
-            erratic(sweeps),
-        ),
-        claim(
-            "6.4.3-13",
-            "For r = 2.5, ρ2 and ρ3 fall, rise and fall again as f_o grows.",
-            fall_rise_fall(sweeps),
-        ),
-        claim(
-            "6.4.3-19",
-            "The norms do not grow steadily with the force.",
-            not_steady(sweeps),
-        ),
-        claim(
-            "6.4.3-20",
-            "For r = 2.5 the energy is dissipated best at an amplitude in between.",
-            optimum(sweeps),
-        ),
-        claim(
-            "6.4.3-15",
-            "ρ2 equals ρ3 as most runs are over by t = 10.",
-            over_by_ten(study, sweeps),
-        ),
-        claim(
-            "6.4.3-16",
-            "The plots of ρ2 and ρ3 look alike.",
-            alike(sweeps),
-        ),
-        claim(
-            "6.4.3-18",
-            "Wave energy is dissipated within a short time, t ≤ 10.",
-            soon_settled(sweeps),
-        ),
-    ])
+fn share(sweep: &[Run], holds: impl Fn(&Run) -> bool) -> f64 {
+    count(sweep, holds) as f64 / sweep.len().max(1) as f64
 }
 
 /// Range over mean of ρ1 that one calls constant.
@@ -201,86 +234,54 @@ const STEADY: f64 = 0.1;
 
 /// Range over mean.
 fn spread(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let (low, high) = range(values.clone());
-    (high - low) / mean(values)
+    (max(values.clone()) - min(values.clone())) / mean(values)
 }
 
-fn steady_largest(sweeps: &Sweeps) -> Finding {
-    let spread = |sweep: &[Run]| spread(sweep.iter().map(|run| run.norms.rho1));
-    let text = |sweep: &[Run]| format!("ρ1 varies by {:.1} %", 100.0 * spread(sweep));
-    Finding::new(
-        sweeps.judge(|sweep| spread(sweep) < STEADY),
-        sweeps.show(text),
-    )
+/// Force amplitudes up to this are weak.
+const WEAK: f64 = 0.055;
+
+/// Whether the body rises above its start.
+fn rises(run: &Run) -> bool {
+    run.norms.y_max > Parameters::STANDARD.y + 1e-9
 }
 
-fn first_is_largest(study: &Study, sweeps: &Sweeps) -> Result<Finding, CaseError> {
-    /// Figs 6.22-6.26.
-    const FIGURES: [&str; 5] = ["355", "3575", "359", "3515", "3520"];
+/// Of a statement on how many amplitudes below the critical one lift the body above its start.
+fn height(starts: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
+    let rising = |sweep: &Sweep| count(below_critical(sweep), rises);
+    let first = starts[0].iter().find(|run| rises(run));
+    let first = first.map(|run| format!(", above the start from f_o = {:.2} on", run.f_o));
+    let heights = below_critical(&starts[0]).iter().map(|run| run.norms.y_max);
+    Finding::robust(starts, |sweep| holds(rising(sweep)))
+        .value("highest", max(heights))
+        .value("first", first.unwrap_or_default())
+}
+
+fn first_is_largest(sweeps: &Sweeps) -> Judged {
     let mut figures: Vec<Vec<usize>> = Vec::new();
-    for code in FIGURES {
-        if let Some(case) = study.case(&format!("1910001000-{code}")) {
-            let runs = near(&chapter(case.parameters), MANY)?;
-            figures.push(runs.iter().map(strongest).collect());
-        }
+    // Figs 6.22-6.26.
+    for code in ["355", "3575", "359", "3515", "3520"] {
+        let case = case(sweeps.study, &format!("1910001000-{code}"))?;
+        let impact = |case: &Parameters| Ok(strongest(&run(case)?));
+        figures.push(near(&chapter(case.parameters), MANY, impact)?);
     }
     // About the first: among the first three.
     let early = |k: &usize| *k <= 3;
-    let of_figures = figures
-        .iter()
-        .map(|figure| Verdict::robust(figure.iter().map(early)));
-    let drawn = of_figures.filter(|v| *v == Verdict::Reproduced).count();
-    let shares = sweeps
-        .short
-        .iter()
-        .map(|sweep| share(sweep, |run| early(&run.strongest)));
-    // Usually: in four of five.
-    let holds = |share: f64| share >= 0.8 && drawn >= 4;
-    let strongest: Vec<String> = figures
-        .iter()
-        .flat_map(|f| f.first())
-        .map(usize::to_string)
-        .collect();
-    let seconds = 100.0 * share(own(&sweeps.short), |run| run.strongest == 2);
-    let evidence = format!(
-        "the largest is impact number {} in the figures; among the first three in {} % of the \
-         runs over f_o, the second in {seconds:.0} %",
-        strongest.join(", "),
-        span(shares.clone().map(|share| 100.0 * share), 0)
-    );
-    Ok(Finding::new(Verdict::robust(shares.map(holds)), evidence))
+    let drawn = count(&figures, |figure| figure.iter().all(early));
+    let shares = sweeps.short.iter();
+    let shares = shares.map(|sweep| share(sweep, |run| early(&run.strongest)));
+    let usual = |share: f64| share >= 100.0 * USUAL && drawn >= 4;
+    let finding = Finding::measured("early", shares.map(|share| 100.0 * share), usual);
+    Ok(finding
+        .list("impacts", figures.iter().map(|figure| figure[0] as f64))
+        .value(
+            "second",
+            100.0 * share(&sweeps.short[0], |run| run.strongest == 2),
+        ))
 }
 
-fn erratic(sweeps: &Sweeps) -> Finding {
-    /// A deviation that one calls constant, in parts of the mean.
-    const CONSTANT: f64 = 0.05;
-    let holds = |sweep: &Sweep| {
-        SUMS.iter().all(|figure| {
-            let [low, high] = halves(sweep, figure);
-            low.1 < CONSTANT * low.0 && high.1 >= 2.0 * low.1 && high.0 < low.0
-        })
-    };
-    let words = SUMS.map(|figure| {
-        let [low, high] = halves(own(&sweeps.short), figure);
-        format!(
-            "{:.2} ± {:.2}, then {:.2} ± {:.2}",
-            low.0, low.1, high.0, high.1
-        )
-    });
-    Finding::new(
-        Verdict::robust(sweeps.short.iter().map(holds)),
-        format!(
-            "lower and upper half of the amplitudes: ρ2 {}; ρ3 {}",
-            words[0], words[1]
-        ),
-    )
-}
-
-/// The place of the best value by some order among `from..to`.
+/// The place of the greatest value (1) or of the least (-1) among `from..to`.
 fn place(values: &[f64], from: usize, to: usize, sign: f64) -> Option<usize> {
-    let part = values.iter().enumerate().take(to).skip(from);
-    part.max_by(|p, q| (sign * p.1).total_cmp(&(sign * q.1)))
-        .map(|(k, _)| k)
+    (from..to).max_by(|p, q| (sign * values[*p]).total_cmp(&(sign * values[*q])))
 }
 
 /// Whether values fall, rise and fall again, by a twentieth each time.
@@ -289,113 +290,27 @@ fn falls_rises_falls(values: &[f64]) -> bool {
     let check = || {
         let i = place(values, 1, last, -1.0)?;
         let j = place(values, i + 1, last, 1.0)?;
-        let (low, high) = (*values.get(i)?, *values.get(j)?);
-        let (_, start) = range(values.iter().take(2).copied());
-        Some(start > 1.05 * low && high > 1.05 * low && *values.last()? < 0.95 * high)
+        let (start, low, high) = (values[0].max(values[1]), values[i], values[j]);
+        Some(start > 1.05 * low && high > 1.05 * low && values[last] < 0.95 * high)
     };
     check().unwrap_or(false)
 }
 
-fn fall_rise_fall(sweeps: &Sweeps) -> Finding {
-    let of =
-        |sweep: &Sweep, figure: fn(&Run) -> f64| -> Vec<f64> { sweep.iter().map(figure).collect() };
-    let holds = |sweep: &Sweep| {
-        SUMS.iter()
-            .all(|figure| falls_rises_falls(&of(sweep, *figure)))
-    };
-    Finding::new(
-        Verdict::robust(sweeps.long.iter().map(holds)),
-        format!("ρ3 {}", listed(&sweeps.long, |run| run.norms.rho3, 2)),
-    )
-}
-
-fn not_steady(sweeps: &Sweeps) -> Finding {
-    let back = |sweep: &[Run]| {
-        SUMS.map(|figure| {
-            let values: Vec<f64> = sweep.iter().map(figure).collect();
-            values.windows(2).filter(|pair| falling(pair)).count()
-        })
-    };
-    let text = |sweep: &[Run]| {
-        let [rho2, rho3] = back(sweep);
-        let steps = sweep.len().saturating_sub(1);
-        format!("ρ2 falls in {rho2} and ρ3 in {rho3} of {steps} steps of f_o")
-    };
-    Finding::new(
-        sweeps.judge(|sweep| back(sweep).iter().all(|count| *count > 0)),
-        sweeps.show(text),
-    )
-}
-
-fn optimum(sweeps: &Sweeps) -> Finding {
-    // Where the snaps take the least to bring the body to rest, among the runs that settle.
-    let best = |sweep: &Sweep| {
+fn optimum(sweeps: &Sweeps) -> Judged {
+    // Where the snaps take the least to bring the body to rest, among the runs that settle: the
+    // place, the force and ρ3.
+    let best = sweeps.long.iter().map(|sweep| {
         let settled = sweep.iter().filter(|run| run.reason == Stop::Settled);
-        let settled: Vec<(f64, f64)> = settled.map(|run| (run.f_o, run.norms.rho3)).collect();
-        let values: Vec<f64> = settled.iter().map(|p| p.1).collect();
-        let k = place(&values, 0, values.len(), -1.0)?;
-        let inside = k > 0 && k + 1 < values.len();
-        settled.get(k).map(|p| (p.0, p.1, inside))
-    };
-    let found: Vec<Option<(f64, f64, bool)>> = sweeps.long.iter().map(best).collect();
-    let places = || found.iter().flatten().map(|best| best.0);
-    let (low, high) = range(places());
-    let same = high - low < 0.015;
-    let inside = |best: &Option<(f64, f64, bool)>| same && best.is_some_and(|best| best.2);
-    let least = found.iter().flatten().map(|best| best.1);
-    Finding::new(
-        Verdict::robust(found.iter().map(inside)),
-        format!(
-            "r = 2.5: least ρ3 of a run that settles {} at f_o = {}",
-            span(least, 2),
-            span(places(), 2)
-        ),
-    )
-}
-
-/// The values of a figure over f_o, from the case itself.
-fn listed(members: &[Sweep], figure: impl Fn(&Run) -> f64, digits: usize) -> String {
-    let values: Vec<f64> = own(members).iter().map(figure).collect();
-    list(&values, digits)
-}
-
-fn over_by_ten(study: &Study, sweeps: &Sweeps) -> Finding {
-    let over = |run: &Run| run.t <= 10.0 && run.norms.rho2 == run.norms.rho3;
-    let verdict = sweeps.judge(|sweep| share(sweep, over) > 0.8);
-    let codes = table_codes();
-    let tabled = codes.iter().filter_map(|code| study.case(code));
-    let soon = tabled.filter(|c| c.runs.chapter.end().t <= 10.0).count();
-    let text = |sweep: &[Run]| format!("{:.0} %", 100.0 * share(sweep, over));
-    Finding::new(
-        verdict,
-        format!(
-            "{} of the runs over f_o; of the cases of Table 6.1 {soon} of {}",
-            sweeps.show(text),
-            codes.len()
-        ),
-    )
-}
-
-fn alike(sweeps: &Sweeps) -> Finding {
-    let differ = |run: &Run| (run.norms.rho3 - run.norms.rho2).abs() / run.norms.rho3;
-    let text = |sweep: &[Run]| {
-        let (_, most) = range(sweep.iter().map(differ));
-        format!("they differ by {:.1} % at most", 100.0 * most)
-    };
-    let verdict = sweeps.judge(|sweep| share(sweep, |run| differ(run) < 0.05) >= 0.8);
-    Finding::new(verdict, sweeps.show(text))
-}
-
-fn soon_settled(sweeps: &Sweeps) -> Finding {
-    let soon = |run: &Run| run.reason == Stop::Settled && run.t < 10.0;
-    let verdict = sweeps.judge(|sweep| share(below_critical(sweep), soon) >= 0.8);
-    let text = |sweep: &[Run]| {
-        let below = below_critical(sweep);
-        format!(
-            "{} of {}",
-            below.iter().filter(|run| soon(run)).count(),
-            below.len()
-        )
-    };
-    Finding::new(verdict, format!("settled by t = 10, {}", sweeps.show(text)))
+        let settled: Vec<&Run> = settled.collect();
+        let rho3: Vec<f64> = settled.iter().map(|run| run.norms.rho3).collect();
+        let k = place(&rho3, 0, rho3.len(), -1.0)?;
+        Some((k > 0 && k + 1 < rho3.len(), settled[k].f_o, rho3[k]))
+    });
+    let best: Vec<Option<(bool, f64, f64)>> = best.collect();
+    let forces = || best.iter().flatten().map(|best| best.1);
+    let same = max(forces()) - min(forces()) < 0.015;
+    let finding = Finding::robust(&best, |best| same && best.is_some_and(|best| best.0));
+    Ok(finding
+        .list("least", best.iter().flatten().map(|best| best.2))
+        .list("forces", forces()))
 }

@@ -1,274 +1,188 @@
-//! 6.5.1.2: when bodies slide, and the sliding example.
+//! 6.5.1.2: when bodies slide; the sliding example has a file of its own.
 
 mod example;
-mod story;
 
-use super::numbers::{range, span};
-use super::runs::{MANY, chapter, ensemble, of_all, table_codes};
-use super::verdict::{Claim, Finding, Verdict, claim};
-use crate::study::{CriticalRow, Study};
+use super::numbers::{max, min, span};
+use super::runs::{
+    MANY, chapter, each, ensemble, first_interval, from_starts, near, outcome, past_settling, run,
+    shapes_under, standard, table_codes,
+};
+use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
+use crate::ReportError;
+use crate::study::{CaseRuns, CriticalRow, Study};
+use example::Example;
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
-use snapload::{Case, CaseError, Outcome, Parameters, Stop};
+use snapload::{Case, CaseError, Parameters, Stop, named_case};
 
 /// Checks the claims of the section.
-pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, CaseError> {
-    let mut all = vec![claim(
-        "6.5.1.2-01",
-        "No case of Table 6.1 slides.",
-        table_6_1(study)?,
-    )];
-    all.extend(sweep(study)?);
-    all.push(claim(
-        "6.5.1.2-04",
-        "Sliding starts where the normal velocity has become very low.",
-        dying_snaps()?,
-    ));
-    all.extend(example::claims()?);
-    all.push(claim(
-        "6.5.1.2-16",
-        "Runs that slide end by settling, at the rotation limit or in rocking, and in no other \
-         way.",
-        ends(study)?,
-    ));
+pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
+    let shapes = study.critical.par_iter().map(Shape::of);
+    let shapes: Vec<Shape> = shapes.collect::<Result<_, _>>()?;
+    let mut all = ask(&[JUDGES], &(study, shapes))?;
+    let runs = near(&named_case("sliding-example")?.parameters, MANY, run)?;
+    all.extend(ask(&[example::JUDGES], &Example::of(&runs))?);
     Ok(all)
 }
 
-fn slides(parameters: Parameters) -> Result<bool, CaseError> {
-    let outcome = Outcome::of(&Case::new(chapter(parameters))?);
-    Ok(outcome.end.reason == Stop::SlidingStart)
+/// The study, and what each shape of Table 6.2 does over all amplitudes.
+type Material<'a> = (&'a Study, Vec<Shape>);
+
+const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+    ("6.5.1.2-01", table_6_1),
+    ("6.5.1.2-02", |(_, shapes)| {
+        // Whether it holds somewhere in each class.
+        let everywhere = |holds: fn(&Shape) -> bool| {
+            let of_class = |of: &Shape| shapes.iter().any(|s| s.class == of.class && holds(s));
+            shapes.iter().all(of_class)
+        };
+        let robust = shapes.iter().filter(|s| s.robust).count();
+        let verdict = match everywhere(|s| s.robust) {
+            false if everywhere(|s| s.amplitudes > 0) => Verdict::NotDecidable,
+            robustly => Verdict::of(robustly),
+        };
+        Ok(Finding::new(verdict)
+            .list("amplitudes", shapes.iter().map(|s| s.amplitudes as f64))
+            .values("shapes robust", [shapes.len(), robust]))
+    }),
+    ("6.5.1.2-03", |(_, shapes)| {
+        let (scattered, all) = (
+            shapes.iter().filter(|s| s.intervals >= 2).count(),
+            shapes.len(),
+        );
+        Ok(Finding::of(scattered + 2 >= all && all > 2)
+            .list("intervals", shapes.iter().map(|s| s.intervals as f64))
+            .values("scattered shapes", [scattered, all]))
+    }),
+    ("6.5.1.2-04", |_| dying_snaps()),
+    ("6.5.1.2-16", ends),
+];
+
+fn ends_sliding(reason: Stop) -> bool {
+    reason == Stop::SlidingStart
 }
 
-fn table_6_1(study: &Study) -> Result<Finding, CaseError> {
+fn slides(parameters: &Parameters) -> Result<bool, CaseError> {
+    Ok(ends_sliding(outcome(&chapter(*parameters))?.end.reason))
+}
+
+fn table_6_1((study, _): &Material) -> Judged {
     let codes = table_codes();
-    let (table, printed): (Vec<_>, Vec<_>) = study
-        .cases
-        .iter()
-        .partition(|case| codes.contains(&case.code));
-    // By case: whether it and its neighbours slide.
-    let found = table
-        .par_iter()
-        .map(|case| {
-            ensemble(&case.parameters, MANY)
-                .into_iter()
-                .map(slides)
-                .collect()
-        })
-        .collect::<Result<Vec<Vec<bool>>, CaseError>>()?;
-    let own = found
-        .iter()
-        .filter(|case| case.first() == Some(&true))
+    let cases = study.cases.iter();
+    let (table, printed): (Vec<_>, Vec<_>) = cases.partition(|case| codes.contains(&case.code));
+    let cases: Vec<Parameters> = table.iter().map(|case| case.parameters).collect();
+    let found = from_starts(&cases, MANY, slides)?;
+    let slides = |k: usize| found.iter().map(move |all| all[k]);
+    let some = (0..cases.len())
+        .filter(|k| slides(*k).any(|slides| slides))
         .count();
-    let some = found.iter().filter(|case| case.contains(&true)).count();
-    let verdicts = found
-        .iter()
-        .map(|case| Verdict::robust(case.iter().map(|slides| !slides)));
-    let printed = printed
-        .iter()
-        .filter(|case| case.runs.chapter.end().reason == Stop::SlidingStart);
-    let printed: Vec<&str> = printed.map(|case| case.code).collect();
-    let others = if printed.is_empty() {
-        "none".to_owned()
-    } else {
-        printed.join(", ")
-    };
-    Ok(Finding::new(
-        Verdict::all(verdicts),
-        format!(
-            "{own} of {} by their numbers, {some} from some start 1e-12 away; of the rows that \
-             print f_o = 0.5 with a number of 0.3, run at 0.5: {others}",
-            table.len()
-        ),
-    ))
+    let none = (0..cases.len()).map(|k| Verdict::robust(slides(k).map(|slides| !slides)));
+    let own = found[0].iter().filter(|slides| **slides).count();
+    let slid = |case: &&&CaseRuns| ends_sliding(case.runs.chapter.end().reason);
+    let mut others: Vec<&str> = printed.iter().filter(slid).map(|case| case.code).collect();
+    if others.is_empty() {
+        others.push("none");
+    }
+    Ok(Finding::new(Verdict::all(none))
+        .values("own cases some", [own, cases.len(), some])
+        .value("others", others.join(", ")))
 }
 
 /// What a shape of Table 6.2 does over all amplitudes.
-struct Sweep {
+struct Shape {
+    /// Its outline, and whether its cables are the longer ones.
     class: (&'static str, bool),
+    /// So many amplitudes slide, and in so many intervals.
     amplitudes: usize,
     intervals: usize,
+    /// Whether all neighbours slide, too, at one amplitude.
     robust: bool,
 }
 
-fn sweep_of(row: &CriticalRow) -> Result<Sweep, CaseError> {
-    let case = row.parameters();
-    let at = |f_o: f64| Parameters { f_o, ..case };
-    let amplitudes: Vec<f64> = ForceScan::default().amplitudes().collect();
-    let found = amplitudes
-        .par_iter()
-        .map(|f_o| slides(at(*f_o)))
-        .collect::<Result<Vec<bool>, CaseError>>()?;
-    let mut robustly = false;
-    for (f_o, _) in amplitudes.iter().zip(&found).filter(|(_, slid)| **slid) {
-        let mut all = true;
-        for member in ensemble(&at(*f_o), MANY) {
-            all = all && slides(member)?;
+impl Shape {
+    fn of(row: &CriticalRow) -> Result<Self, CaseError> {
+        let with = |f_o| Parameters {
+            f_o,
+            ..row.parameters()
+        };
+        let cases: Vec<Parameters> = ForceScan::default().amplitudes().map(with).collect();
+        let found = each(&cases, slides)?;
+        // One start after the other, as most amplitudes fail at the first neighbours.
+        let from_all = |case| -> Result<bool, CaseError> {
+            for start in ensemble(case, MANY) {
+                if !slides(&start)? {
+                    return Ok(false);
+                }
+            }
+            Ok(true)
+        };
+        let mut robust = false;
+        for (case, _) in cases.iter().zip(&found).filter(|(_, slides)| **slides) {
+            robust = robust || from_all(case)?;
         }
-        if all {
-            robustly = true;
-            break;
-        }
+        let intervals = found.chunk_by(|p, q| p == q).filter(|part| part[0]);
+        Ok(Self {
+            class: (row.shape, row.r > 2.0),
+            amplitudes: found.iter().filter(|slides| **slides).count(),
+            intervals: intervals.count(),
+            robust,
+        })
     }
-    Ok(Sweep {
-        class: (row.shape, row.r > 2.0),
-        amplitudes: found.iter().filter(|slid| **slid).count(),
-        intervals: found
-            .chunk_by(|p, q| p == q)
-            .filter(|part| part.first() == Some(&true))
-            .count(),
-        robust: robustly,
-    })
 }
 
-fn sweep(study: &Study) -> Result<[Claim; 2], CaseError> {
-    let sweeps = study
-        .critical
-        .par_iter()
-        .map(sweep_of)
-        .collect::<Result<Vec<Sweep>, CaseError>>()?;
-    let each = |holds: fn(&Sweep) -> bool| {
-        sweeps
-            .iter()
-            .all(|of| sweeps.iter().any(|s| s.class == of.class && holds(s)))
-    };
-    let everywhere = match (each(|s| s.robust), each(|s| s.amplitudes > 0)) {
-        (true, _) => Verdict::Reproduced,
-        (false, true) => Verdict::NotDecidable,
-        _ => Verdict::NotReproduced,
-    };
-    let scattered = sweeps.iter().filter(|s| s.intervals >= 2).count();
-    let shapes = sweeps.len();
-    Ok([
-        claim(
-            "6.5.1.2-02",
-            "Bodies of all shapes slide, with both lengths of the cables.",
-            Finding::new(
-                everywhere,
-                format!(
-                    "{} of 100 amplitudes slide, over {shapes} shapes; robustly somewhere for {} \
-                     of them",
-                    span(sweeps.iter().map(|s| s.amplitudes as f64), 0),
-                    sweeps.iter().filter(|s| s.robust).count()
-                ),
-            ),
-        ),
-        claim(
-            "6.5.1.2-03",
-            "No simple rule tells which amplitudes lead to sliding.",
-            Finding::new(
-                Verdict::of(scattered + 2 >= shapes && shapes > 2),
-                format!(
-                    "{} separate intervals of amplitudes slide, two or more for {scattered} of \
-                     {shapes} shapes",
-                    span(sweeps.iter().map(|s| s.intervals as f64), 0)
-                ),
-            ),
-        ),
-    ])
-}
-
-/// When the first slide of a run begins.
-fn first_slide(case: &Case) -> Option<f64> {
-    let mut simulation = case.simulation();
-    while let Some(step) = simulation.step() {
-        if step.taut.len() == 1 && step.t_end > step.t_start {
-            return Some(step.t_start);
-        }
-    }
-    None
-}
-
-fn dying_snaps() -> Result<Finding, CaseError> {
+fn dying_snaps() -> Judged {
     /// A difference of times that no plot shows.
     const SAME: f64 = 1e-3;
-    /// Velocities at which a cable is taken to stick. If the snaps die out there, it does not matter which.
+    /// Velocities at which a cable is taken to stick. If the snaps die out there, it does not
+    /// matter which.
     const STICKS: [f64; 2] = [1e-6, 1e-8];
-    let forces = [0.2, 0.27, 0.4, 0.44];
-    let with = |f_o: f64, v_stick: f64| Parameters {
-        f_o,
-        v_stick,
-        stop_when_settled: false,
-        ..Parameters::STANDARD
-    };
     let mut verdicts = Vec::new();
     let mut words = Vec::new();
-    for f_o in forces {
-        let cases = STICKS.map(|v_stick| with(f_o, v_stick));
-        let starts = of_all(&cases, |case| first_slide(&case))?;
-        let (low, high) = range(starts.iter().flatten().copied());
-        let all = starts.iter().all(Option::is_some);
-        verdicts.push(Verdict::of(all && high - low < SAME));
-        words.push(format!("{} at f_o = {f_o}", span([low, high], 4)));
+    for f_o in [0.2, 0.27, 0.4, 0.44] {
+        let with = |v_stick| past_settling(standard(|p| (p.f_o, p.v_stick) = (f_o, v_stick)));
+        let cases = STICKS.map(with);
+        let first_slide = |case: &_| first_interval(case, |taut| taut.len() == 1);
+        let starts: Vec<f64> = each(&cases, first_slide)?.into_iter().flatten().collect();
+        let same = max(starts.iter().copied()) - min(starts.iter().copied()) < SAME;
+        verdicts.push(Verdict::of(same && starts.len() == cases.len()));
+        words.push(format!("{} at f_o = {f_o}", span(starts, 4)));
     }
-    Ok(Finding::new(
-        Verdict::all(verdicts),
-        format!(
-            "the first slide begins at the same time whether snaps below 1e-6 or 1e-8 are taken \
-             to stick: {}",
-            words.join(", ")
-        ),
-    ))
+    Ok(Finding::new(Verdict::all(verdicts)).value("times", words.join(", ")))
 }
 
-/// How a run ends.
-#[derive(Clone, Copy, PartialEq)]
-enum End {
-    Settles,
-    RotationLimit,
-    Rocks,
-    UpperBound,
-    GoesOn,
-}
-
-/// How a run ends that has slid.
-fn end_if_slid(case: &Case) -> Option<End> {
-    let mut simulation = case.simulation();
+/// Why a run stops that has slid, and with how many taut cables.
+fn end_if_slid(parameters: &Parameters) -> Result<Option<(Stop, usize)>, CaseError> {
+    let mut simulation = Case::new(*parameters)?.simulation();
     let mut slid = false;
     while let Some(step) = simulation.step() {
         slid |= step.taut.len() == 1 && step.t_end > step.t_start;
     }
-    let end = match simulation.stop()? {
-        Stop::Settled => End::Settles,
-        Stop::RotationLimit => End::RotationLimit,
-        Stop::UpperBound => End::UpperBound,
-        _ if simulation.taut().len() > 1 => End::Rocks,
-        _ => End::GoesOn,
-    };
-    slid.then_some(end)
+    let end = simulation
+        .stop()
+        .map(|stop| (stop, simulation.taut().len()));
+    Ok(end.filter(|_| slid))
 }
 
-fn ends(study: &Study) -> Result<Finding, CaseError> {
-    let of_shape = |row: &CriticalRow| {
-        let case = row.parameters();
-        (1..=18).map(move |k| Parameters {
-            f_o: f64::from(k) / 20.0,
-            ..case
-        })
-    };
-    let cases: Vec<Parameters> = study.critical.iter().flat_map(of_shape).collect();
-    let ends = of_all(&cases, |case| end_if_slid(&case))?;
-    let count = |end: End| ends.iter().filter(|found| **found == Some(end)).count();
-    let [settle, limit, rock] = [End::Settles, End::RotationLimit, End::Rocks].map(count);
-    let [bound, going] = [End::UpperBound, End::GoesOn].map(count);
-    let all = settle + limit + rock + bound + going;
-    let at_bound = cases
-        .iter()
-        .zip(&ends)
-        .filter(|(_, end)| **end == Some(End::UpperBound));
-    let forces = span(at_bound.map(|(case, _)| case.f_o), 2);
-    Ok(Finding::new(
-        Verdict::of(all > 0 && bound + going == 0),
-        format!(
-            "of {all} runs that slide {settle} settle, {limit} reach the rotation limit, {rock} \
-             rock and {going} move otherwise at t = 100, {bound} reach the upper bound"
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        bound > 0,
-        format!(
-            "The upper bound is reached under f_o = {forces}; the chapter may not have gone so \
-             high. {going} runs have not ended."
-        ),
-    ))
+fn ends((study, _): &Material) -> Judged {
+    let forces: Vec<f64> = (1..=18).map(|k| f64::from(k) / 20.0).collect();
+    let cases = shapes_under(study, &forces);
+    let [mut settle, mut limit, mut rock, mut going] = [0; 4];
+    let mut at_bound = Vec::new();
+    for (case, end) in cases.iter().zip(each(&cases, end_if_slid)?) {
+        match end {
+            None => {}
+            Some((Stop::Settled, _)) => settle += 1,
+            Some((Stop::RotationLimit, _)) => limit += 1,
+            Some((Stop::UpperBound, _)) => at_bound.push(case.f_o),
+            Some((_, taut)) if taut > 1 => rock += 1,
+            Some(_) => going += 1,
+        }
+    }
+    let (bound, named) = (at_bound.len(), settle + limit + rock);
+    let all = named + bound + going;
+    Ok(Finding::of(all > 0 && all == named)
+        .values("all settle limit", [all, settle, limit])
+        .values("rock going bound", [rock, going, bound])
+        .found("upper_bound", bound > 0)
+        .list("forces", at_bound))
 }

@@ -1,7 +1,13 @@
 //! Verdicts, how they combine, and claims with what was found of them.
 
+use super::words::{Value, tell};
+use crate::ReportError;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
 /// What the computation says of a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The computation agrees.
     Reproduced,
@@ -21,8 +27,8 @@ impl Verdict {
         }
     }
 
-    /// Of a statement that holds for some members of an ensemble: all, none, or neither. Without members
-    /// nothing was shown.
+    /// Of a statement that holds for some members of an ensemble: all, none, or neither. Without
+    /// members nothing was shown.
     pub(super) fn robust(members: impl IntoIterator<Item = bool>) -> Self {
         let (mut yes, mut no) = (false, false);
         for holds in members {
@@ -36,8 +42,8 @@ impl Verdict {
         }
     }
 
-    /// Of a statement that holds if all its parts do. One part that surely fails decides it; without
-    /// parts nothing was shown.
+    /// Of a statement that holds if all its parts do. One part that surely fails decides it;
+    /// without parts nothing was shown.
     pub(super) fn all(parts: impl IntoIterator<Item = Self>) -> Self {
         let worse = |p, q| match (p, q) {
             (Self::Reproduced, Self::Reproduced) => Self::Reproduced,
@@ -63,6 +69,14 @@ impl Verdict {
             .unwrap_or(Self::NotReproduced)
     }
 
+    /// How many came to this verdict.
+    pub(super) fn count(self, verdicts: impl IntoIterator<Item = Self>) -> usize {
+        verdicts
+            .into_iter()
+            .filter(|verdict| *verdict == self)
+            .count()
+    }
+
     /// As it is written in `claims.json` and in the report.
     pub fn words(self) -> &'static str {
         match self {
@@ -73,35 +87,90 @@ impl Verdict {
     }
 }
 
-/// What was found of a claim.
+/// What the judge of a claim found: the verdict, the values that the claim's words tell, and
+/// whether that is so on which a remark hangs.
 #[derive(Clone, Debug)]
 pub(super) struct Finding {
     pub(super) verdict: Verdict,
-    evidence: String,
-    remark: String,
+    pub(super) values: BTreeMap<&'static str, Value>,
+    pub(super) conditions: BTreeMap<&'static str, bool>,
 }
 
 impl Finding {
-    /// A verdict and the figures on which it rests.
-    pub(super) fn new(verdict: Verdict, evidence: impl Into<String>) -> Self {
+    pub(super) fn new(verdict: Verdict) -> Self {
         Self {
             verdict,
-            evidence: evidence.into(),
-            remark: String::new(),
+            values: BTreeMap::new(),
+            conditions: BTreeMap::new(),
         }
     }
 
-    /// Adds why we disagree. It stands only beside the verdict that it explains, and only where the
-    /// computation found what it says; so it can not outlive the figures from which it was written.
-    pub(super) fn because(mut self, explains: Verdict, found: bool, why: impl AsRef<str>) -> Self {
-        if self.verdict == explains && found {
-            if !self.remark.is_empty() {
-                self.remark.push(' ');
-            }
-            self.remark.push_str(why.as_ref());
-        }
+    /// Of a statement that either holds or does not.
+    pub(super) fn of(holds: bool) -> Self {
+        Self::new(Verdict::of(holds))
+    }
+
+    /// Of a statement on a number that each member of an ensemble has. Gives those numbers, too.
+    pub(super) fn measured(
+        name: &'static str,
+        members: impl IntoIterator<Item = f64>,
+        holds: impl Fn(f64) -> bool,
+    ) -> Self {
+        let members: Vec<f64> = members.into_iter().collect();
+        Self::robust(&members, |member| holds(*member)).list(name, members)
+    }
+
+    /// Of a statement that is asked of each member of an ensemble.
+    pub(super) fn robust<T>(members: &[T], holds: impl Fn(&T) -> bool) -> Self {
+        Self::new(Verdict::robust(members.iter().map(holds)))
+    }
+
+    /// Gives a value for the place of this name.
+    pub(super) fn value(mut self, name: &'static str, value: impl Into<Value>) -> Self {
+        self.values.insert(name, value.into());
         self
     }
+
+    /// Gives values for several places, whose names are apart by blanks.
+    pub(super) fn values<T: Into<Value>, const N: usize>(
+        self,
+        names: &'static str,
+        values: [T; N],
+    ) -> Self {
+        let pairs = names.split(' ').zip(values);
+        pairs.fold(self, |finding, (name, value)| finding.value(name, value))
+    }
+
+    /// Gives several numbers for one place.
+    pub(super) fn list(self, name: &'static str, list: impl IntoIterator<Item = f64>) -> Self {
+        self.value(name, Value::Numbers(list.into_iter().collect()))
+    }
+
+    /// Decides whether that is so on which the remark of this name hangs.
+    pub(super) fn found(mut self, name: &'static str, holds: bool) -> Self {
+        self.conditions.insert(name, holds);
+        self
+    }
+}
+
+/// What a judge answers.
+pub(super) type Judged = Result<Finding, ReportError>;
+
+/// Judges of the kind `F`, each with the id of its claim.
+pub(super) type Judges<F> = [(&'static str, F)];
+
+/// A judge that rests on the material `M`.
+type Judge<M> = fn(&M) -> Judged;
+
+/// Asks the judges of a section, which may stand in several tables.
+pub(super) fn ask<M: ?Sized>(
+    tables: &[&Judges<Judge<M>>],
+    material: &M,
+) -> Result<Vec<Claim>, ReportError> {
+    let judges = tables.iter().flat_map(|judges| judges.iter());
+    judges
+        .map(|(id, judge)| tell(id, &judge(material)?))
+        .collect()
 }
 
 /// A claim of the chapter and what became of it.
@@ -119,18 +188,6 @@ pub struct Claim {
     pub evidence: String,
     /// Why we disagree, as far as it can be known; empty where we agree.
     pub remark: String,
-}
-
-/// A claim with what was found; its section is the head of its id.
-pub(super) fn claim(id: &'static str, claim: &'static str, finding: Finding) -> Claim {
-    Claim {
-        id,
-        section: id.rsplit_once('-').map_or(id, |(section, _)| section),
-        claim,
-        verdict: finding.verdict,
-        evidence: finding.evidence,
-        remark: finding.remark,
-    }
 }
 
 #[cfg(test)]
@@ -188,22 +245,5 @@ mod tests {
         assert_eq!(Verdict::robust([]), NotReproduced);
         assert_eq!(Verdict::all([]), NotReproduced);
         assert_eq!(Verdict::any([]), NotReproduced);
-    }
-
-    #[test]
-    fn a_reason_stands_only_beside_the_verdict_that_it_explains() {
-        for verdict in ALL {
-            let found = Finding::new(verdict, "1 of 2")
-                .because(NotReproduced, true, "one fails")
-                .because(NotReproduced, false, "it rains")
-                .because(NotDecidable, true, "by chance");
-            let claim = claim("6.4.1-03", "both hold", found);
-            let remark = match verdict {
-                Reproduced => "",
-                NotReproduced => "one fails",
-                NotDecidable => "by chance",
-            };
-            assert_eq!((claim.section, &*claim.remark), ("6.4.1", remark));
-        }
     }
 }

@@ -1,19 +1,16 @@
 //! Table 6.2 with the neighbours of each entry.
 
-use crate::claims::numbers::{range, spearman};
-use crate::claims::runs::{chapter, ensemble, of_all};
+use crate::ReportError;
+use crate::claims::numbers::{max, min, spearman};
+use crate::claims::runs::{NEVER, SAME, chapter, each, ensemble, outcome, shown};
 use crate::claims::verdict::Verdict;
 use crate::study::{CriticalRow, Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
-use snapload::{CaseError, Outcome, Parameters, Stop, natural_inertia};
+use snapload::{CaseError, Parameters, Stop, natural_inertia};
 
 /// Neighbours of an entry.
-pub(super) const NEIGHBOURS: usize = 4;
-/// The rank of a case that never exceeds: above all that do.
-pub(super) const NEVER: f64 = 9.0;
-/// Two amplitudes of the scan are equal within this.
-pub(super) const SAME: f64 = 0.005;
+const NEIGHBOURS: usize = 4;
 
 /// An entry of Table 6.2 with its neighbours.
 pub(super) struct Entry<'a> {
@@ -28,28 +25,32 @@ pub(super) struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     fn new(row: &'a CriticalRow) -> Result<Self, CaseError> {
-        let parameters = chapter(row.parameters());
-        let all = ensemble(&parameters, NEIGHBOURS);
+        let all = ensemble(&chapter(row.parameters()), NEIGHBOURS);
         let first = row.computed.chapter.first.map(|x| (x.f_o, x.reason));
-        let others = all
-            .par_iter()
-            .skip(1)
-            .map(|member| first_exceeding(member, ForceScan::default()))
-            .collect::<Result<Vec<_>, CaseError>>()?;
-        let members: Vec<Option<(f64, Stop)>> = std::iter::once(first).chain(others).collect();
-        let (_, largest) = range(members.iter().map(|found| rank(found.map(|x| x.0))));
-        let smaller = largest < row.published - SAME && exceed(&all, largest)?.iter().all(|x| *x);
-        Ok(Self {
+        let others = each(&all[1..], |member| {
+            first_exceeding(member, ForceScan::default())
+        })?;
+        let mut entry = Self {
             row,
-            members,
+            members: [vec![first], others].concat(),
             at_published: exceed(&all, row.published)?,
-            smaller_exceeds: smaller,
-        })
+            smaller_exceeds: false,
+        };
+        let largest = max(entry.critical());
+        entry.smaller_exceeds =
+            largest < row.published - SAME && exceed(&all, largest)?.iter().all(|exceeds| *exceeds);
+        Ok(entry)
+    }
+
+    pub(super) fn name(&self) -> String {
+        let (r, [a, b]) = (self.row.r, self.row.size);
+        format!("r = {r}, {a} x {b}")
     }
 
     /// f_cr of every member.
     pub(super) fn critical(&self) -> impl Iterator<Item = f64> {
-        self.members.iter().map(|found| rank(found.map(|x| x.0)))
+        let members = self.members.iter();
+        members.map(|found| found.map_or(NEVER, |x| x.0))
     }
 
     /// f_cr of the case itself.
@@ -62,25 +63,20 @@ impl<'a> Entry<'a> {
         self.at_published.iter().all(|exceeds| !exceeds)
     }
 
-    /// Whether the published value is that of all members, of none for a reason that is sure, or open.
+    /// Whether the published value is that of all members, of none for a reason that is sure, or
+    /// open.
     pub(super) fn verdict(&self) -> Verdict {
-        let published = self.row.published;
-        let equal = |f_cr: f64| (f_cr - published).abs() < SAME;
-        let all: Vec<f64> = self.critical().collect();
-        if all.iter().all(|f| equal(*f)) {
-            return Verdict::Reproduced;
-        }
+        let equal = |f_cr: f64| (f_cr - self.row.published).abs() < SAME;
         let sure = self.settles_at_published() || self.smaller_exceeds;
-        if all.iter().all(|f| !equal(*f)) && sure {
-            Verdict::NotReproduced
-        } else {
-            Verdict::NotDecidable
+        match Verdict::robust(self.critical().map(equal)) {
+            Verdict::NotReproduced if !sure => Verdict::NotDecidable,
+            verdict => verdict,
         }
     }
 
     /// f_cr over the starts, in words.
     pub(super) fn text(&self) -> String {
-        let (low, high) = range(self.critical());
+        let (low, high) = (min(self.critical()), max(self.critical()));
         if high - low < SAME {
             shown(low)
         } else {
@@ -91,70 +87,48 @@ impl<'a> Entry<'a> {
 
 /// Which members of an ensemble exceed at an amplitude.
 fn exceed(members: &[Parameters], f_o: f64) -> Result<Vec<bool>, CaseError> {
-    let cases: Vec<Parameters> = members.iter().map(|m| Parameters { f_o, ..*m }).collect();
-    of_all(&cases, |case| Outcome::of(&case).exceeds())
-}
-
-pub(super) fn rank(f_cr: Option<f64>) -> f64 {
-    f_cr.unwrap_or(NEVER)
-}
-
-pub(super) fn shown(f_cr: f64) -> String {
-    if f_cr < NEVER {
-        format!("{f_cr:.2}")
-    } else {
-        "none".to_owned()
-    }
-}
-
-/// Table 6.2 with the neighbours of each entry.
-pub(super) struct Table<'a> {
-    pub(super) entries: Vec<Entry<'a>>,
+    each(members, |member| {
+        Ok(outcome(&Parameters { f_o, ..*member })?.exceeds())
+    })
 }
 
 /// A value for each entry of the table.
 pub(super) type Column = Vec<f64>;
 
+/// Table 6.2 with the neighbours of each entry.
+pub(super) struct Table<'a> {
+    pub(super) entries: Vec<Entry<'a>>,
+    /// The critical forces by member of the ensembles, and the published ones.
+    pub(super) columns: Vec<Column>,
+    pub(super) published: Column,
+}
+
 impl<'a> Table<'a> {
     pub(super) fn new(study: &'a Study) -> Result<Self, CaseError> {
         let entries = study.critical.par_iter().map(Entry::new);
+        let entries: Vec<Entry> = entries.collect::<Result<_, _>>()?;
+        let of_start = |k| entries.iter().filter_map(|e| e.critical().nth(k)).collect();
         Ok(Self {
-            entries: entries.collect::<Result<_, _>>()?,
+            columns: (0..=NEIGHBOURS).map(of_start).collect(),
+            published: entries.iter().map(|e| e.row.published).collect(),
+            entries,
         })
     }
 
-    /// The critical forces by member of the ensembles.
-    pub(super) fn columns(&self) -> Vec<Column> {
-        let by_entry: Vec<Column> = self
-            .entries
-            .iter()
-            .map(|e| e.critical().collect())
-            .collect();
-        (0..=NEIGHBOURS)
-            .map(|k| {
-                by_entry
-                    .iter()
-                    .filter_map(|all| all.get(k).copied())
-                    .collect()
-            })
-            .collect()
+    fn place(&self, r: f64, size: [f64; 2]) -> Option<usize> {
+        let mut rows = self.entries.iter().map(|e| e.row);
+        rows.position(|row| row.r == r && row.size == size)
     }
 
-    pub(super) fn published(&self) -> Column {
-        self.entries.iter().map(|e| e.row.published).collect()
+    pub(super) fn entry(&self, r: f64, size: [f64; 2]) -> Result<&Entry<'a>, ReportError> {
+        let missing = || ReportError::Claim(format!("Table 6.2 has no row r = {r}, {size:?}"));
+        let place = self.place(r, size).ok_or_else(missing)?;
+        Ok(&self.entries[place])
     }
 
     /// The value of a column for one shape.
-    fn value(&self, column: &Column, r: f64, [a, b]: [f64; 2]) -> f64 {
-        let of_shape = |e: &Entry| e.row.r == r && e.row.size == [a, b];
-        let place = self.entries.iter().position(of_shape);
-        place.and_then(|k| column.get(k).copied()).unwrap_or(NEVER)
-    }
-
-    pub(super) fn entry(&self, r: f64, size: [f64; 2]) -> Option<&Entry<'a>> {
-        self.entries
-            .iter()
-            .find(|e| e.row.r == r && e.row.size == size)
+    fn value(&self, column: &Column, r: f64, size: [f64; 2]) -> f64 {
+        self.place(r, size).map_or(NEVER, |k| column[k])
     }
 
     /// How many of the twelve steps to the next larger size of a family raise the critical force.
@@ -164,53 +138,41 @@ impl<'a> Table<'a> {
             [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]],
             [[0.1, 0.1], [0.2, 0.1], [0.3, 0.1]],
         ];
-        [1.5, 2.5]
-            .iter()
-            .flat_map(|r| families.iter().map(move |sizes| (*r, sizes)))
-            .flat_map(|(r, sizes)| sizes.windows(2).map(move |pair| (r, pair)))
-            .filter(|(r, pair)| {
-                let value = |k: usize| {
-                    pair.get(k)
-                        .map_or(NEVER, |size| self.value(column, *r, *size))
-                };
-                value(1) > value(0) + SAME
-            })
-            .count()
+        let rises = |r: f64| {
+            let steps = families.iter().flat_map(|sizes| sizes.windows(2));
+            let value = |size| self.value(column, r, size);
+            let rises = |step: &&[_]| value(step[1]) > value(step[0]) + SAME;
+            steps.filter(rises).count()
+        };
+        rises(1.5) + rises(2.5)
     }
 
     /// Rank correlation with the moment of inertia, by cable length.
     pub(super) fn with_inertia(&self, column: &Column) -> [f64; 2] {
         [1.5, 2.5].map(|r| {
-            let of_length = self
-                .entries
-                .iter()
-                .zip(column)
-                .filter(|(e, _)| e.row.r == r);
-            let points: Vec<(f64, f64)> = of_length
-                .filter_map(|(e, f)| Some((natural_inertia(e.row.size[0], e.row.size[1])?, *f)))
-                .collect();
-            spearman(&points)
+            let pairs = self.entries.iter().zip(column);
+            let points = pairs.filter(|(e, _)| e.row.r == r).filter_map(|(e, f)| {
+                let inertia = natural_inertia(e.row.size[0], e.row.size[1]);
+                Some((inertia?, *f))
+            });
+            spearman(&points.collect::<Vec<_>>())
         })
     }
 
     /// How many of the eight shapes have a lower value with the longer cables.
     pub(super) fn lower_when_long(&self, column: &Column) -> usize {
         let short = self.entries.iter().filter(|e| e.row.r == 1.5);
-        short
-            .map(|e| e.row.size)
-            .filter(|size| self.value(column, 2.5, *size) < self.value(column, 1.5, *size) - SAME)
-            .count()
+        let value = |r, e: &Entry| self.value(column, r, e.row.size);
+        let lower = |e: &&Entry| value(2.5, e) < value(1.5, e) - SAME;
+        short.filter(lower).count()
     }
 
     /// In how many of the ten pairs of one width the circle has the lower value.
     pub(super) fn circle_lower(&self, column: &Column) -> usize {
         let boxes = self.entries.iter().filter(|e| e.row.size[1] > 0.0);
-        boxes
-            .filter(|e| {
-                let [a, b] = e.row.size;
-                self.value(column, e.row.r, [a, 0.0]) < self.value(column, e.row.r, [a, b]) - SAME
-            })
-            .count()
+        let value = |e: &Entry, b: f64| self.value(column, e.row.r, [e.row.size[0], b]);
+        let lower = |e: &&Entry| value(e, 0.0) < value(e, e.row.size[1]) - SAME;
+        boxes.filter(lower).count()
     }
 }
 

@@ -1,12 +1,52 @@
 //! The comparison with the point mass.
 
-use super::{STEADY, Sweeps, below_critical, own, spread};
-use crate::claims::numbers::{range, spearman};
-use crate::claims::runs::{chapter, run_all};
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use super::{STEADY, Sweeps, spread};
+use crate::claims::numbers::{min, spearman};
+use crate::claims::runs::{chapter, each, run, standard};
+use crate::claims::verdict::{Finding, Judged, Judges};
 use crate::study::first_exceeding;
 use snapload::analysis::ForceScan;
-use snapload::{BodyKind, Case, CaseError, Impact, Parameters, Playback, Stop, Trajectory};
+use snapload::{BodyKind, Case, CaseError, Parameters, Playback, Trajectory};
+
+pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+    ("6.4.3-06", |sweeps| {
+        let points = largest_snaps((0..=19).map(|k| f64::from(k) / 20.0), point)?;
+        let (rank, at) = (spearman(&points), [0, 10, 18].map(|k| points[k].1));
+        let same = largest_snaps(same_forces(sweeps), point)?;
+        let finding = Finding::of(rank > 1.0 - 1e-9 && at[1] / at[0] - 1.0 > STEADY);
+        Ok(finding.list("rho1", at).values(
+            "rank same",
+            [rank, 100.0 * spread(same.iter().map(|p| p.1))],
+        ))
+    }),
+    ("6.4.3-08", |_| slack_at_start()),
+    ("6.4.3-09", |_| way_to_first_impact()),
+    ("6.4.3-17", |sweeps| {
+        let scan = ForceScan::new(0.01, 3.0)?;
+        let force = |r: f64| first_exceeding(&point(standard(|p| p.r = r)), scan);
+        let [short, long] = [force(1.5)?, force(2.5)?].map(|f| f.map_or(f64::INFINITY, |f| f.0));
+        let [rigid_short, rigid_long] = [&sweeps.short, &sweeps.long].map(|starts| {
+            let last = starts[0].last().filter(|run| run.reason.exceeds());
+            last.map_or(f64::INFINITY, |run| run.f_o)
+        });
+        Ok(Finding::of(rigid_short < short && rigid_long < long)
+            .values("short long", [short, long])
+            .values("rigid_short rigid_long", [rigid_short, rigid_long]))
+    }),
+    ("6.4.3-21", |sweeps| {
+        // A moment of inertia that no impact turns.
+        let heavy = |case| Parameters {
+            inertia: Some(1e6),
+            ..chapter(case)
+        };
+        let held = largest_snaps(same_forces(sweeps), heavy)?;
+        let held = spread(held.iter().map(|p| p.1));
+        let turning = spread(sweeps.short[0].iter().map(|run| run.norms.rho1));
+        Ok(Finding::of(held >= STEADY && turning < STEADY)
+            .found("constant_anyway", held < STEADY && turning < STEADY)
+            .values("held turning", [100.0 * held, 100.0 * turning]))
+    }),
+];
 
 /// The point mass in the place of the body.
 fn point(parameters: Parameters) -> Parameters {
@@ -19,104 +59,18 @@ fn point(parameters: Parameters) -> Parameters {
     }
 }
 
-/// Checks the claims on the point mass.
-pub(super) fn claims(sweeps: &Sweeps) -> Result<Vec<Claim>, CaseError> {
-    Ok(vec![
-        claim(
-            "6.4.3-06",
-            "For the point mass ρ1 grows with f_o.",
-            point_mass_norm(sweeps)?,
-        ),
-        claim(
-            "6.4.3-08",
-            "From the same start the rigid body is nearer to the boundaries than the point mass.",
-            slack_at_start()?,
-        ),
-        claim(
-            "6.4.3-09",
-            "The stronger the force, the farther the point mass gets before its first impact, \
-             compared with the rigid body.",
-            way_to_first_impact()?,
-        ),
-        claim(
-            "6.4.3-17",
-            "The rigid body's critical force is lower than the point mass's.",
-            point_mass_critical(sweeps)?,
-        ),
-        claim(
-            "6.4.3-21",
-            "ρ1 of the rigid body is constant as the body rotates.",
-            rotation_held(sweeps)?,
-        ),
-    ])
-}
-
-/// ρ1 over the amplitudes of a body.
+/// The force amplitude and ρ1 of a body.
 fn largest_snaps(
     forces: impl Iterator<Item = f64>,
-    body: impl Fn(Parameters) -> Parameters,
+    body: fn(Parameters) -> Parameters,
 ) -> Result<Vec<(f64, f64)>, CaseError> {
-    let with = |f_o| Parameters {
-        f_o,
-        ..Parameters::STANDARD
-    };
-    let cases: Vec<Parameters> = forces.map(|f_o| body(with(f_o))).collect();
-    let runs = run_all(&cases)?;
-    let pairs = cases.iter().zip(&runs);
-    Ok(pairs
-        .map(|(case, run)| (case.f_o, run.norms().rho1))
-        .collect())
+    let cases: Vec<_> = forces.map(|f_o| body(standard(|p| p.f_o = f_o))).collect();
+    each(&cases, |case| Ok((case.f_o, run(case)?.norms().rho1)))
 }
 
 /// The amplitudes over which ρ1 of the rigid body was looked at.
 fn same_forces(sweeps: &Sweeps) -> impl Iterator<Item = f64> {
-    own(&sweeps.short).iter().map(|run| run.f_o)
-}
-
-fn point_mass_norm(sweeps: &Sweeps) -> Result<Finding, CaseError> {
-    let points = largest_snaps((0..=19).map(|k| f64::from(k) / 20.0), point)?;
-    let at = |k: usize| points.get(k).map_or(0.0, |p| p.1);
-    let (rho, growth) = (spearman(&points), at(10) / at(0) - 1.0);
-    let same = largest_snaps(same_forces(sweeps), point)?;
-    let same = 100.0 * spread(same.iter().map(|p| p.1));
-    Ok(Finding::new(
-        Verdict::of(rho > 1.0 - 1e-9 && growth > STEADY),
-        format!(
-            "ρ1 {:.3}, {:.3}, {:.3} at f_o = 0, 0.5, 0.9; rank correlation {rho:.2}; over the \
-             amplitudes up to the rigid body's critical one it varies by {same:.1} %",
-            at(0),
-            at(10),
-            at(18)
-        ),
-    ))
-}
-
-fn rotation_held(sweeps: &Sweeps) -> Result<Finding, CaseError> {
-    /// A moment of inertia that no impact turns.
-    const HELD: f64 = 1e6;
-    let held = |case: Parameters| {
-        chapter(Parameters {
-            inertia: Some(HELD),
-            ..case
-        })
-    };
-    let held = largest_snaps(same_forces(sweeps), held)?;
-    let held = spread(held.iter().map(|p| p.1));
-    let turning = spread(own(&sweeps.short).iter().map(|run| run.norms.rho1));
-    let evidence = format!(
-        "over the same amplitudes ρ1 varies by {:.1} % if the body can not turn, by {:.1} % if it \
-         can",
-        100.0 * held,
-        100.0 * turning
-    );
-    Ok(
-        Finding::new(Verdict::of(held >= STEADY && turning < STEADY), evidence).because(
-            Verdict::NotReproduced,
-            held < STEADY && turning < STEADY,
-            "Held from turning the body has a constant ρ1, too, by the same measure: amplitudes \
-             so small change it little for any body.",
-        ),
-    )
+    sweeps.short[0].iter().map(|run| run.f_o)
 }
 
 /// The rigid body and the point mass of one case.
@@ -127,18 +81,17 @@ fn pair(parameters: Parameters) -> Result<[Case; 2], CaseError> {
     ])
 }
 
-fn slack_at_start() -> Result<Finding, CaseError> {
+fn slack_at_start() -> Judged {
     let slack = |case: &Case| {
         let simulation = case.simulation();
-        let spans = simulation.system().cables.iter().map(|cable| {
+        let cables = simulation.system().cables.iter();
+        min(cables.map(|cable| {
             let [x, y] = cable.span(simulation.state());
             cable.length() - x.hypot(y)
-        });
-        range(spans).0
+        }))
     };
     let drop = |case: &Case| {
-        let run = case.run();
-        let start = case.simulation().state().y;
+        let (start, run) = (case.simulation().state().y, case.run());
         run.impacts()
             .first()
             .map_or(f64::NAN, |hit| start - hit.before.y)
@@ -146,95 +99,48 @@ fn slack_at_start() -> Result<Finding, CaseError> {
     let mut found = Vec::new();
     let mut texts = Vec::new();
     for r in [1.5, 2.5] {
-        let cases = pair(Parameters {
-            r,
-            f_o: 0.0,
-            ..Parameters::STANDARD
-        })?;
-        let [rigid, point] = cases.each_ref().map(slack);
-        let drops = cases.each_ref().map(drop);
+        let cases = pair(standard(|p| (p.r, p.f_o) = (r, 0.0)))?;
+        let ([rigid, point], [p, q]) = (cases.each_ref().map(slack), cases.each_ref().map(drop));
+        found.push((rigid < point, (p - q).abs() < 1e-9));
         texts.push(format!(
-            "r = {r}: slack {rigid:.4} (rigid), {point:.4} (point), drop without force {:.4}, \
-             {:.4}",
-            drops[0], drops[1]
+            "r = {r}: slack {rigid:.4} (rigid), {point:.4} (point), drop without force {p:.4}, \
+             {q:.4}"
         ));
-        found.push((rigid < point, (drops[0] - drops[1]).abs() < 1e-9));
     }
-    Ok(
-        Finding::new(Verdict::of(found.iter().all(|f| f.0)), texts.join("; ")).because(
-            Verdict::NotReproduced,
-            found.iter().all(|f| f.1),
-            "h follows from r and a such that both fall equally far: a body with a width is \
-             moored the higher for it.",
-        ),
-    )
+    Ok(Finding::of(found.iter().all(|f| f.0))
+        .found("both_fall_equally", found.iter().all(|f| f.1))
+        .value("lengths", texts.join("; ")))
 }
 
-fn way_to_first_impact() -> Result<Finding, CaseError> {
+fn way_to_first_impact() -> Judged {
     let mut found = Vec::new();
     let mut texts = Vec::new();
     for f_o in [0.1, 0.3, 0.5, 1.0] {
-        let runs = pair(Parameters {
-            f_o,
-            ..Parameters::STANDARD
-        })?
-        .map(|case| case.run());
+        let runs = pair(standard(|p| p.f_o = f_o))?.map(|case| case.run());
         let [rigid, point] = runs.each_ref().map(way);
-        let first = |run: &Trajectory| run.impacts().first().copied();
-        let [first, second] = runs.each_ref().map(first);
-        let earlier = matches!((first, second), (Some(p), Some(q)) if q.t < p.t);
-        let v_n = |hit: Option<Impact>| hit.map_or(f64::NAN, |hit| hit.v_n);
+        let first = |run: &Trajectory| run.impacts().first().map(|hit| (hit.t, hit.v_n));
+        let [p, q] = runs
+            .each_ref()
+            .map(|run| first(run).unwrap_or((f64::NAN, f64::NAN)));
+        found.push((point - rigid, q.0 < p.0));
         texts.push(format!(
             "{rigid:.4}/{point:.4} and v_n {:.3}/{:.3} at {f_o}",
-            v_n(first),
-            v_n(second)
+            p.1, q.1
         ));
-        found.push((point - rigid, earlier));
     }
     // Farther, and the more so the stronger the force.
     let more = found.windows(2).all(|pair| pair[1].0 > pair[0].0);
-    Ok(Finding::new(
-        Verdict::of(more && found.iter().all(|f| f.0 > 0.0)),
-        format!("way, rigid/point: {}", texts.join(", ")),
-    )
-    .because(
-        Verdict::NotReproduced,
-        found.iter().all(|f| f.0 < 0.0 && f.1),
-        "The point mass meets its boundary earlier, not later, under each of these forces.",
-    ))
+    Ok(Finding::of(more && found.iter().all(|f| f.0 > 0.0))
+        .found("earlier", found.iter().all(|f| f.0 < 0.0 && f.1))
+        .value("ways", texts.join(", ")))
 }
 
-/// The way of the centre until the first impact.
+/// The way of the centre until the first impact: its speed at the middle of each of many steps.
 fn way(run: &Trajectory) -> f64 {
     let steps = 400;
     let until = run.impacts().first().map_or(run.end().t, |impact| impact.t);
     let mut playback = Playback::new(run);
-    // The speed at the middle of each step.
-    let speed = |k: i32| {
-        let now = playback
-            .at(until * (f64::from(k) + 0.5) / f64::from(steps))
-            .state;
-        now.vx.hypot(now.vy)
-    };
-    (0..steps).map(speed).sum::<f64>() * until / f64::from(steps)
-}
-
-fn point_mass_critical(sweeps: &Sweeps) -> Result<Finding, CaseError> {
-    let scan = ForceScan::new(0.01, 3.0)?;
-    let mut lower = true;
-    let mut texts = Vec::new();
-    for (r, members) in [(1.5, &sweeps.short), (2.5, &sweeps.long)] {
-        let case = point(Parameters {
-            r,
-            ..Parameters::STANDARD
-        });
-        let found = first_exceeding(&case, scan)?.map_or(f64::INFINITY, |x| x.0);
-        let sweep = own(members);
-        let last = sweep.get(below_critical(sweep).len());
-        let last = last.filter(|run| matches!(run.reason, Stop::RotationLimit | Stop::UpperBound));
-        let rigid = last.map_or(f64::INFINITY, |run| run.f_o);
-        lower &= rigid < found;
-        texts.push(format!("r = {r}: {rigid:.2} (rigid), {found:.2} (point)"));
-    }
-    Ok(Finding::new(Verdict::of(lower), texts.join("; ")))
+    let middle = |k: i32| until * (f64::from(k) + 0.5) / f64::from(steps);
+    let states = (0..steps).map(|k| playback.at(middle(k)).state);
+    states.map(|now| now.vx.hypot(now.vy)).sum::<f64>() * until / f64::from(steps)
 }

@@ -1,120 +1,77 @@
 //! The swings of the rotation over the force amplitude.
 
-use super::{Run, SUMS, Sweep, Sweeps, below_critical, halves, listed, over_force, own, place};
-use crate::claims::numbers::{range, span, spearman};
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use super::{Run, SUMS, Sweep, Sweeps, below_critical, figure, halves, over_force, place};
+use crate::claims::numbers::{max, min, spearman};
+use crate::claims::verdict::{Finding, Judged, Judges};
 
-/// Checks the claims on the swings.
-pub(super) fn claims(sweeps: &Sweeps) -> Vec<Claim> {
-    vec![
-        claim(
-            "6.4.3-11",
-            "For r = 1.5 the swings of θ stay small under weak forces, then grow in size and \
-             number.",
-            growing_swings(sweeps),
-        ),
-        claim(
-            "6.4.3-12",
-            "More rotation goes with smaller ρ2 and ρ3, for r = 1.5.",
-            rotation_and_norms(sweeps),
-        ),
-        claim(
-            "6.4.3-14",
-            "For r = 2.5 the swings of θ rise, fall and rise again as f_o grows.",
-            rise_fall_rise(sweeps),
-        ),
-    ]
-}
-
-fn growing_swings(sweeps: &Sweeps) -> Finding {
-    let figures: [fn(&Run) -> f64; 2] =
-        [Run::largest_swing, |run| run.large_swings().count() as f64];
-    let holds = |sweep: &Sweep| {
-        figures.iter().all(|figure| {
-            let [low, high] = halves(sweep, figure);
-            let points = over_force(below_critical(sweep), figure);
-            high.0 > 2.0 * low.0 && spearman(&points) > 0.8
-        })
-    };
-    let own = own(&sweeps.short);
-    let text = |figure: &fn(&Run) -> f64| {
-        let [low, high] = halves(own, figure);
-        let rho = spearman(&over_force(below_critical(own), figure));
-        format!(
-            "{:.2} then {:.2} on the mean (rank correlation {rho:.2})",
-            low.0, high.0
-        )
-    };
-    let [size, number] = figures.each_ref().map(text);
-    let evidence = format!("largest swing {size}; large swings {number}");
-    Finding::new(Verdict::robust(sweeps.short.iter().map(holds)), evidence)
-}
-
-fn rotation_and_norms(sweeps: &Sweeps) -> Finding {
-    /// A rank correlation that one calls an association.
-    const ASSOCIATION: f64 = 0.4;
-    // Of ρ2 and ρ3, with the sum of the large swings and with the largest rotation.
-    let correlations = |sweep: &[Run]| -> Vec<f64> {
-        let with = |sum: fn(&Run) -> f64, figure: fn(&Run) -> f64| {
-            let points = below_critical(sweep)
-                .iter()
-                .map(|run| (figure(run), sum(run)));
-            spearman(&points.collect::<Vec<_>>())
+pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
+    ("6.4.3-11", |sweeps| {
+        let figures: [fn(&Run) -> f64; 2] = [
+            |run: &Run| run.largest_swing,
+            |run| run.large_swings.len() as f64,
+        ];
+        // Their means in both halves of the amplitudes, and their rank correlation with those.
+        let measured = sweeps.short.iter().map(|sweep| {
+            figures.map(|figure| {
+                let [low, high] = halves(sweep, figure).map(|half| half.0);
+                [
+                    low,
+                    high,
+                    spearman(&over_force(below_critical(sweep), figure)),
+                ]
+            })
+        });
+        let measured: Vec<[[f64; 3]; 2]> = measured.collect();
+        let grows = |[low, high, rho]: &[f64; 3]| *high > 2.0 * low && *rho > 0.8;
+        let text = |[low, high, rho]: [f64; 3]| {
+            format!("{low:.2} then {high:.2} on the mean (rank correlation {rho:.2})")
         };
-        let of = |sum: fn(&Run) -> f64| {
-            let swings = with(sum, |run| run.large_swings().sum());
-            [swings, with(sum, |run| run.norms.theta_max)]
-        };
-        SUMS.into_iter().flat_map(of).collect()
-    };
-    let holds = |sweep: &Sweep| correlations(sweep).iter().all(|rho| *rho < -ASSOCIATION);
-    let all = sweeps.short.iter().flat_map(|sweep| correlations(sweep));
-    Finding::new(
-        Verdict::robust(sweeps.short.iter().map(holds)),
-        format!(
-            "rank correlations of ρ2 and ρ3 with the sum of the large swings and with the largest \
-             rotation: {} by start",
-            span(all, 2)
-        ),
-    )
-}
+        let finding = Finding::robust(&measured, |figures| figures.iter().all(grows));
+        Ok(finding.values("size number", measured[0].map(text)))
+    }),
+    ("6.4.3-12", |sweeps| {
+        /// A rank correlation that one calls an association.
+        const ASSOCIATION: f64 = 0.4;
+        let rotations: [fn(&Run) -> f64; 2] = [
+            |run: &Run| run.large_swings.iter().sum(),
+            |run| run.norms.theta_max,
+        ];
+        // Of ρ2 and ρ3, with the sum of the large swings and with the largest rotation.
+        let correlations = sweeps.short.iter().map(|sweep| {
+            [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(sum, rotation)| {
+                let runs = below_critical(sweep).iter();
+                let points = runs.map(|run| (rotations[rotation](run), SUMS[sum](run)));
+                spearman(&points.collect::<Vec<_>>())
+            })
+        });
+        let found: Vec<[f64; 4]> = correlations.collect();
+        Ok(Finding::robust(&found, |all| max(*all) < -ASSOCIATION).list("rho", found.concat()))
+    }),
+    ("6.4.3-14", |sweeps| {
+        /// A change that one sees in a plot.
+        const SEEN: f64 = 0.05;
+        let swings = |sweep: &Sweep| figure(sweep, |run| run.largest_swing);
+        let changes = |sweep: &Sweep| ups_and_downs(&swings(sweep)).unwrap_or_default();
+        let changes: Vec<[f64; 3]> = sweeps.long.iter().map(changes).collect();
+        Ok(Finding::robust(&changes, |all| min(*all) > SEEN)
+            .found(
+                "but_the_last",
+                changes.iter().all(|[p, q, _]| p.min(*q) > SEEN),
+            )
+            .list("swings", swings(&sweeps.long[0]))
+            .list("last", changes.iter().map(|all| 100.0 * all[2])))
+    }),
+];
 
-/// By how much swings rise, fall and rise again, in parts of where they come from; nothing if there are
-/// too few.
+/// By how much swings rise, fall and rise again, in parts of where they come from; nothing if there
+/// are too few.
 fn ups_and_downs(swings: &[f64]) -> Option<[f64; 3]> {
     let top = place(swings, 1, swings.len().saturating_sub(1), 1.0)?;
     let low = place(swings, top + 1, swings.len(), -1.0)?;
-    let (before, _) = range(swings.iter().take(top).copied());
-    let (_, after) = range(swings.iter().skip(low).copied());
-    let (top, low) = (*swings.get(top)?, *swings.get(low)?);
+    let before = min(swings[..top].iter().copied());
+    let after = max(swings[low..].iter().copied());
+    let (top, low) = (swings[top], swings[low]);
     Some([top / before - 1.0, 1.0 - low / top, after / low - 1.0])
-}
-
-fn rise_fall_rise(sweeps: &Sweeps) -> Finding {
-    /// A change that one sees in a plot.
-    const SEEN: f64 = 0.05;
-    let of = |sweep: &Sweep| {
-        let swings: Vec<f64> = sweep.iter().map(Run::largest_swing).collect();
-        ups_and_downs(&swings).unwrap_or_default()
-    };
-    let found: Vec<[f64; 3]> = sweeps.long.iter().map(of).collect();
-    let seen = |changes: &[f64; 3]| changes.iter().all(|change| *change > SEEN);
-    let swings = listed(&sweeps.long, Run::largest_swing, 3);
-    let last = span(found.iter().map(|changes| 100.0 * changes[2]), 0);
-    Finding::new(
-        Verdict::robust(found.iter().map(seen)),
-        format!("largest swing {swings}"),
-    )
-    .because(
-        Verdict::NotReproduced,
-        found
-            .iter()
-            .all(|changes| changes[0] > SEEN && changes[1] > SEEN),
-        format!(
-            "They rise and fall, but the last rise is one of {last} %. The words leave open which \
-             measure of the swings is meant."
-        ),
-    )
 }
 
 #[cfg(test)]

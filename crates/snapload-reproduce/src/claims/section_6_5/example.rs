@@ -1,14 +1,46 @@
 //! The two examples that rock, and what is said of the stronger one, f_o = 0.27.
 
-use super::kind;
-use crate::claims::numbers::{range, span};
-use crate::claims::runs::{MANY, near};
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
-use rayon::prelude::*;
+use super::{Material, kind};
+use crate::claims::numbers::{max, min};
+use crate::claims::runs::{MANY, near, run};
+use crate::claims::verdict::{Finding, Judged, Judges};
 use snapload::{CaseError, ModeInterval, Motion, Playback, Stop, Trajectory, named_case};
+
+pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+    ("6.5.2.2-03", |of| {
+        let members = &of.strong;
+        let slides = |of: &Rocking| from_rocking(&of.run).iter().any(|m| kind(m) == "sliding");
+        let on = members.iter().filter(|of| of.goes_on()).count();
+        Ok(Finding::robust(members, slides)
+            .list("from", members.iter().map(|of| of.start))
+            .list("tension", members.iter().map(Rocking::least_tension))
+            .values("on starts", [on, members.len()])
+            .found("all_go_on", on == members.len()))
+    }),
+    ("6.5.2.2-04", |of| {
+        let height = |of: &Rocking| of.largest_late(|now| now.state.y);
+        let heights = of.strong.iter().map(height);
+        Ok(Finding::measured("heights", heights, |y| y < LOW)
+            .found("all_go_on", of.strong.iter().all(Rocking::goes_on)))
+    }),
+    ("6.5.2.2-14", |of| {
+        /// What is left of a motion that dies out, and of one that does not.
+        const DYING: f64 = 0.1;
+        const LASTING: f64 = 0.5;
+        let [weak, strong] = [&of.weak, &of.strong]
+            .map(|members| members.iter().map(Rocking::remaining).collect::<Vec<_>>());
+        let all = [&weak[..], &strong].concat();
+        Ok(Finding::robust(&all, |left| *left < DYING)
+            .list("weak", weak)
+            .list("strong", strong)
+            .found("lasting", all.iter().all(|left| *left > LASTING)))
+    }),
+];
 
 /// Times between the samples of a rocking motion.
 const SAMPLE: f64 = 0.02;
+/// Below this height the body is at the bottom.
+pub(super) const LOW: f64 = 0.05;
 
 /// A run that comes to rock.
 pub(super) struct Rocking {
@@ -23,7 +55,7 @@ pub(super) struct Rocking {
 fn from_rocking(run: &Trajectory) -> &[ModeInterval] {
     let modes = run.modes();
     let first = modes.iter().position(|mode| kind(mode) == "rocking");
-    first.and_then(|k| modes.get(k..)).unwrap_or_default()
+    &modes[first.unwrap_or(modes.len())..]
 }
 
 /// Whether a run rocks from its first rocking to the end of its time.
@@ -51,16 +83,15 @@ impl Rocking {
     pub(super) fn least_tension(&self) -> f64 {
         let rocking = self.motion.iter().filter(|now| now.taut.len() == 2);
         let cables = self.run.system().cables.len();
-        range(rocking.flat_map(|now| now.tensions.into_iter().take(cables))).0
+        min(rocking.flat_map(|now| now.tensions.into_iter().take(cables)))
     }
 
     /// The largest of a figure in 20 T of its motion.
     fn largest(&self, from: f64, figure: impl Fn(&Motion) -> f64) -> f64 {
-        let part = self
-            .motion
-            .iter()
-            .filter(|now| (from..from + 20.0).contains(&now.t));
-        range(part.map(figure)).1
+        let motion = self.motion.iter();
+        max(motion
+            .filter(|now| (from..from + 20.0).contains(&now.t))
+            .map(figure))
     }
 
     /// The same of the last 20 T.
@@ -77,97 +108,7 @@ impl Rocking {
 
 /// An example and its neighbours.
 pub(super) fn example(code: &str) -> Result<Vec<Rocking>, CaseError> {
-    let runs = near(&named_case(code)?.parameters, MANY)?;
-    Ok(runs.into_par_iter().map(Rocking::new).collect())
-}
-
-/// Checks the claims on the stronger example, and on how rocking ends in both.
-pub(super) fn claims(strong: &[Rocking], weak: &[Rocking]) -> Vec<Claim> {
-    vec![
-        claim(
-            "6.5.2.2-03",
-            "At f_o = 0.27 the rocking soon ends as one cable loses its tension and a second \
-             sliding begins.",
-            short_rocking(strong),
-        ),
-        claim(
-            "6.5.2.2-04",
-            "That example then comes to rest at the bottom.",
-            rests(strong),
-        ),
-        claim(
-            "6.5.2.2-14",
-            "In the end rocking stops as the body comes to rest in equilibrium.",
-            dies_out(weak, strong),
-        ),
-    ]
-}
-
-fn short_rocking(members: &[Rocking]) -> Finding {
-    let slides = |of: &Rocking| {
-        let modes = from_rocking(&of.run);
-        modes.iter().any(|mode| kind(mode) == "sliding")
-    };
-    let on = members.iter().filter(|of| of.goes_on()).count();
-    let least = span(members.iter().map(Rocking::least_tension), 3);
-    Finding::new(
-        Verdict::robust(members.iter().map(slides)),
-        format!(
-            "rocks from t = {}, smallest tension {least}; unbroken to t = 100 from {on} of {} \
-             starts",
-            span(members.iter().map(|of| of.start), 3),
-            members.len()
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        on == members.len(),
-        format!(
-            "Here both cables go on pulling, with {least} at the least. How near that comes to 0 \
-             depends on the state in which the rocking begins, so another law for an impact that \
-             meets a taut cable may end it."
-        ),
-    )
-}
-
-fn rests(members: &[Rocking]) -> Finding {
-    let heights = members.iter().map(|of| of.largest_late(|now| now.state.y));
-    let heights: Vec<f64> = heights.collect();
-    Finding::new(
-        Verdict::robust(heights.iter().map(|y| *y < 0.05)),
-        format!(
-            "highest y of the last 20 T: {} by start",
-            span(heights.iter().copied(), 3)
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        members.iter().all(Rocking::goes_on),
-        "It rocks on under the force. With both cables taut there are no impacts, and nothing \
-         else in the model takes energy.",
-    )
-}
-
-fn dies_out(weak: &[Rocking], strong: &[Rocking]) -> Finding {
-    /// What is left of a motion that dies out.
-    const DYING: f64 = 0.1;
-    let [weak, strong] = [weak, strong].map(|members| {
-        let left: Vec<f64> = members.iter().map(Rocking::remaining).collect();
-        left
-    });
-    let all = weak.iter().chain(&strong);
-    Finding::new(
-        Verdict::robust(all.clone().map(|left| *left < DYING)),
-        format!(
-            "widest rotation of the last 20 T over that of the first: {} at f_o = 0.1, {} at f_o \
-             = 0.27",
-            span(weak.iter().copied(), 2),
-            span(strong.iter().copied(), 2)
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        all.clone().all(|left| *left > 0.5),
-        "Rocking loses no energy in this model, and the force goes on: it does not die out.",
-    )
+    near(&named_case(code)?.parameters, MANY, |case| {
+        Ok(Rocking::new(run(case)?))
+    })
 }

@@ -1,33 +1,23 @@
 //! What makes a body slide, and what ends it.
 
-use super::kind;
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
+use super::{Material, kind};
+use crate::claims::runs::push;
+use crate::claims::verdict::{Finding, Judged, Judges};
 use snapload::{Impact, ModeInterval, Motion, Playback, Trajectory};
 
-/// The slides of a run that a plot shows, but for one that ends with the run.
-fn slides(run: &Trajectory) -> impl Iterator<Item = &ModeInterval> {
-    /// A slide shorter than this is none to the eye.
-    const SHORTEST: f64 = 0.05;
-    let seen = |mode: &&ModeInterval| {
-        kind(mode) == "sliding" && mode.t_end - mode.t_start > SHORTEST && mode.t_end < run.end().t
-    };
-    run.modes().iter().filter(seen)
-}
-
-/// The push of the wave along the taut cable, away from its anchor.
-fn push(run: &Trajectory, now: &Motion) -> f64 {
-    let system = run.system();
-    let cable = now.taut.iter().next().and_then(|k| system.cables.get(k));
-    let [nx, ny] = cable
-        .map(|cable| cable.normal(&now.state).n)
-        .unwrap_or_default();
-    let [fx, fy] = system.forcing.at(now.t);
-    nx * fx + ny * (fy - system.forcing.constant[1])
-}
+pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+    ("6.5.1-01", |of| Ok(of.slides.nearly_all(of.slides.pushed))),
+    ("6.5.1-02", |of| {
+        let Slides { all, hit, .. } = of.slides;
+        let turned = of.slides.nearly_all(of.slides.turned);
+        Ok(turned.value("hit", hit).found("hit_first", 2 * hit > all))
+    }),
+];
 
 /// What becomes of the slides of many runs.
-#[derive(Default)]
-struct Slides {
+#[derive(Clone, Copy, Default)]
+pub(super) struct Slides {
+    runs: usize,
     all: usize,
     /// So many begin while the wave pushes into the boundary.
     pushed: usize,
@@ -38,63 +28,39 @@ struct Slides {
 }
 
 impl Slides {
-    fn take(&mut self, run: &Trajectory) {
-        let mut playback = Playback::new(run);
-        for mode in slides(run) {
-            let inside = 0.01 * (mode.t_end - mode.t_start);
-            let [begin, end] = [mode.t_start + inside, mode.t_end - inside].map(|t| playback.at(t));
-            let hits = |hit: &Impact| (hit.t - mode.t_end).abs() < 1e-12;
-            self.all += 1;
-            self.pushed += usize::from(push(run, &begin) > 0.0);
-            self.turned += usize::from(push(run, &end) <= 0.0);
-            self.hit += usize::from(run.impacts().iter().any(hits));
+    /// Of all slides that a plot shows, but for one that ends with its run.
+    pub(super) fn of(runs: &[Trajectory]) -> Self {
+        /// A slide shorter than this is none to the eye.
+        const SHORTEST: f64 = 0.05;
+        let mut found = Self {
+            runs: runs.len(),
+            ..Self::default()
+        };
+        for run in runs {
+            let mut playback = Playback::new(run);
+            let long = |mode: &ModeInterval| mode.t_end - mode.t_start > SHORTEST;
+            let seen = |mode: &&ModeInterval| long(mode) && mode.t_end < run.end().t;
+            let slides = run.modes().iter().filter(|mode| kind(mode) == "sliding");
+            for mode in slides.filter(seen) {
+                let inside = 0.01 * (mode.t_end - mode.t_start);
+                let pushes = |now: Motion| {
+                    let cable = now.taut.iter().next();
+                    cable.is_some_and(|cable| push(run.system(), cable, now.t, &now.state) > 0.0)
+                };
+                let hits = |hit: &Impact| (hit.t - mode.t_end).abs() < 1e-12;
+                found.all += 1;
+                found.pushed += usize::from(pushes(playback.at(mode.t_start + inside)));
+                found.turned += usize::from(!pushes(playback.at(mode.t_end - inside)));
+                found.hit += usize::from(run.impacts().iter().any(hits));
+            }
         }
+        found
     }
-}
 
-/// Checks the claims on slides in many runs.
-pub(super) fn claims(sweep: &[Trajectory]) -> [Claim; 2] {
-    /// Nearly all: what one would tell as how it goes.
-    const NEARLY_ALL: f64 = 0.8;
-    let mut found = Slides::default();
-    for run in sweep {
-        found.take(run);
+    /// Of a statement that should hold of nearly all slides: what one would tell as how it goes.
+    fn nearly_all(&self, part: usize) -> Finding {
+        const NEARLY_ALL: f64 = 0.8;
+        let holds = part as f64 > NEARLY_ALL * self.all as f64;
+        Finding::of(holds).values("part all runs", [part, self.all, self.runs])
     }
-    let Slides {
-        all,
-        pushed,
-        turned,
-        hit,
-    } = found;
-    let nearly = |part: usize| Verdict::of(part as f64 > NEARLY_ALL * all as f64);
-    let runs = sweep.len();
-    [
-        claim(
-            "6.5.1-01",
-            "It is the wave that pushes a sliding body into its boundary.",
-            Finding::new(
-                nearly(pushed),
-                format!(
-                    "the wave pushes into the boundary as {pushed} of {all} slides begin, in \
-                     {runs} runs"
-                ),
-            ),
-        ),
-        claim(
-            "6.5.1-02",
-            "A body slides until the wave reverses and stops pushing it.",
-            Finding::new(
-                nearly(turned),
-                format!("the wave has turned as {turned} of {all} slides end, in {runs} runs"),
-            )
-            .because(
-                Verdict::NotReproduced,
-                2 * hit > all,
-                format!(
-                    "Another end comes first: {hit} slides end as the body hits the boundary of \
-                     its other cable."
-                ),
-            ),
-        ),
-    ]
 }

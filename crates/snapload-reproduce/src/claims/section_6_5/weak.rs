@@ -1,28 +1,79 @@
 //! Weak rocking: the example of eq. 6.69.
 
-use super::example::Rocking;
-use crate::claims::numbers::{range, span, spearman};
+use super::Material;
+use super::example::{LOW, Rocking};
+use crate::claims::numbers::{max, mean, min, spearman};
 use crate::claims::runs::CLEAR;
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
-use snapload::{Impact, Motion, State, System};
+use crate::claims::verdict::{Finding, Judged, Judges};
+use snapload::{Motion, State, System};
 
-/// Checks the claims on it.
-pub(super) fn claims(members: &[Rocking]) -> Vec<Claim> {
-    let Some(own) = members.first() else {
-        return Vec::new();
-    };
-    let weak = Weak::new(members, own);
-    let mut all = of_weak_run(&weak);
-    all.extend(of_arc(&weak));
-    all
-}
+pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
+    ("6.5.2.2-05", |of| {
+        let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < LOW);
+        let widest = [
+            largest(&of.weak[0], |now| now.state.y),
+            largest(&of.weak[0], |now| now.state.theta.abs()),
+        ];
+        Ok(Finding::robust(&of.weak, |of| of.goes_on() && low(of))
+            .list("from", of.weak.iter().map(|of| of.start))
+            .values("y theta", widest))
+    }),
+    ("6.5.2.2-06", |of| {
+        let on = of.weak.iter().filter(|of| of.goes_on()).count();
+        let held = |of: &Rocking| of.goes_on() && of.least_tension() > 0.0;
+        Ok(Finding::robust(&of.weak, held)
+            .values("on starts", [on, of.weak.len()])
+            .list("tension", of.weak.iter().map(Rocking::least_tension)))
+    }),
+    ("6.5.2.2-07", |of| {
+        /// A wait that one calls none.
+        const AT_ONCE: f64 = 0.01;
+        let sticks = |of: &Rocking| {
+            let first = of.run.modes().iter().find(|mode| !mode.taut.is_empty());
+            first.map_or(f64::NAN, |mode| mode.t_start)
+        };
+        let waits: Vec<f64> = of.weak.iter().map(|of| of.start - sticks(of)).collect();
+        Ok(Finding::robust(&waits, |wait| *wait < AT_ONCE)
+            .list("sticks", of.weak.iter().map(sticks))
+            .values(
+                "least most",
+                [min(waits.iter().copied()), max(waits.iter().copied())],
+            ))
+    }),
+    ("6.5.2.2-08", horizontal),
+    ("6.5.2.2-09", |of| {
+        let impacts = above_arc(&of.weak[0]);
+        let clear = impacts.iter().filter(|impact| impact.clear);
+        let lowest = min(impacts.iter().map(|impact| impact.height));
+        let lowest_clear = min(clear.clone().map(|impact| impact.height));
+        Ok(Finding::of(lowest >= -1e-9 && lowest_clear > 0.0)
+            .values("impacts clear", [impacts.len(), clear.count()])
+            .values("lowest lowest_clear", [lowest, lowest_clear]))
+    }),
+    ("6.5.2.2-10", |of| {
+        let impacts = above_arc(&of.weak[0])
+            .into_iter()
+            .filter(|impact| impact.clear);
+        let points: Vec<(f64, f64)> = impacts.map(|hit| (hit.height, hit.turned)).collect();
+        let (rho, lowest) = (spearman(&points), min(points.iter().map(|p| p.0)));
+        Ok(Finding::of(rho > 0.5 && lowest > 0.0).value("rho", rho))
+    }),
+    ("6.5.2.2-11", |of| {
+        /// The largest miss of a circle, in parts of its radius.
+        const ROUND: f64 = 0.01;
+        let system = of.weak[0].run.system();
+        let (widest, wide) = (largest(&of.weak[0], |now| now.state.theta.abs()), 1.4);
+        let ((radius, miss), (_, miss_wide)) =
+            (fit_circle(system, widest), fit_circle(system, wide));
+        Ok(Finding::of(miss < ROUND)
+            .values("widest radius wide", [widest, radius, wide])
+            .values("miss miss_wide", [100.0 * miss, 100.0 * miss_wide]))
+    }),
+];
 
-/// The example f_o = 0.1, its neighbours, and what happens in it.
-struct Weak<'a> {
-    members: &'a [Rocking],
-    own: &'a Rocking,
-    /// The impacts of the example before rocking, by place above the arc.
-    impacts: Vec<Above>,
+/// The largest of a figure while rocking.
+fn largest(of: &Rocking, figure: impl Fn(&Motion) -> f64) -> f64 {
+    max(of.motion.iter().map(figure))
 }
 
 /// An impact as seen from the arc on which the body rocks.
@@ -34,251 +85,72 @@ struct Above {
     turned: f64,
 }
 
-impl<'a> Weak<'a> {
-    fn new(members: &'a [Rocking], own: &'a Rocking) -> Self {
-        let system = own.run.system();
-        let before = own.run.impacts().iter().filter(|hit| hit.t < own.start);
-        let above = |impact: &Impact| {
-            let arc = arc_at(system, impact.before.x);
-            Above {
-                clear: impact.v_n > CLEAR,
-                height: impact.before.y - arc.y,
-                turned: (impact.before.theta - arc.theta).abs(),
-            }
-        };
-        Self {
-            members,
-            own,
-            impacts: before.map(above).collect(),
+/// The impacts before rocking.
+fn above_arc(of: &Rocking) -> Vec<Above> {
+    let before = of.run.impacts().iter().filter(|hit| hit.t < of.start);
+    let above = before.map(|hit| {
+        let arc = on_arc(of.run.system(), 0, hit.before.x);
+        Above {
+            clear: hit.v_n > CLEAR,
+            height: hit.before.y - arc.y,
+            turned: (hit.before.theta - arc.theta).abs(),
+        }
+    });
+    above.collect()
+}
+
+/// The place at which both cables are straight, for a given x (0) or θ (2): Newton's iteration in
+/// the two other coordinates, followed from the lowest place.
+fn on_arc(system: &System, given: usize, value: f64) -> State {
+    let steps = 8;
+    let [p, q] = if given == 0 { [1, 2] } else { [0, 1] };
+    let at = |[x, y, theta]: [f64; 3]| State::from_components([x, y, theta, 0.0, 0.0, 0.0]);
+    let mut place = [0.0; 3];
+    for k in 1..=steps {
+        place[given] = value * f64::from(k) / f64::from(steps);
+        for _ in 0..12 {
+            let state = at(place);
+            let (sine, cosine) = state.theta.sin_cos();
+            // Half of each gap and of its gradient.
+            let [(a, gap_a), (b, gap_b)] = [0, 1].map(|k| {
+                let cable = &system.cables[k];
+                let ([x, y], lever) = (cable.span(&state), cable.lever(sine, cosine));
+                ([x, y, y * lever[0] - x * lever[1]], 0.5 * cable.gap(&state))
+            });
+            let determinant = a[p] * b[q] - a[q] * b[p];
+            place[p] += (a[q] * gap_b - b[q] * gap_a) / determinant;
+            place[q] += (b[p] * gap_a - a[p] * gap_b) / determinant;
         }
     }
-
-    /// The largest of a figure while rocking.
-    fn largest(&self, figure: impl Fn(&Motion) -> f64) -> f64 {
-        range(self.own.motion.iter().map(figure)).1
-    }
+    at(place)
 }
 
-/// The place at which both cables are straight, for a given x: Newton's iteration in y and θ, followed
-/// from the lowest place.
-fn arc_at(system: &System, x: f64) -> State {
-    let steps = 8;
-    let mut state = State::default();
-    for k in 1..=steps {
-        state.x = x * f64::from(k) / f64::from(steps);
-        newton(
-            system,
-            &mut state,
-            |state, [y, theta]| {
-                state.y += y;
-                state.theta += theta;
-            },
-            |span, lever| [span[1], span[1] * lever[0] - span[0] * lever[1]],
-        );
-    }
-    state
-}
-
-/// The same for a given θ, in x and y.
-fn arc_of(system: &System, theta: f64) -> State {
-    let steps = 8;
-    let mut state = State::default();
-    for k in 1..=steps {
-        state.theta = theta * f64::from(k) / f64::from(steps);
-        newton(
-            system,
-            &mut state,
-            |state, [x, y]| {
-                state.x += x;
-                state.y += y;
-            },
-            |span, _| span,
-        );
-    }
-    state
-}
-
-/// Solves g = 0 of the first two cables in two unknowns; `slope` is half of the slopes of a gap.
-fn newton(
-    system: &System,
-    state: &mut State,
-    step: impl Fn(&mut State, [f64; 2]),
-    slope: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
-) {
-    for _ in 0..12 {
-        let (sine, cosine) = state.theta.sin_cos();
-        let mut rows = system.cables.iter().map(|cable| {
-            let row = slope(cable.span(state), cable.lever(sine, cosine));
-            (row, 0.5 * cable.gap(state))
-        });
-        let (Some(([a, b], p)), Some(([c, d], q))) = (rows.next(), rows.next()) else {
-            return;
-        };
-        let determinant = a * d - b * c;
-        let by = [(b * q - d * p) / determinant, (c * p - a * q) / determinant];
-        step(state, by);
-    }
-}
-
-fn of_weak_run(weak: &Weak) -> Vec<Claim> {
-    vec![
-        claim(
-            "6.5.2.2-05",
-            "At f_o = 0.1 both cables stay taut near the bottom.",
-            stays(weak),
-        ),
-        claim(
-            "6.5.2.2-06",
-            "Once the body rocks at f_o = 0.1 the force can not pull it off.",
-            holds_on(weak),
-        ),
-        claim(
-            "6.5.2.2-07",
-            "At f_o = 0.1 rocking begins where both gaps are all but zero as the bouncing ends.",
-            begins_at_once(weak),
-        ),
-        claim(
-            "6.5.2.2-08",
-            "While it rocks it is the horizontal force that counts.",
-            horizontal(weak),
-        ),
-    ]
-}
-
-fn stays(weak: &Weak) -> Finding {
-    let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < 0.05);
-    Finding::new(
-        Verdict::robust(weak.members.iter().map(|of| of.goes_on() && low(of))),
-        format!(
-            "rocks from t = {} on; y up to {:.4}, |θ| up to {:.2}",
-            span(weak.members.iter().map(|of| of.start), 3),
-            weak.largest(|now| now.state.y),
-            weak.largest(|now| now.state.theta.abs())
-        ),
-    )
-}
-
-fn holds_on(weak: &Weak) -> Finding {
-    let on = weak.members.iter().filter(|of| of.goes_on()).count();
-    let least = || weak.members.iter().map(Rocking::least_tension);
-    let held = |of: &Rocking| of.goes_on() && of.least_tension() > 0.0;
-    Finding::new(
-        Verdict::robust(weak.members.iter().map(held)),
-        format!(
-            "rocks unbroken to t = 100 from {on} of {} starts, smallest tension {}",
-            weak.members.len(),
-            span(least(), 3)
-        ),
-    )
-}
-
-fn begins_at_once(weak: &Weak) -> Finding {
-    let sticks = |of: &Rocking| {
-        let first = of.run.modes().iter().find(|mode| !mode.taut.is_empty());
-        first.map_or(f64::NAN, |mode| mode.t_start)
-    };
-    let wait = |of: &Rocking| of.start - sticks(of);
-    let (least, most) = range(weak.members.iter().map(wait));
-    Finding::new(
-        Verdict::robust(weak.members.iter().map(|of| wait(of) < 0.01)),
-        format!(
-            "the first cable sticks at t = {}, rocking follows {least:.1e} to {most:.1e} later",
-            span(weak.members.iter().map(sticks), 5)
-        ),
-    )
-}
-
-fn horizontal(weak: &Weak) -> Finding {
-    let run = &weak.own.run;
+fn horizontal(of: &Material) -> Judged {
+    /// The part of the vertical force that does not count.
+    const LITTLE: f64 = 0.2;
+    let forcing = &of.weak[0].run.system().forcing;
     let (mut along, mut up) = (0.0, 0.0);
-    for now in weak
-        .own
-        .motion
-        .iter()
-        .filter(|now| now.state.vtheta.abs() > 1e-3)
-    {
-        let [f_x, f_y] = run.system().forcing.at(now.t);
-        let [_, weight] = run.system().forcing.constant;
-        along += (f_x * now.state.vx / now.state.vtheta).powi(2);
-        up += ((f_y - weight) * now.state.vy / now.state.vtheta).powi(2);
+    let turning = |now: &&Motion| now.state.vtheta.abs() > 1e-3;
+    for now in of.weak[0].motion.iter().filter(turning) {
+        let ([f_x, f_y], state) = (forcing.at(now.t), &now.state);
+        along += (f_x * state.vx / state.vtheta).powi(2);
+        up += ((f_y - forcing.constant[1]) * state.vy / state.vtheta).powi(2);
     }
     let ratio = (up / along).sqrt();
-    let evidence =
-        format!("generalised force of the vertical part over that of the horizontal: {ratio:.3}");
-    Finding::new(Verdict::of(ratio < 0.2), evidence)
+    Ok(Finding::of(ratio < LITTLE).value("ratio", ratio))
 }
 
-fn of_arc(weak: &Weak) -> Vec<Claim> {
-    vec![
-        claim(
-            "6.5.2.2-09",
-            "The turning points of the bouncing lie above the arc of rocking (Fig 6.45).",
-            above_arc(weak),
-        ),
-        claim(
-            "6.5.2.2-10",
-            "At those impacts the body is turned away from the rotation at which both cables are \
-             taut.",
-            turned_away(weak),
-        ),
-        claim(
-            "6.5.2.2-11",
-            "The curve of rocking is an arc of a circle.",
-            circle(weak),
-        ),
-    ]
-}
-
-fn above_arc(weak: &Weak) -> Finding {
-    let (lowest, _) = range(weak.impacts.iter().map(|impact| impact.height));
-    let clear = weak.impacts.iter().filter(|impact| impact.clear);
-    let (lowest_clear, _) = range(clear.clone().map(|impact| impact.height));
-    let evidence = format!(
-        "{} impacts, the lowest {lowest:.0e} above it; {} clear ones, the lowest \
-         {lowest_clear:.0e}",
-        weak.impacts.len(),
-        clear.count()
-    );
-    Finding::new(Verdict::of(lowest >= -1e-9 && lowest_clear > 0.0), evidence)
-}
-
-fn turned_away(weak: &Weak) -> Finding {
-    let clear = weak.impacts.iter().filter(|impact| impact.clear);
-    let points: Vec<(f64, f64)> = clear.map(|impact| (impact.height, impact.turned)).collect();
-    let rho = spearman(&points);
-    let evidence = format!("rank correlation of height above the arc and rotation away: {rho:.3}");
-    Finding::new(
-        Verdict::of(rho > 0.5 && points.iter().all(|p| p.0 > 0.0)),
-        evidence,
-    )
-}
-
-fn circle(weak: &Weak) -> Finding {
-    let run = &weak.own.run;
-    let widest = weak.largest(|now| now.state.theta.abs());
-    let (radius, miss) = fit_circle(run.system(), widest);
-    let (_, miss_wide) = fit_circle(run.system(), 1.4);
-    let evidence = format!(
-        "over |θ| <= {widest:.2}: radius {radius:.3}, off by {:.2} % of it; over |θ| <= 1.4: \
-         {:.1} %",
-        100.0 * miss,
-        100.0 * miss_wide
-    );
-    Finding::new(Verdict::of(miss < 0.01), evidence)
-}
-
-/// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius. The
-/// arc is symmetric, so the centre has x = 0.
+/// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius.
+/// The arc is symmetric, so the centre has x = 0.
 fn fit_circle(system: &System, widest: f64) -> (f64, f64) {
     let theta = |k: i32| widest * f64::from(k) / 20.0;
-    let points: Vec<State> = (-20..=20).map(|k| arc_of(system, theta(k))).collect();
-    let number = points.len() as f64;
+    let points: Vec<State> = (-20..=20).map(|k| on_arc(system, 2, theta(k))).collect();
     let square = |p: &State| p.x * p.x + p.y * p.y;
-    let mean = |figure: &dyn Fn(&State) -> f64| points.iter().map(figure).sum::<f64>() / number;
+    let mean = |figure: &dyn Fn(&State) -> f64| mean(points.iter().map(figure));
     let (y, s) = (mean(&|p| p.y), mean(&square));
     let slope = mean(&|p| (p.y - y) * (square(p) - s)) / mean(&|p| (p.y - y).powi(2));
     let centre = 0.5 * slope;
     let radius = (s - slope * y + centre * centre).sqrt();
     let miss = |p: &State| (p.x.hypot(p.y - centre) - radius).abs() / radius;
-    (radius, range(points.iter().map(miss)).1)
+    (radius, max(points.iter().map(miss)))
 }

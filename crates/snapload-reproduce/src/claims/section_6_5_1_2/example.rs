@@ -1,251 +1,245 @@
 //! The sliding example (eq. 6.57).
 
-use super::story::{LEFT, Story};
-use crate::claims::numbers::{range, span};
-use crate::claims::runs::{CLEAR, MANY, near, places};
-use crate::claims::verdict::{Claim, Finding, Verdict, claim};
-use rayon::prelude::*;
-use snapload::{CaseError, Impact, TautSet, named_case};
+use crate::claims::numbers::{max, min};
+use crate::claims::runs::{CLEAR, attachment_speed, places};
+use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use snapload::{Impact, ModeInterval, Motion, Playback, TautSet, Trajectory};
 
-/// Checks the claims on the example.
-pub(super) fn claims() -> Result<Vec<Claim>, CaseError> {
-    let runs = near(&named_case("sliding-example")?.parameters, MANY)?;
-    let stories: Vec<Story> = runs.par_iter().filter_map(Story::of).collect();
-    let mut all = first_slide(&stories, runs.len());
-    all.extend(hits(&stories, runs.len()));
-    all.extend(rocking(&stories, runs.len()));
-    Ok(all)
+pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
+    ("6.5.1.2-05", three_ways),
+    ("6.5.1.2-06", |of| {
+        Ok(of
+            .robust(on_the_left)
+            .list("from", of.stories.iter().map(|s| s.start.t))
+            .values("slide members", [of.stories.len(), of.members]))
+    }),
+    ("6.5.1.2-07", |of| {
+        /// The height from which on a stuck cable means sliding.
+        const SLIDING_ABOVE: f64 = 0.05;
+        let heights = || of.stories.iter().map(|s| s.start.state.y);
+        Ok(of
+            .robust(|s| s.start.state.y >= SLIDING_ABOVE)
+            .list("heights", heights())
+            .found("below", heights().all(|y| y < SLIDING_ABOVE)))
+    }),
+    ("6.5.1.2-08", |of| {
+        let first = || of.stories.iter().filter_map(|s| s.hits.first());
+        Ok(of
+            .robust(|s| !s.hits.is_empty())
+            .list("times", first().map(|hit| hit.t))
+            .list("velocities", first().map(|hit| hit.v_n)))
+    }),
+    ("6.5.1.2-09", |of| {
+        let slides_on = |s: &Story| {
+            let hit = s.hits.first();
+            hit.and_then(|hit| s.taut_after(hit.t)) == Some(TautSet::only(LEFT))
+        };
+        let going_on = of.stories.iter().filter(|s| slides_on(s)).count();
+        Ok(of
+            .robust(slides_on)
+            .values("going_on members", [going_on, of.members])
+            .found("never", going_on == 0))
+    }),
+    ("6.5.1.2-10", |of| {
+        /// The fewest that are many.
+        const SEVERAL: usize = 3;
+        let clear = |s: &Story| s.hits.iter().filter(|hit| hit.v_n > CLEAR).count() as f64;
+        Ok(of
+            .robust(|s| s.hits.len() >= SEVERAL)
+            .list("hits", of.stories.iter().map(|s| s.hits.len() as f64))
+            .list("clear", of.stories.iter().map(clear))
+            .value("above", CLEAR))
+    }),
+    ("6.5.1.2-11", |of| {
+        /// Up and down by more than this is clearly so; a gap below this is at the boundary.
+        const CLEARLY: f64 = 0.005;
+        const NEAR: f64 = 0.01;
+        let clearly = |[up, down]: [f64; 2]| up > CLEARLY && down > CLEARLY;
+        let bounces = |s: &Story| s.rise_and_fall().is_some_and(clearly) && s.widest() < NEAR;
+        let moves: Vec<[f64; 2]> = of.stories.iter().filter_map(Story::rise_and_fall).collect();
+        Ok(of
+            .robust(bounces)
+            .list("up", moves.iter().map(|m| m[0]))
+            .list("down", moves.iter().map(|m| m[1]))
+            .value("gap", max(of.stories.iter().map(Story::widest))))
+    }),
+    ("6.5.1.2-12", |of| {
+        let places = || of.stories.iter().map(|s| s.start.state.x);
+        let slides = of.stories.iter().flat_map(|s| &s.sliding);
+        let on_left = of.robust(on_the_left).verdict == Verdict::Reproduced;
+        Ok(of
+            .robust(|s| s.start.state.x < 0.0 && s.sliding.iter().any(|m| m.state.x > 0.0))
+            .list("start", places())
+            .list("all", slides.map(|now| now.state.x))
+            .list("theta", of.stories.iter().map(|s| s.start.state.theta))
+            .found("on_the_right", on_left && places().all(|x| x > 0.0)))
+    }),
+    ("6.5.1.2-13", |of| {
+        let common = of.stories.iter().filter_map(Story::overlap).flatten();
+        Ok(of.robust(|s| s.overlap().is_some()).list("common", common))
+    }),
+    ("6.5.1.2-14", |of| {
+        let rocks = of.stories.iter().filter_map(|s| s.rocks);
+        let ends = of.robust(|s| s.rocks_after_slide());
+        Ok(ends.list("times", rocks.map(|(now, _)| now.t)))
+    }),
+    ("6.5.1.2-15", |of| {
+        /// A kinetic energy that is not rest.
+        const MOVING: f64 = 1e-3;
+        let kinetic = |s: &Story| s.rocks.map(|(now, _)| now.energy - now.state.y);
+        let moves = |s: &Story| s.rocks_after_slide() && kinetic(s) > Some(MOVING);
+        let energies = of.stories.iter().filter_map(kinetic);
+        Ok(of.robust(moves).list("kinetic", energies))
+    }),
+];
+
+/// Cable 2, the left one, of g2.
+const LEFT: usize = 1;
+
+/// The example and its neighbours: those that slide, of so many.
+pub(super) struct Example<'a> {
+    stories: Vec<Story<'a>>,
+    members: usize,
 }
 
-/// The verdict on all members; one without a slide is none of which it holds.
-fn over(stories: &[Story], members: usize, holds: impl Fn(&Story) -> bool) -> Verdict {
-    let missing = members.saturating_sub(stories.len());
-    let absent = std::iter::repeat_n(false, missing);
-    Verdict::robust(stories.iter().map(holds).chain(absent))
+impl<'a> Example<'a> {
+    pub(super) fn of(runs: &'a [Trajectory]) -> Self {
+        Self {
+            stories: runs.iter().filter_map(Story::of).collect(),
+            members: runs.len(),
+        }
+    }
+
+    /// Of a statement on all members; it does not hold of one without a slide.
+    fn robust(&self, holds: impl Fn(&Story) -> bool) -> Finding {
+        let absent = std::iter::repeat_n(false, self.members - self.stories.len());
+        let members = self.stories.iter().map(holds).chain(absent);
+        Finding::new(Verdict::robust(members))
+    }
 }
 
-fn first_slide(stories: &[Story], members: usize) -> Vec<Claim> {
-    let places = || stories.iter().map(|s| s.start.state.x);
-    let all_places = stories.iter().flat_map(|s| &s.sliding).map(|m| m.state.x);
-    let times = span(stories.iter().map(|s| s.start.t), 4);
-    let left = over(stories, members, |s| s.first.taut == TautSet::only(LEFT));
-    let sides = over(stories, members, |s| {
-        s.start.state.x < 0.0 && s.sliding.iter().any(|m| m.state.x > 0.0)
-    });
-    vec![
-        claim(
-            "6.5.1.2-05",
-            "The example slides up, slides down, and turns about its connection point.",
-            three_ways(stories, members),
-        ),
-        claim(
-            "6.5.1.2-06",
-            "The example (f_o = 0.27) comes to slide along the boundary of its left cable.",
-            Finding::new(
-                left,
-                format!("first at t = {times}, {} of {members} slide", stories.len()),
-            ),
-        ),
-        claim(
-            "6.5.1.2-07",
-            "By the chapter's own rule (y ≥ 0.05) the example slides and has not settled.",
-            not_settled(stories, members),
-        ),
-        claim(
-            "6.5.1.2-12",
-            "The example slides first on the left (x < 0) and later on the right.",
-            Finding::new(
-                sides,
-                format!(
-                    "x = {} at the start, {} in all slides",
-                    span(places(), 3),
-                    span(all_places, 3)
-                ),
-            )
-            .because(
-                Verdict::NotReproduced,
-                left == Verdict::Reproduced && places().all(|x| x > 0.0),
-                format!(
-                    "The boundary agrees, the side does not: turned by θ = {} the body meets it \
-                     on the right.",
-                    span(stories.iter().map(|s| s.start.state.theta), 2)
-                ),
-            ),
-        ),
-    ]
+/// What happens in one run, in the chapter's order of events.
+struct Story<'a> {
+    run: &'a Trajectory,
+    /// The first slide.
+    first: ModeInterval,
+    /// Where it starts.
+    start: Motion,
+    /// Its motion at many times of all slides.
+    sliding: Vec<Motion>,
+    /// The hits of cable 1 while it slides on cable 2.
+    hits: Vec<Impact>,
+    /// The first rocking after a slide, and whether that came just before.
+    rocks: Option<(Motion, bool)>,
 }
 
-fn three_ways(stories: &[Story], members: usize) -> Finding {
+impl<'a> Story<'a> {
+    fn of(run: &'a Trajectory) -> Option<Self> {
+        /// A slide shorter than this moves nothing that one could see; it is passed over.
+        const SHORTEST: f64 = 5e-4;
+        /// Times of a slide at which it is looked at.
+        const TIMES: usize = 200;
+        let mut playback = Playback::new(run);
+        let slid = |mode: &ModeInterval| mode.taut.len() == 1;
+        let modes = run.modes();
+        let first = *modes.iter().find(|mode| slid(mode))?;
+        let mut pairs = modes.windows(2);
+        let rocking = pairs.find(|pair| pair[1].taut.len() > 1);
+        let rocking = rocking.map(|pair| (pair[1].t_start, slid(&pair[0])));
+        let end = rocking.map_or(run.end().t, |(t, _)| t);
+        let long = |mode: &ModeInterval| mode.t_end - mode.t_start > SHORTEST;
+        let seen = |mode: &&ModeInterval| slid(mode) && long(mode) && mode.t_start < end;
+        let slides = modes.iter().filter(seen);
+        let times = slides.flat_map(|mode| {
+            let part = |k: usize| (k as f64 + 0.5) / TIMES as f64;
+            (0..TIMES).map(move |k| mode.t_start + part(k) * (mode.t_end - mode.t_start))
+        });
+        let sliding = times.map(|t| playback.at(t)).collect();
+        let on_left = |t: f64| {
+            let mut on_left = modes.iter().filter(|mode| mode.taut == TautSet::only(LEFT));
+            on_left.any(|mode| mode.t_start < t && t <= mode.t_end)
+        };
+        let impacts = run.impacts().iter();
+        let hits = impacts.filter(|hit| hit.cable != LEFT && on_left(hit.t));
+        Some(Self {
+            run,
+            first,
+            start: playback.at(first.t_start),
+            sliding,
+            hits: hits.copied().collect(),
+            rocks: rocking.map(|(t, after)| (playback.at(t), after)),
+        })
+    }
+
+    /// The taut set right after a time.
+    fn taut_after(&self, t: f64) -> Option<TautSet> {
+        let modes = self.run.modes();
+        modes.iter().find(|mode| mode.t_end > t).map(|m| m.taut)
+    }
+
+    /// Least speed of the taut cable's fairlead over that of the centre, while sliding.
+    fn least_turning(&self) -> f64 {
+        let ratio = |now: &Motion| {
+            let speed = attachment_speed(self.run.system(), now.taut.iter().next()?, &now.state);
+            Some(speed / now.state.vx.hypot(now.state.vy))
+        };
+        min(self.sliding.iter().filter_map(ratio))
+    }
+
+    fn rocks_after_slide(&self) -> bool {
+        self.rocks.is_some_and(|(_, after_slide)| after_slide)
+    }
+
+    /// Its impacts from the first slide to the first rocking.
+    fn impacts(&self) -> impl Iterator<Item = &Impact> + Clone {
+        let from = self.first.t_start;
+        let to = self.rocks.as_ref().map_or(from, |(motion, _)| motion.t);
+        let impacts = self.run.impacts().iter();
+        impacts.filter(move |impact| impact.t >= from && impact.t <= to)
+    }
+
+    /// How far y rises from the first slide on, and falls from there to the first rocking.
+    fn rise_and_fall(&self) -> Option<[f64; 2]> {
+        let (rocking, _) = self.rocks?;
+        let (from, to) = (self.start.t, rocking.t);
+        let path = places(self.run, (from, to), (to - from) / 1000.0);
+        let top = max(path.iter().map(|p| p[1]));
+        Some([top - self.start.state.y, top - rocking.state.y])
+    }
+
+    /// The largest |g2| at its impacts from the first slide to the first rocking.
+    fn widest(&self) -> f64 {
+        let left = &self.run.system().cables[LEFT];
+        let gaps = self.impacts().map(|impact| left.gap(&impact.before).abs());
+        gaps.fold(0.0, f64::max)
+    }
+
+    /// Where both cables are hit at the same x.
+    fn overlap(&self) -> Option<[f64; 2]> {
+        let places = |cable: usize| {
+            let own = self.impacts().filter(move |i| i.cable == cable);
+            own.map(|i| i.before.x)
+        };
+        let from = min(places(0)).max(min(places(LEFT)));
+        let to = max(places(0)).min(max(places(LEFT)));
+        (from < to).then_some([from, to])
+    }
+}
+
+fn on_the_left(story: &Story) -> bool {
+    story.first.taut == TautSet::only(LEFT)
+}
+
+fn three_ways(of: &Example) -> Judged {
     /// Speed of a resting connection point, in parts of the centre's.
     const TURNS: f64 = 0.5;
-    let ways = |s: &Story| [s.goes(|v| v > 0.0), s.goes(|v| v < 0.0)];
-    let count = |way: usize| stories.iter().filter(|s| ways(s)[way]).count();
-    let turns = |s: &Story| s.least_turning() < TURNS;
-    let turning = stories.iter().filter(|s| turns(s)).count();
-    let least = || span(stories.iter().map(Story::least_turning), 2);
-    Finding::new(
-        over(stories, members, |s| ways(s) == [true; 2] && turns(s)),
-        format!(
-            "up in {} of {members}, down in {}, turning in {turning}: the connection point moves \
-             at least at {} of the centre's speed",
-            count(0),
-            count(1),
-            least()
-        ),
-    )
-    .because(
-        Verdict::NotReproduced,
-        turning == 0,
-        "The connection point never nearly rests while the body slides, so it does not merely \
-         turn about it.",
-    )
-}
-
-fn not_settled(stories: &[Story], members: usize) -> Finding {
-    /// The height from which on a stuck cable means sliding.
-    const SLIDING_ABOVE: f64 = 0.05;
-    let heights = || stories.iter().map(|s| s.start.state.y);
-    Finding::new(
-        over(stories, members, |s| s.start.state.y >= SLIDING_ABOVE),
-        format!("the cable sticks at y = {}", span(heights(), 4)),
-    )
-    .because(
-        Verdict::NotReproduced,
-        heights().all(|y| y < SLIDING_ABOVE),
-        "The rule would have called it settled; it must have been put aside to show the example.",
-    )
-}
-
-fn hits(stories: &[Story], members: usize) -> Vec<Claim> {
-    let first: Vec<&Impact> = stories.iter().filter_map(|s| s.hits.first()).collect();
-    let slides_on = |s: &Story| {
-        let hit = s.hits.first();
-        hit.and_then(|hit| s.taut_after(hit.t)) == Some(TautSet::only(LEFT))
-    };
-    let clear = |s: &Story| s.hits.iter().filter(|hit| hit.v_n > CLEAR).count() as f64;
-    let going_on = stories.iter().filter(|s| slides_on(s)).count();
-    let many = Finding::new(
-        over(stories, members, |s| s.hits.len() >= 3),
-        format!(
-            "{} times, {} of them with v_n > {CLEAR}",
-            span(stories.iter().map(|s| s.hits.len() as f64), 0),
-            span(stories.iter().map(clear), 0)
-        ),
-    );
-    let goes_on = Finding::new(
-        over(stories, members, slides_on),
-        format!("the left cable stays taut through it in {going_on} of {members}"),
-    )
-    .because(
-        Verdict::NotReproduced,
-        going_on == 0,
-        "The snap of one cable unloads the other here. The chapter's impact knows one cable at a \
-         time and leaves open what a taut one does.",
-    );
-    let hits = Finding::new(
-        over(stories, members, |s| !s.hits.is_empty()),
-        format!(
-            "first at t = {} with v_n = {}",
-            span(first.iter().map(|i| i.t), 4),
-            span(first.iter().map(|i| i.v_n), 4)
-        ),
-    );
-    vec![
-        claim(
-            "6.5.1.2-08",
-            "While it slides it hits the other boundary.",
-            hits,
-        ),
-        claim("6.5.1.2-09", "After that hit it goes on sliding.", goes_on),
-        claim(
-            "6.5.1.2-10",
-            "It hits the other boundary many times while the first cable is taut.",
-            many,
-        ),
-    ]
-}
-
-/// How far y rises from the first slide on, and falls from there to the first rocking.
-fn rise_and_fall(story: &Story) -> Option<[f64; 2]> {
-    let (rocking, _) = story.rocks?;
-    let (from, to) = (story.start.t, rocking.t);
-    let path = places(story.run, (from, to), (to - from) / 1000.0);
-    let (_, top) = range(path.iter().map(|p| p.1));
-    Some([top - story.start.state.y, top - rocking.state.y])
-}
-
-/// The largest |g2| at its impacts from the first slide to the first rocking.
-fn widest(story: &Story) -> f64 {
-    let left = story.run.system().cables.get(LEFT);
-    let gap = |impact: &Impact| left.map_or(f64::INFINITY, |cable| cable.gap(&impact.before).abs());
-    story.impacts().map(gap).fold(0.0, f64::max)
-}
-
-/// Whether both cables are hit at the same x somewhere.
-fn overlaps(story: &Story) -> Option<[f64; 2]> {
-    let ends = |cable: usize| {
-        let own = story.impacts().filter(move |i| i.cable == cable);
-        range(own.map(|i| i.before.x))
-    };
-    let (right, left) = (ends(0), ends(LEFT));
-    let common = [right.0.max(left.0), right.1.min(left.1)];
-    (common[0] < common[1]).then_some(common)
-}
-
-fn rocking(stories: &[Story], members: usize) -> Vec<Claim> {
-    const CLEARLY: f64 = 0.005;
-    const NEAR: f64 = 0.01;
-    const MOVING: f64 = 1e-3;
-    let bounces = |s: &Story| {
-        rise_and_fall(s).is_some_and(|both| both.iter().all(|d| *d > CLEARLY)) && widest(s) < NEAR
-    };
-    let moves: Vec<[f64; 2]> = stories.iter().filter_map(rise_and_fall).collect();
-    let kinetic = |s: &Story| s.rocks.map(|(motion, _)| motion.energy - motion.state.y);
-    let after_slide = |s: &Story| s.rocks.is_some_and(|(_, after)| after);
-    let common = stories.iter().filter_map(overlaps);
-    let times = stories.iter().filter_map(|s| s.rocks.map(|(m, _)| m.t));
-    vec![
-        claim(
-            "6.5.1.2-11",
-            "From its first slide until it rocks it goes up and then down along the boundary.",
-            Finding::new(
-                over(stories, members, bounces),
-                format!(
-                    "up by {}, down by {}; |g2| at its impacts at most {:.1e}",
-                    span(moves.iter().map(|m| m[0]), 3),
-                    span(moves.iter().map(|m| m[1]), 3),
-                    stories.iter().map(widest).fold(0.0, f64::max)
-                ),
-            ),
-        ),
-        claim(
-            "6.5.1.2-13",
-            "As the body turns, both boundaries can be met on the same side.",
-            Finding::new(
-                over(stories, members, |s| overlaps(s).is_some()),
-                format!("both cables are hit at x = {}", span(common.flatten(), 3)),
-            ),
-        ),
-        claim(
-            "6.5.1.2-14",
-            "The sliding ends in rocking, with both cables taut.",
-            Finding::new(
-                over(stories, members, after_slide),
-                format!("at t = {}", span(times, 3)),
-            ),
-        ),
-        claim(
-            "6.5.1.2-15",
-            "It does not come to rest at once but rocks.",
-            Finding::new(
-                over(stories, members, |s| {
-                    after_slide(s) && kinetic(s).is_some_and(|energy| energy > MOVING)
-                }),
-                format!(
-                    "kinetic energy {} where it begins",
-                    span(stories.iter().filter_map(kinetic), 3)
-                ),
-            ),
-        ),
-    ]
+    let goes = |s: &Story, sign| s.sliding.iter().any(|now| sign * now.state.vy > 0.0);
+    let ways = |s: &Story| [goes(s, 1.0), goes(s, -1.0), s.least_turning() < TURNS];
+    let found: Vec<[bool; 3]> = of.stories.iter().map(ways).collect();
+    let [up, down, turning] = [0, 1, 2].map(|way| found.iter().filter(|all| all[way]).count());
+    Ok(of
+        .robust(|s| ways(s) == [true; 3])
+        .values("members up down turning", [of.members, up, down, turning])
+        .list("least", of.stories.iter().map(Story::least_turning))
+        .found("never_turns", turning == 0))
 }

@@ -1,0 +1,301 @@
+//! The words of the claims, which stand in `claims/*.toml`. Each claim has a table there:
+//!
+//! ```toml
+//! ["6.4.1-27"]
+//! claim = "The rotations get larger with the frequency."
+//! evidence = "largest rotation {rotations:.3}"
+//! not_reproduced.ends = "It holds of the ends of the range; steps the other way: {back} of 4."
+//! ```
+//!
+//! `{rotations:.3}` shows what the judge of the claim gives under that name, with three decimals.
+//! The last line is a remark: it stands beside the verdict "not reproduced", and only where the
+//! judge found that `ends` is so. Hence no remark outlives the figures from which it was written.
+//! One that is called `always` hangs on the verdict alone.
+
+use super::numbers::{between, residual};
+use super::verdict::{Claim, Finding, Verdict};
+use crate::ReportError;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The words of all claims, section by section.
+const FILES: [&str; 8] = [
+    include_str!("../../claims/6.3.toml"),
+    include_str!("../../claims/6.4.1.toml"),
+    include_str!("../../claims/6.4.2.toml"),
+    include_str!("../../claims/6.4.3.toml"),
+    include_str!("../../claims/6.5.toml"),
+    include_str!("../../claims/6.5.1.1.toml"),
+    include_str!("../../claims/6.5.1.2.toml"),
+    include_str!("../../claims/6.5.2.1.toml"),
+];
+
+/// The name of a remark that hangs on the verdict alone.
+const ALWAYS: &str = "always";
+
+/// The words of one claim.
+#[derive(Debug, Deserialize)]
+struct Entry {
+    /// The claim in our words.
+    claim: String,
+    /// What was found, with a place for each value.
+    evidence: String,
+    /// Remarks beside a verdict, by the name of what they take for granted.
+    #[serde(flatten)]
+    remarks: BTreeMap<Verdict, BTreeMap<String, String>>,
+}
+
+type Entries = BTreeMap<String, Entry>;
+
+static ENTRIES: LazyLock<Result<Entries, toml::de::Error>> =
+    LazyLock::new(|| toml::from_str(&FILES.join("\n")));
+
+/// A value as a judge gives it.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    Text(String),
+    Numbers(Vec<f64>),
+}
+
+impl Value {
+    /// The value as the format of its place asks for it: `.2` and `.2e` numbers with so many
+    /// decimals, as a list where there are several; `span.2` the least and the greatest of them, or
+    /// one number where the two read the same; `residual` the size of a rounding error. Nothing if
+    /// there is no such format.
+    fn show(&self, format: &str) -> Option<String> {
+        let numbers = match self {
+            Self::Text(text) => return format.is_empty().then(|| text.clone()),
+            Self::Numbers(numbers) => numbers,
+        };
+        let (kind, digits) = format.split_once('.').unwrap_or((format, ""));
+        let decimals = digits.trim_end_matches('e').parse();
+        let number = |v: f64| match decimals {
+            Ok(decimals) if digits.ends_with('e') => format!("{v:.decimals$e}"),
+            Ok(decimals) => format!("{v:.decimals$}"),
+            Err(_) => v.to_string(),
+        };
+        let list = || numbers.iter().map(|v| number(*v)).collect::<Vec<_>>();
+        match kind {
+            _ if decimals.is_err() && !digits.is_empty() => None,
+            "" => Some(list().join(", ")),
+            "span" => Some(between(numbers.iter().copied(), number)),
+            "residual" => numbers.first().map(|v| residual(*v)),
+            _ => None,
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Numbers(vec![number])
+    }
+}
+
+impl From<usize> for Value {
+    fn from(count: usize) -> Self {
+        Self::from(count as f64)
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+/// The claim of this name with what was found of it.
+///
+/// # Errors
+/// [`ReportError::Claim`] where words and finding do not fit each other.
+pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
+    let fault = |what: String| ReportError::Claim(format!("claim {id}: {what}"));
+    let entries = ENTRIES.as_ref().map_err(|error| fault(error.to_string()))?;
+    let (id, entry) = entries
+        .get_key_value(id)
+        .ok_or_else(|| fault("it has no words".to_owned()))?;
+    let [evidence, remark] = entry.tell(finding).map_err(fault)?;
+    Ok(Claim {
+        id,
+        section: id.rsplit_once('-').map_or(id, |(section, _)| section),
+        claim: &entry.claim,
+        verdict: finding.verdict,
+        evidence,
+        remark,
+    })
+}
+
+/// Whether exactly those claims have been judged that have words.
+///
+/// # Errors
+/// [`ReportError::Claim`] with the first that has not, or that was judged twice.
+pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
+    let fault = |id: &str, what: &str| Err(ReportError::Claim(format!("claim {id}: {what}")));
+    let mut ids = ENTRIES.iter().flatten().map(|(id, _)| id.as_str());
+    if let Some(id) = ids.find(|id| !judged.contains(id)) {
+        return fault(id, "it has words, but no judge");
+    }
+    match judged.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => fault(pair[0], "it has two judges"),
+        None => Ok(()),
+    }
+}
+
+impl Entry {
+    /// The evidence and the remarks of a finding.
+    fn tell(&self, finding: &Finding) -> Result<[String; 2], String> {
+        self.check(finding)?;
+        let is_so = |name: &str| name == ALWAYS || finding.conditions.get(name) == Some(&true);
+        let remarks = self.remarks.get(&finding.verdict).into_iter().flatten();
+        let remarks = remarks.filter(|(name, _)| is_so(name));
+        let remarks = remarks.map(|(_, remark)| fill(remark, &finding.values));
+        let remarks: Vec<String> = remarks.collect::<Result<_, _>>()?;
+        Ok([fill(&self.evidence, &finding.values)?, remarks.join(" ")])
+    }
+
+    /// Whether every value that the judge gives is told, and every remark but those that stand
+    /// always is decided.
+    fn check(&self, finding: &Finding) -> Result<(), String> {
+        let remarks = || self.remarks.values().flatten();
+        let text = remarks().map(|(_, text)| &**text).collect::<String>() + &self.evidence;
+        let place = |name: &str, end: &str| text.contains(&format!("{{{name}{end}"));
+        let told = |name: &str| place(name, "}") || place(name, ":");
+        if let Some(name) = finding.values.keys().find(|name| !told(name)) {
+            return Err(format!(
+                "its judge gives `{name}`, which its words do not tell"
+            ));
+        }
+        let mut named: Vec<&str> = remarks().map(|(name, _)| &**name).collect();
+        named.retain(|name| *name != ALWAYS);
+        let undecided = |name: &&&str| !finding.conditions.contains_key(**name);
+        if let Some(name) = named.iter().find(undecided) {
+            return Err(format!(
+                "a remark hangs on `{name}`, which its judge does not decide"
+            ));
+        }
+        match finding.conditions.keys().find(|name| !named.contains(name)) {
+            Some(name) => Err(format!(
+                "its judge decides `{name}`, on which no remark hangs"
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A text with the values in their places.
+fn fill(template: &str, values: &BTreeMap<&str, Value>) -> Result<String, String> {
+    let mut text = String::new();
+    let mut rest = template;
+    while let Some((before, place)) = rest.split_once('{') {
+        let (place, after) = place
+            .split_once('}')
+            .ok_or("a place is not closed with }")?;
+        let (name, format) = place.split_once(':').unwrap_or((place, ""));
+        let value = values
+            .get(name)
+            .ok_or_else(|| format!("its judge gives no `{name}`"))?;
+        let shown = value
+            .show(format)
+            .ok_or_else(|| format!("`{name}` can not be shown as `{format}`"))?;
+        text.push_str(before);
+        text.push_str(&shown);
+        rest = after;
+    }
+    text.push_str(rest);
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Verdict::{NotDecidable, NotReproduced, Reproduced};
+
+    fn entry() -> Result<Entry, String> {
+        let words = "
+            claim = 'both hold'
+            evidence = '{holding} of {all:.1}'
+            not_reproduced = { fails = '{one} fails', rains = 'it rains' }
+            not_decidable.always = 'by chance'
+        ";
+        toml::from_str(words).map_err(|error| error.to_string())
+    }
+
+    fn finding(verdict: Verdict) -> Finding {
+        Finding::new(verdict)
+            .value("holding", 1_usize)
+            .list("all", [2.0, 3.0])
+            .value("one", "one".to_owned())
+            .found("fails", true)
+            .found("rains", false)
+    }
+
+    #[test]
+    fn a_remark_stands_only_beside_the_verdict_that_it_explains() -> Result<(), String> {
+        for (verdict, remark) in [
+            (Reproduced, ""),
+            (NotReproduced, "one fails"),
+            (NotDecidable, "by chance"),
+        ] {
+            let told = entry()?.tell(&finding(verdict))?;
+            assert_eq!(told, ["1 of 2.0, 3.0", remark].map(str::to_owned));
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn words_and_findings_that_do_not_fit_are_refused() -> Result<(), String> {
+        let entry = entry()?;
+        let refused = |finding: Finding| entry.tell(&finding).unwrap_err();
+        let more = finding(Reproduced).value("two", 2_usize);
+        assert_eq!(
+            refused(more),
+            "its judge gives `two`, which its words do not tell"
+        );
+        let more = finding(Reproduced).found("snows", true);
+        assert_eq!(
+            refused(more),
+            "its judge decides `snows`, on which no remark hangs"
+        );
+        let mut less = finding(Reproduced);
+        less.conditions.remove("rains");
+        assert_eq!(
+            refused(less),
+            "a remark hangs on `rains`, which its judge does not decide"
+        );
+        let mut less = finding(Reproduced);
+        less.values.remove("holding");
+        assert_eq!(refused(less), "its judge gives no `holding`");
+        let text = finding(Reproduced).value("all", "two".to_owned());
+        assert_eq!(refused(text), "`all` can not be shown as `.1`");
+        Ok(())
+    }
+
+    #[test]
+    fn a_claim_without_a_judge_or_with_two_is_seen() -> Result<(), ReportError> {
+        let all: Vec<&str> = ENTRIES
+            .iter()
+            .flatten()
+            .map(|(id, _)| id.as_str())
+            .collect();
+        assert!(all.len() >= 150);
+        check_all(&all)?;
+        let twice = [&all[..1], &all].concat();
+        for wrong in [&all[1..], &twice] {
+            assert!(check_all(wrong).is_err_and(|error| error.to_string().contains(all[0])));
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn numbers_are_shown_as_their_place_asks() {
+        let numbers = Value::Numbers(vec![0.25, 0.5]);
+        let shown = ["", ".2", ".0e", "span.1", "span", ".x", "wide.2"].map(|f| numbers.show(f));
+        let [plain, two, powers, span, bare, odd, unknown] = shown.map(Option::unwrap_or_default);
+        assert_eq!(
+            [plain, two, powers].join("; "),
+            "0.25, 0.5; 0.25, 0.50; 2e-1, 5e-1"
+        );
+        assert_eq!([span, bare].join("; "), "0.2 to 0.5; 0.25 to 0.5");
+        assert_eq!(odd + &unknown, "");
+    }
+}
