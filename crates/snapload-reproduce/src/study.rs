@@ -230,7 +230,8 @@ impl Study {
         tell("the norms", 0.8)?;
         let norms = LENGTHS.into_iter().map(|r| {
             let of = |reading: Reading| {
-                up_to_exceeding(&reading.apply(standard(r)), ForceScan::default())
+                let points = up_to_exceeding(&reading.apply(standard(r)), ForceScan::default());
+                points.map_err(Unfinished::from)
             };
             let points = Both::try_new(of)?;
             Ok(NormCurve { r, points })

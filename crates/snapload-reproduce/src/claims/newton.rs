@@ -81,7 +81,10 @@ impl Moment {
     /// Of a run.
     fn of(run: &Trajectory, now: &Motion) -> Self {
         let (system, [x, y, theta, vx, vy, vtheta]) = (run.system(), now.state.components());
-        let ([a, b], r) = (system.cables[0].fairlead().components(), system.cables[0].length());
+        let ([a, b], r) = (
+            system.cables[0].fairlead().components(),
+            system.cables[0].length(),
+        );
         let (i, [fx, fy]) = (system.body.inertia(), system.forcing.at(now.t).components());
         Self {
             sizes: Sizes { a, b, r, i },

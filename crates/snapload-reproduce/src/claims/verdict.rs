@@ -159,10 +159,12 @@ pub(super) type Judged = Result<Finding, ReportError>;
 /// Judges of the kind `F`, each with the id of its claim.
 pub(super) type Judges<F> = [(&'static str, F)];
 
-/// Asks the judges of a section, which stand in tables with the ids of their claims. `M` is the
-/// material on which these rest.
+/// A judge that rests on the material `M`.
+type Judge<M> = fn(&M) -> Judged;
+
+/// Asks the judges of a section, which may stand in several tables.
 pub(super) fn ask<M: ?Sized>(
-    tables: &[&Judges<fn(&M) -> Judged>],
+    tables: &[&Judges<Judge<M>>],
     material: &M,
 ) -> Result<Vec<Claim>, ReportError> {
     let judges = tables.iter().flat_map(|judges| judges.iter());

@@ -114,7 +114,10 @@ fn on_arc(system: &System, given: usize, value: f64) -> State {
             // Half of each gap and of its gradient.
             let [(a, gap_a), (b, gap_b)] = [0, 1].map(|k| {
                 let cable = &system.cables[k];
-                let ([x, y], lever) = (cable.span(&state).components(), cable.lever(sine, cosine).components());
+                let ([x, y], lever) = (
+                    cable.span(&state).components(),
+                    cable.lever(sine, cosine).components(),
+                );
                 ([x, y, y * lever[0] - x * lever[1]], 0.5 * cable.gap(&state))
             });
             let determinant = a[p] * b[q] - a[q] * b[p];
