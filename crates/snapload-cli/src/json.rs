@@ -76,6 +76,7 @@ impl Json {
 }
 
 /// Opens the directory in which a file is to be written, and creates it where it is absent.
+#[cfg(feature = "structure")]
 pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
     refuse_directory(path)?;
     let parent = path

@@ -182,7 +182,7 @@ pub fn ends(path: &Path) -> Result<Tally, StudyError> {
             Values::Words(ends),
             Values::Flags(certain),
             Values::Words(errors),
-        ] = &columns[..]
+        ] = columns
         else {
             return;
         };
@@ -233,7 +233,7 @@ pub fn read_shown(
 ) -> Result<(), StudyError> {
     let mut row = 0;
     read_columns(path, &[column.name, "error"], |columns| {
-        let [values, Values::Words(errors)] = &columns[..] else {
+        let [values, Values::Words(errors)] = columns else {
             return;
         };
         for (k, error) in errors.iter().enumerate() {
