@@ -1,12 +1,11 @@
 //! `snapload assess`: one structure in SI units, from its case to a verdict.
+use crate::bar::Bar;
 use crate::failure::{Failure, print};
-use crate::progress::Progress;
 use crate::structure_input::{Answers, StructureArgs};
-use snapload_structure::{Assessment, assess, note};
+use snapload::analysis::Progress;
+use snapload_structure::{assess, note};
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 
 const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
 
@@ -40,40 +39,23 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     }
     let (name, structure) = args.input.read()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
-    let progress = Mutex::new(Progress::new("running", f64::from(args.neighbours) + 1.0));
-    let done = AtomicU64::new(0);
-    let watch = || {
-        let count = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if let Ok(mut progress) = progress.try_lock() {
-            progress.show(count as f64);
-        }
-    };
-    let assessment = assess(structure, args.neighbours, watch)
-        .map_err(|error| Failure::bad_input(error).with_prefix(&name))?;
-    drop(progress);
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let assessment = assess(structure, args.neighbours, &on_progress)
+        .map_err(|error| Failure::from(error).with_prefix(&name))?;
     if args.out.is_some() {
-        let scan = if args.no_scan {
-            None
-        } else {
-            scan(&assessment)
+        let structure = &assessment.prepared.structure;
+        let scan = match args.no_scan {
+            true => None,
+            false => note::scan(structure, &on_progress)?,
         };
+        drop(bar);
         let command = args.input.command("assess");
         let page = note::page(&name, &command, &assessment, scan.as_ref())
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
         answers.write(|out| out.write_all(page.as_bytes()))?;
     }
     answers.finish(&assessment.to_json(&name), assessment.summary(&name))
-}
-
-/// The scan over wave heights and periods of the page, under a progress bar.
-fn scan(assessment: &Assessment) -> Option<note::Scan> {
-    let progress = Mutex::new(Progress::new("scanning", 1.0));
-    let watch = |part: f64| {
-        if let Ok(mut progress) = progress.try_lock() {
-            progress.show(part);
-        }
-    };
-    note::scan(&assessment.prepared.structure, watch)
 }
 
 /// The keys, a table of the case file each.

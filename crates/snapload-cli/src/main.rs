@@ -18,7 +18,6 @@ mod merge;
 #[cfg(feature = "structure")]
 mod moordyn;
 mod pictures;
-mod progress;
 #[cfg(feature = "reproduce")]
 mod reproduce;
 mod run;

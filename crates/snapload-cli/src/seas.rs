@@ -1,6 +1,6 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
+use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::progress::Counter;
 use crate::structure_input::{Answers, StructureArgs};
 use snapload_structure::{SeaOutcome, Seas, end_words, note, seas};
 use std::io;
@@ -43,10 +43,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
-    let counter = Counter::new("records", u64::from(args.seeds), 0);
-    let result = seas(structure, args.seeds, || counter.one())
-        .map_err(|error| Failure::bad_input(error).with_prefix(&name))?;
-    drop(counter);
+    let bar = Bar::counting();
+    let result = seas(structure, args.seeds, &|progress| bar.show(progress))
+        .map_err(|error| Failure::from(error).with_prefix(&name))?;
+    drop(bar);
     match ending.and_then(|(_, ending)| ending).as_deref() {
         None => {}
         Some("csv") => answers.write(|out| table(&result, out))?,

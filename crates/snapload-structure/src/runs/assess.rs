@@ -10,8 +10,8 @@ use crate::structure::{Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
-use snapload::analysis::{Trust, TrustMonitor};
-use snapload::{CaseError, Playback, Trajectory};
+use snapload::analysis::{Counter, OnProgress, Trust, TrustMonitor, Unfinished, record};
+use snapload::{Playback, Trajectory};
 
 /// A state is known while its standard deviation is below this, in the engine's units.
 const TOLERANCE: f64 = 1e-3;
@@ -39,35 +39,34 @@ pub struct Assessment {
     pub neighbours: Vec<Outcome>,
 }
 
-/// Runs a structure with its neighbours; `watch` is told of each run that is done, from any thread.
+/// Runs a structure with its neighbours.
 ///
 /// # Errors
-/// A [`CaseError`] if the structure rests nowhere or can not start.
+/// A [`snapload::CaseError`] if the structure rests nowhere or can not start, and [`Unfinished::Cancelled`].
 pub fn assess(
     structure: Structure,
     neighbours: u32,
-    watch: impl Fn() + Sync,
-) -> Result<Assessment, CaseError> {
+    on_progress: OnProgress,
+) -> Result<Assessment, Unfinished> {
     let prepared = Prepared::new(structure)?;
     let simulation = prepared.begin(1.0)?;
     let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
     let mut tally = Tally::new(&prepared);
     let mut snaps = Vec::new();
-    let run = Trajectory::record_watched(simulation, |simulation, step| {
+    let run = record(simulation, on_progress, |simulation, step| {
         monitor.follow(simulation, step);
         snaps.extend(tally.follow(simulation, step));
-    });
-    watch();
+    })?;
     let outcome = tally.finish(run.end().t, run.end().reason);
     let still = matches!(prepared.structure.water, Water::Still);
-    let neighbours = (0..if still { 0 } else { neighbours })
-        .into_par_iter()
-        .map(|index| {
-            let outcome = Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index));
-            watch();
-            outcome
-        })
-        .collect::<Result<_, _>>()?;
+    let count = if still { 0 } else { neighbours };
+    let counter = Counter::new("neighbours", 0, count.into(), on_progress);
+    let neighbours = (0..count).into_par_iter().map(|index| {
+        let outcome = Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index))?;
+        counter.add(1)?;
+        Ok(outcome)
+    });
+    let neighbours = neighbours.collect::<Result<_, Unfinished>>()?;
     let mut assessment = Assessment {
         warnings: warnings(&prepared.structure, &prepared.rest),
         run,

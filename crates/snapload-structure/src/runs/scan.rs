@@ -4,7 +4,7 @@ use super::outcome::Outcome;
 use crate::physics::prepared::Prepared;
 use crate::structure::{Structure, Water, Wave};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU64, Ordering};
+use snapload::analysis::{Cancelled, Counter, OnProgress};
 
 /// Heights and periods that are tried, in parts of the case's.
 const HEIGHTS: [f64; 2] = [0.5, 1.25];
@@ -26,11 +26,13 @@ pub struct Scan {
     pub cells: Vec<Option<f64>>,
 }
 
-/// Scans heights and periods; none unless the case has a regular wave. `watch` is told which part
-/// is done.
-pub fn scan(structure: &Structure, watch: impl Fn(f64) + Sync) -> Option<Scan> {
+/// Scans heights and periods; none unless the case has a regular wave.
+///
+/// # Errors
+/// [`Cancelled`] if the work is to end before.
+pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Scan>, Cancelled> {
     let Water::Wave(wave) = structure.water else {
-        return None;
+        return Ok(None);
     };
     let spaced = |[low, high]: [f64; 2], value: f64| -> Vec<f64> {
         let part = |k: u32| low + (high - low) * f64::from(k) / f64::from(STEPS - 1);
@@ -45,21 +47,17 @@ pub fn scan(structure: &Structure, watch: impl Fn(f64) + Sync) -> Option<Scan> {
         heights.map(move |&height_m| Wave { height_m, period_s })
     };
     let waves: Vec<Wave> = periods_s.iter().flat_map(of_period).collect();
-    let done = AtomicU64::new(0);
-    let cells = waves
-        .par_iter()
-        .map(|wave| {
-            let cell = one(structure, *wave);
-            let count = done.fetch_add(1, Ordering::Relaxed) + 1;
-            watch(count as f64 / waves.len() as f64);
-            cell
-        })
-        .collect();
-    Some(Scan {
+    let counter = Counter::new("scanning", 0, waves.len() as u64, on_progress);
+    let cells = waves.par_iter().map(|wave| {
+        let cell = one(structure, *wave);
+        counter.add(1)?;
+        Ok(cell)
+    });
+    Ok(Some(Scan {
+        cells: cells.collect::<Result<_, Cancelled>>()?,
         periods_s,
         heights_m,
-        cells,
-    })
+    }))
 }
 
 fn one(structure: &Structure, wave: Wave) -> Option<f64> {

@@ -6,7 +6,7 @@ use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use rayon::prelude::*;
-use snapload::analysis::Share;
+use snapload::analysis::{Counter, OnProgress, Share, Unfinished};
 use snapload::{CaseError, Stop};
 
 /// What one record comes to.
@@ -27,26 +27,28 @@ pub struct Seas {
     pub records: Vec<SeaOutcome>,
 }
 
-/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow
-/// it; `watch` is told of each that is done, from any thread.
+/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow it.
 ///
 /// # Errors
-/// A [`CaseError`] if the case has no sea, or the structure rests nowhere.
-pub fn seas(structure: Structure, count: u32, watch: impl Fn() + Sync) -> Result<Seas, CaseError> {
+/// A [`CaseError`] if the case has no sea, or the structure rests nowhere, and [`Unfinished::Cancelled`].
+pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result<Seas, Unfinished> {
     let Water::Sea(sea) = structure.water else {
         let allowed = "an irregular sea, to draw records from";
-        return Err(CaseError::value("[sea]", "(left out)", allowed).with_hint(
+        let error = CaseError::value("[sea]", "(left out)", allowed).with_hint(
             "write [sea] with hs and tp in place of [wave]; one regular wave is for snapload assess",
-        ));
+        );
+        return Err(error.into());
     };
     let prepared = Prepared::new(structure)?;
+    let counter = Counter::new("records", 0, count.into(), on_progress);
     let record = |index: u64| {
         let seed = sea.seed + index;
         let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea }), 1.0)?;
-        watch();
+        counter.add(1)?;
         Ok(SeaOutcome { seed, outcome })
     };
-    let records: Result<_, CaseError> = (0..u64::from(count)).into_par_iter().map(record).collect();
+    let records = (0..u64::from(count)).into_par_iter().map(record);
+    let records: Result<_, Unfinished> = records.collect();
     Ok(Seas {
         records: records?,
         prepared,

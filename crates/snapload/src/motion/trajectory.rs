@@ -78,18 +78,6 @@ impl Trajectory {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
 
-    /// The same; `watch` is shown the simulation after every step, and the step.
-    pub fn record_watched(
-        simulation: Simulation,
-        mut watch: impl FnMut(&Simulation, &Step),
-    ) -> Self {
-        let watch = |simulation: &Simulation, step: &Step| {
-            watch(simulation, step);
-            ControlFlow::Continue(())
-        };
-        Self::record_until(simulation, watch).0
-    }
-
     /// The same, as long as `watch`, which is shown the simulation after every step, and the step, lets it go on; none
     /// where it did not let it come to its end.
     pub fn record_while(
