@@ -134,7 +134,7 @@ pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> 
                 false => format!("(a {})", value.get_type().name()?),
             };
             let key = key_named(name).map_err(of_case)?;
-            Err(of_case(key.refuse_text(&shown)))
+            Err(of_case(key.refuse(name, shown)))
         }
     }
 }
@@ -147,6 +147,10 @@ pub(crate) fn to_python(py: Python<'_>, value: Option<Value>) -> PyResult<Bound<
         Some(Value::Integer(number)) => number.into_bound_py_any(py),
         Some(Value::Bool(flag)) => flag.into_bound_py_any(py),
         Some(Value::Text(text)) => text.into_bound_py_any(py),
+        Some(Value::List(values)) => {
+            let values = values.into_iter().map(|value| to_python(py, Some(value)));
+            values.collect::<PyResult<Vec<_>>>()?.into_bound_py_any(py)
+        }
     }
 }
 

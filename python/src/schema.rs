@@ -21,6 +21,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
             Kind::Count { .. } => ("int", &[]),
             Kind::Flag => ("bool", &[]),
             Kind::Choice(words) => ("str", words),
+            Kind::Pair(_) | Kind::Text => ("str", &[]),
         };
         entry.set_item("kind", kind)?;
         entry.set_item("words", words.to_vec())?;
@@ -28,7 +29,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("default", key.default_words())?;
         entry.set_item(
             "standard",
-            crate::case::to_python(py, key.get(&Parameters::STANDARD))?,
+            crate::case::to_python(py, Parameters::STANDARD.get(key.name))?,
         )?;
         Ok(entry)
     });

@@ -3,8 +3,7 @@ use crate::bar::Bar;
 use crate::failure::{Failure, print};
 use crate::structure_input::{Answers, StructureArgs};
 use snapload::analysis::Progress;
-use snapload_structure::{assess, note};
-use std::fmt::Write as _;
+use snapload_structure::{STRUCTURE, assess, note};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
@@ -35,7 +34,7 @@ pub(crate) struct Args {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.keys {
-        return print(&keys());
+        return print(&STRUCTURE.listing());
     }
     let (name, structure) = args.input.read()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
@@ -56,29 +55,4 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         answers.write(|out| out.write_all(page.as_bytes()))?;
     }
     answers.finish(&assessment.to_json(&name), assessment.summary(&name))
-}
-
-/// The keys, a table of the case file each.
-fn keys() -> String {
-    let mut text = String::new();
-    for table in snapload_structure::TABLES {
-        let header = if table.many {
-            format!("[[{}]]", table.name)
-        } else {
-            format!("[{}]", table.name)
-        };
-        let _ = writeln!(text, "{header}  {}", table.meaning);
-        for key in table.keys {
-            let _ = writeln!(text, "  {:<17}{}", key.name, key.meaning);
-            let _ = writeln!(
-                text,
-                "  {:<17}allowed: {}; default: {}",
-                "",
-                key.allowed(),
-                key.default_words()
-            );
-        }
-        text.push('\n');
-    }
-    text
 }

@@ -1,6 +1,6 @@
 //! The case that a command line asks for: built-in or from a file, then changed by `--set`.
 use crate::failure::{Failure, plain};
-use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named, named_case};
+use snapload::{CASE, Case, CaseError, Entries, Parameters, Schema, Value, named_case};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -28,36 +28,14 @@ pub(crate) struct Input {
     pub(crate) name: String,
     /// The case, checked.
     pub(crate) case: Case,
-    entries: Vec<Entry>,
+    entries: Entries,
 }
 
 impl Input {
     /// The same case with one key changed; what follows from it, such as the inertia, follows anew.
-    pub(crate) fn with(&self, key: &str, value: Value) -> Result<Parameters, CaseError> {
-        let given = self
-            .entries
-            .iter()
-            .map(|e| (e.key.as_str(), e.value.clone()));
-        Parameters::from_entries(given.chain([(key, value)]))
+    pub(crate) fn with(&self, key: &'static str, value: Value) -> Result<Parameters, CaseError> {
+        Parameters::from_entries(self.entries.values("case").chain([(key, value)]))
     }
-}
-
-/// A key and its value, with the place it came from for the error messages.
-pub(crate) struct Entry {
-    pub(crate) key: String,
-    pub(crate) value: Value,
-    origin: String,
-}
-
-/// What a command line gives before it is put together: keys of a case, each of them legal, and beside them
-/// what a file says that is no key of a case.
-pub(crate) struct Given {
-    /// Code or file name.
-    name: String,
-    /// The keys, of the built-in case first, then of the file, then of `--set`.
-    pub(crate) entries: Vec<Entry>,
-    /// The rest.
-    pub(crate) aside: toml::Table,
 }
 
 impl CaseArgs {
@@ -66,48 +44,27 @@ impl CaseArgs {
         self.file.as_deref()
     }
 
-    /// Reads the keys. Those of `aside` are let through as they are, and `case` among them names the built-in
-    /// case that a file begins with.
-    pub(crate) fn given(&self, aside: &[&str]) -> Result<Given, Failure> {
-        let (name, file) = match (&self.file, &self.case) {
-            (Some(path), _) => (path.display().to_string(), read_file(path, aside)?),
-            (None, Some(code)) => (code.clone(), (built_in(code)?, toml::Table::new())),
-            (None, None) => ("standard case".to_owned(), Default::default()),
+    /// Reads the keys that `schema` describes: of the built-in case or the file, then of `--set`.
+    /// Returns them with the name to show for them.
+    pub(crate) fn entries(&self, schema: &'static Schema) -> Result<(String, Entries), Failure> {
+        let (name, mut entries) = match (&self.file, &self.case) {
+            (Some(path), _) => (path.display().to_string(), read_file(schema, path)?),
+            (None, Some(code)) => {
+                let mut entries = Entries::new(schema);
+                begin_with(&mut entries, code).map_err(|error| error.at("--case"))?;
+                (code.clone(), entries)
+            }
+            (None, None) => ("standard case".to_owned(), Entries::new(schema)),
         };
-        let (mut entries, aside) = file;
-        match aside.get("case") {
-            None => {}
-            Some(toml::Value::String(code)) => {
-                let of_case = built_in(code)
-                    .map_err(|failure| failure.with_prefix(&format!("{name}: case = {code:?}")))?;
-                entries.splice(0..0, of_case);
-            }
-            Some(_) => {
-                let what = "case is the code of a built-in case, a text in quotes";
-                return Err(Failure::BadInput(format!("{name}: {what}")));
-            }
-        }
-        for text in &self.set {
-            entries.push(parse_set(text)?);
-        }
-        for Entry { key, value, origin } in &entries {
-            check_entry(key, value).map_err(|e| Failure::BadInput(format!("{origin}: {e}")))?;
-        }
-        Ok(Given {
-            name,
-            entries,
-            aside,
-        })
+        self.set.iter().try_for_each(|text| entries.set(text))?;
+        Ok((name, entries))
     }
 
     /// Reads and checks the case.
     pub(crate) fn read(&self) -> Result<Input, Failure> {
-        let Given { name, entries, .. } = self.given(&[])?;
-        let values = entries
-            .iter()
-            .map(|entry| (&entry.key, entry.value.clone()));
-        let case = Parameters::from_entries(values).and_then(Case::new);
-        let case = case.map_err(|error| located(&error, &entries))?;
+        let (name, entries) = self.entries(&CASE)?;
+        let case = Parameters::from_entries(entries.values("case")).and_then(Case::new);
+        let case = case.map_err(|error| entries.locate(error))?;
         Ok(Input {
             name,
             case,
@@ -116,138 +73,27 @@ impl CaseArgs {
     }
 }
 
-/// Puts the place of the offending entry before an error of values that do not go together; of a
-/// key given more than once the last value is in effect.
-fn located(error: &CaseError, entries: &[Entry]) -> Failure {
-    match entries.iter().rfind(|entry| entry.key == error.key) {
-        Some(Entry { origin, .. }) => Failure::BadInput(format!("{origin}: {error}")),
-        None => Failure::bad_input(error),
+/// Gives the keys of a built-in case, as far as they are not given yet.
+pub(crate) fn begin_with(entries: &mut Entries, code: &str) -> Result<(), CaseError> {
+    let case = named_case(code);
+    let case = case.map_err(|error| error.with_hint("snapload cases lists them all"))?;
+    for (key, value) in case.entries() {
+        if entries.table("case", 0).given(key).is_none() {
+            entries.give("case", 0, key, value, &format!("--case {code}"))?;
+        }
     }
+    Ok(())
 }
 
-fn built_in(code: &str) -> Result<Vec<Entry>, Failure> {
-    let case = named_case(code).map_err(|error| {
-        Failure::BadInput(format!(
-            "--case: {error}\nhint: snapload cases lists them all"
-        ))
-    })?;
-    let origin = format!("--case {code}");
-    let entry = |(key, value): (&str, Value)| Entry {
-        key: key.to_owned(),
-        value,
-        origin: origin.clone(),
-    };
-    Ok(case.entries().into_iter().map(entry).collect())
-}
-
-fn parse_set(text: &str) -> Result<Entry, Failure> {
-    let Some((key, value)) = text.split_once('=') else {
-        return Err(Failure::BadInput(format!(
-            "--set {text:?}: no value; write --set KEY=VALUE, such as --set f_o=0.5"
-        )));
-    };
-    let (key, value) = (key.trim(), value.trim());
-    let value = parse_value(key, value).map_err(|e| Failure::BadInput(format!("--set: {e}")))?;
-    Ok(Entry {
-        key: key.to_owned(),
-        value,
-        origin: "--set".to_owned(),
-    })
-}
-
-/// A value as it stands on a command line.
-pub(crate) fn parse_value(key: &str, text: &str) -> Result<Value, CaseError> {
-    if text.is_empty() {
-        return Err(key_named(key)?.refuse_text("(nothing)"));
-    }
-    // What is no TOML value is a bare word: right for `body=point`, else refused with its key.
-    match text.parse::<toml::Value>() {
-        Ok(parsed) => from_toml(key, &parsed),
-        Err(_) => Ok(Value::Text(text.to_owned())),
-    }
-}
-
-/// A TOML value as the value of a key; tables, lists and dates are refused.
-pub(crate) fn from_toml(key: &str, value: &toml::Value) -> Result<Value, CaseError> {
-    let what = match value {
-        toml::Value::Float(number) => return Ok(Value::Number(*number)),
-        toml::Value::Integer(number) => return Ok(Value::Integer(*number)),
-        toml::Value::Boolean(flag) => return Ok(Value::Bool(*flag)),
-        toml::Value::String(text) => return Ok(Value::Text(text.clone())),
-        toml::Value::Array(_) => "(a list)",
-        toml::Value::Table(_) => "(a table)",
-        toml::Value::Datetime(_) => "(a date or time)",
-    };
-    Err(key_named(key)?.refuse_text(what))
-}
-
-/// The keys of a file, and what it says under the names of `aside`.
-fn read_file(path: &Path, aside: &[&str]) -> Result<(Vec<Entry>, toml::Table), Failure> {
-    let text = read_text(path)?;
-    let shown = path.display();
+fn read_file(schema: &'static Schema, path: &Path) -> Result<Entries, Failure> {
+    let (text, shown) = (read_text(path)?, path.display().to_string());
     #[cfg(feature = "structure")]
     if snapload_structure::is_structure(&text) {
-        return Err(Failure::BadInput(format!(
-            "{shown}: this is the case of a structure in metres and kilograms\nhint: write snapload assess {shown}"
-        )));
+        let what = "this is the case of a structure in metres and kilograms";
+        let error = CaseError::syntax(what).with_hint(format!("write snapload assess {shown}"));
+        return Err(error.at(shown).into());
     }
-    // Once for the values, once for the lines on which they stand.
-    let mut table: toml::Table = text
-        .parse()
-        .map_err(|error: toml::de::Error| malformed(path, &text, &error))?;
-    let spans = toml::de::DeTable::parse(&text)
-        .map(toml::Spanned::into_inner)
-        .unwrap_or_default();
-    let mut entries = Vec::new();
-    let mut apart = toml::Table::new();
-    for key in spans.keys() {
-        let name = key.get_ref().as_ref();
-        if aside.contains(&name) {
-            apart.extend(table.remove_entry(name));
-            continue;
-        }
-        let start = key.span().start;
-        let origin = format!("{shown}, line {}", line_of(&text, start));
-        let Some(value) = table.get(key.get_ref().as_ref()) else {
-            continue;
-        };
-        let value = from_toml(key.get_ref(), value)
-            .map_err(|e| Failure::BadInput(format!("{origin}: {e}")))?;
-        entries.push((
-            start,
-            Entry {
-                key: key.get_ref().to_string(),
-                value,
-                origin,
-            },
-        ));
-    }
-    // In the order of the file, so that the first fault in it is the one reported.
-    entries.sort_by_key(|(start, _)| *start);
-    Ok((entries.into_iter().map(|(_, entry)| entry).collect(), apart))
-}
-
-/// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated, since
-/// it may be long, or hold what a terminal would obey.
-fn malformed(path: &Path, text: &str, error: &toml::de::Error) -> Failure {
-    let at = error.span().map_or(0, |span| span.start);
-    let line = line_of(text, at);
-    let before = text.get(..at).unwrap_or_default();
-    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-    let said: String = error
-        .message()
-        .chars()
-        .filter(|c| !c.is_control())
-        .collect();
-    Failure::BadInput(format!(
-        "{}, line {line}, column {column}: {said}\nhint: a case file has one `key = value` a line, such as `f_o = 0.5`; \
-         words stand in quotes, and decimals have a point",
-        path.display()
-    ))
-}
-
-fn line_of(text: &str, at: usize) -> usize {
-    text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
+    Ok(Entries::parse(schema, &shown, &text)?)
 }
 
 /// The text of a case file.
@@ -285,9 +131,10 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
 
 #[cfg(test)]
 mod tests {
-    use super::{CaseArgs, parse_set, read_file};
+    use super::{CaseArgs, read_file};
     use crate::failure::Failure;
     use proptest::prelude::*;
+    use snapload::{CASE, Entries};
 
     /// Anything is read, or refused as bad input in words.
     fn refused_in_words<T>(result: Result<T, Failure>) -> Result<(), TestCaseError> {
@@ -302,7 +149,7 @@ mod tests {
         #[test]
         fn any_set_is_read_or_refused(set in prop::collection::vec(any::<String>(), 0..3)) {
             for text in &set {
-                refused_in_words(parse_set(text))?;
+                refused_in_words(Entries::new(&CASE).set(text).map_err(Failure::from))?;
             }
             refused_in_words(CaseArgs { file: None, case: None, set }.read())?;
         }
@@ -325,7 +172,7 @@ mod tests {
         ) {
             let file = tempfile::NamedTempFile::new().expect("a scratch file");
             std::fs::write(file.path(), bytes).expect("a writable scratch file");
-            refused_in_words(read_file(file.path(), &[]))?;
+            refused_in_words(read_file(&CASE, file.path()))?;
         }
     }
 }

@@ -1,4 +1,5 @@
 //! How a command fails, what it says then, and with which exit status.
+use snapload::CaseError;
 use snapload::analysis::{Cancelled, Unfinished};
 use snapload_study::StudyError;
 pub(crate) use snapload_study::without_number as plain;
@@ -52,6 +53,12 @@ impl Failure {
             path.display(),
             plain(error)
         ))
+    }
+}
+
+impl From<CaseError> for Failure {
+    fn from(error: CaseError) -> Self {
+        Self::bad_input(error)
     }
 }
 

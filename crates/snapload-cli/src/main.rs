@@ -34,7 +34,7 @@ mod verify;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
-use snapload::nearest_key;
+use snapload::CASE_KEYS;
 use std::process::ExitCode;
 
 /// Bodies on cables that go slack and snap taut: motion, impacts, tensions.
@@ -132,7 +132,7 @@ fn refuse(mut error: clap::Error) -> ! {
     if error.kind() == ErrorKind::UnknownArgument
         && error.get(ContextKind::SuggestedArg).is_none()
         && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)
-        && let Some(key) = nearest_key(option.trim_start_matches('-'))
+        && let Some(key) = CASE_KEYS.nearest(option.trim_start_matches('-'))
     {
         let tip = format!("keys of a case are set so: --set {key}=VALUE");
         let tips = ContextValue::StyledStrs(vec![tip.into()]);

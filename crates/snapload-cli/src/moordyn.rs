@@ -64,14 +64,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 fn read(args: &Read) -> Result<(), Failure> {
     let name = args.file.display().to_string();
-    let reading = moordyn::read(&name, &read_text(&args.file)?).map_err(Failure::bad_input)?;
+    let reading = moordyn::read(&name, &read_text(&args.file)?)?;
     let moordyn::Reading { mut entries, notes } = reading;
-    for set in &args.set {
-        entries.set(set).map_err(Failure::bad_input)?;
-    }
+    args.set.iter().try_for_each(|set| entries.set(set))?;
     let missing = entries.missing();
     if missing.is_empty() {
-        Structure::from_entries(&entries).map_err(Failure::bad_input)?;
+        Structure::from_entries(&entries)?;
     }
     let mut text = format!("# From {}, an input file of MoorDyn.\n", one_line(&name));
     for note in &notes {

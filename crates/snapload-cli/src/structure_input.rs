@@ -4,7 +4,8 @@ use crate::failure::{Failure, print};
 use crate::json::{Json, room_of};
 use crate::stage::{Room, Stage};
 use serde::Serialize;
-use snapload_structure::{Entries, Structure, told};
+use snapload::Entries;
+use snapload_structure::{STRUCTURE, Structure, told};
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -30,12 +31,9 @@ impl StructureArgs {
             )
         })?;
         let name = path.display().to_string();
-        let mut entries = Entries::parse(&name, &read_text(path)?).map_err(Failure::bad_input)?;
-        for text in &self.set {
-            entries.set(text).map_err(Failure::bad_input)?;
-        }
-        let structure = Structure::from_entries(&entries).map_err(Failure::bad_input)?;
-        Ok((name, structure))
+        let mut entries = Entries::parse(&STRUCTURE, &name, &read_text(path)?)?;
+        self.set.iter().try_for_each(|text| entries.set(text))?;
+        Ok((name, Structure::from_entries(&entries)?))
     }
 
     /// The command that reads it again.

@@ -1,20 +1,39 @@
 //! The study that a command line asks for: a case, what varies, and how.
-use crate::case_input::{CaseArgs, Given, from_toml, parse_value};
+use crate::case_input::{CaseArgs, begin_with};
 use crate::failure::Failure;
-use snapload::{Value, key_named};
+use snapload::DefaultValue::{Count, Derived, Flag};
+use snapload::{
+    CASE_KEYS, CaseError, Entries, Heading, KEYS, Key, Kind, Schema, Table, Value, key_named,
+    parse_value,
+};
 use snapload_study::{Axis, List, Plan, Side, Study};
 use std::path::{Path, PathBuf};
 
 /// What a study file says beside the keys of a case.
-const ASIDE: [&str; 7] = [
-    "case",
-    "vary",
-    "random",
-    "seed",
-    "list",
-    "list_sha256",
-    "trust",
+#[rustfmt::skip] // one row a key
+const STUDY_KEYS: &[Key] = &[
+    Key::new("case", "", Kind::Text, Derived("the standard case"), "built-in case to begin with"),
+    Key::new("random", "", COUNT, Derived("a grid"), "so many random points in the box of the ranges"),
+    Key::new("seed", "", COUNT, Count(0), "which random points"),
+    Key::new("list", "", Kind::Text, Derived("none"), "file with a row a case, beside the study file"),
+    Key::new("list_sha256", "", Kind::Text, Derived("any"), "what sha256sum has to say of that file"),
+    Key::new("trust", "", Kind::Flag, Flag(true), "whether every run says how far it can be trusted"),
 ];
+const COUNT: Kind = Kind::Count(0, u64::MAX);
+
+/// A study file: the keys of a case, what a study says beside them, and what varies.
+static STUDY: Schema = Schema {
+    tables: &[
+        CASE_KEYS,
+        Table::new("study", Heading::None, "which cases", STUDY_KEYS),
+        Table {
+            unchecked: true,
+            ..Table::new("vary", Heading::Optional, "what varies", KEYS)
+        },
+    ],
+    example: "f_o=0.5",
+    form: "one `key = value` a line, and below the line [vary] what varies",
+};
 
 /// Which study, as given on the command line.
 #[derive(clap::Args)]
@@ -44,20 +63,18 @@ pub(crate) struct StudyArgs {
 impl StudyArgs {
     /// Reads and checks the study.
     pub(crate) fn read(&self) -> Result<Study, Failure> {
-        let Given { entries, aside, .. } = self.case.given(&ASIDE)?;
-        let file = self.case.file();
-        let asked = Asked::of_file(file, &aside)
-            .map_err(|failure| failure.with_prefix(&shown(file)))?
-            .changed_by(self)?;
+        let (_, mut entries) = self.case.entries(&STUDY)?;
+        if let Some(code) = entries.table("study", 0).get::<String>("case")? {
+            let place = entries.place("case").unwrap_or_default().to_owned();
+            begin_with(&mut entries, &code).map_err(|error| error.at(place))?;
+        }
+        let asked = Asked::of_file(self.case.file(), &entries)?.changed_by(self)?;
         let trust = asked.trust;
-        let base = entries.into_iter().map(|entry| (entry.key, entry.value));
+        let base = entries
+            .values("case")
+            .map(|(key, value)| (key.to_owned(), value));
         Ok(Study::new(base, asked.plan()?, trust)?)
     }
-}
-
-fn shown(file: Option<&Path>) -> String {
-    file.map(|path| path.display().to_string())
-        .unwrap_or_default()
 }
 
 /// What is to vary, before it is checked.
@@ -77,29 +94,30 @@ enum Varied {
     Listed(Vec<Value>),
 }
 
+impl Varied {
+    fn of(value: Value) -> Self {
+        match value {
+            Value::Text(text) if text.contains(':') => Self::Range(text),
+            Value::List(values) => Self::Listed(values),
+            value => Self::Listed(vec![value]),
+        }
+    }
+}
+
 impl Asked {
-    fn of_file(file: Option<&Path>, aside: &toml::Table) -> Result<Self, Failure> {
-        let whole = |value: &toml::Value| value.as_integer().and_then(|n| u64::try_from(n).ok());
-        let random = read(aside, "random", "a whole number, 0 or more", whole)?;
-        let seed = read(aside, "seed", "a whole number, 0 or more", whole)?;
-        let text = |value: &toml::Value| value.as_str().map(str::to_owned);
-        let list = read(aside, "list", "a text in quotes", text)?;
-        let sha256 = read(aside, "list_sha256", "a text in quotes", text)?;
-        let trust = read(aside, "trust", "true or false", toml::Value::as_bool)?;
-        let lines = "a table [vary] with lines KEY = \"first:last:n\"";
-        let vary = read(aside, "vary", lines, |value| value.as_table().cloned())?;
-        let vary = vary.into_iter().flatten().map(|(key, value)| {
-            let varied = of_toml(&key, value).map_err(|failure| failure.with_prefix("[vary]"))?;
-            Ok((key, varied))
-        });
+    fn of_file(file: Option<&Path>, entries: &Entries) -> Result<Self, Failure> {
+        let study = entries.table("study", 0);
+        let vary = entries.values("vary");
         let beside = file.and_then(Path::parent).unwrap_or(Path::new(""));
         Ok(Self {
-            vary: vary.collect::<Result<_, Failure>>()?,
-            random,
-            seed: seed.unwrap_or(0),
-            list: list.map(|name| beside.join(name)),
-            sha256,
-            trust: trust.unwrap_or(true),
+            vary: vary
+                .map(|(key, value)| (key.to_owned(), Varied::of(value)))
+                .collect(),
+            random: study.get("random")?,
+            seed: study.need("seed")?,
+            list: study.get::<String>("list")?.map(|name| beside.join(name)),
+            sha256: study.get("list_sha256")?,
+            trust: study.need("trust")?,
         })
     }
 
@@ -157,36 +175,17 @@ impl Asked {
     }
 }
 
-/// What a study file says under a name; `wanted` tells what it may say there.
-fn read<T>(
-    aside: &toml::Table,
-    name: &str,
-    wanted: &str,
-    of: impl Fn(&toml::Value) -> Option<T>,
-) -> Result<Option<T>, Failure> {
-    let refuse = |value: &toml::Value| {
-        Failure::BadInput(format!(
-            "{name} = {value} is not allowed; allowed: {wanted}"
-        ))
-    };
-    let value = aside.get(name);
-    value
-        .map(|value| of(value).ok_or_else(|| refuse(value)))
-        .transpose()
-}
-
 /// The axes of a study that a file describes; none if it is no grid.
 pub(crate) fn axes_of(description: &str) -> Option<Vec<Axis>> {
-    let mut table: toml::Table = description.parse().ok()?;
-    if table.contains_key("random") || table.contains_key("list") {
+    let entries = Entries::parse(&STUDY, "", description).ok()?;
+    let says = |key: &str| entries.table("study", 0).given(key).is_some();
+    if says("random") || says("list") || entries.count("vary") == 0 {
         return None;
     }
-    let toml::Value::Table(vary) = table.remove("vary")? else {
-        return None;
-    };
-    vary.into_iter()
-        .map(|(key, value)| axis(&key, of_toml(&key, value).ok()?).ok())
-        .collect()
+    let axes = entries
+        .values("vary")
+        .map(|(key, value)| axis(key, Varied::of(value)).ok());
+    axes.collect()
 }
 
 fn key_of(text: &str) -> &str {
@@ -205,23 +204,15 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
     if values.contains(':') {
         return Ok((key.to_owned(), Varied::Range(values.to_owned())));
     }
-    let values = values
-        .split(',')
-        .map(|value| parse_value(key, value.trim()));
-    let values = values.collect::<Result<_, _>>();
-    let values = values.map_err(|error| Failure::BadInput(format!("--vary: {error}")))?;
-    Ok((key.to_owned(), Varied::Listed(values)))
-}
-
-fn of_toml(key: &str, value: toml::Value) -> Result<Varied, Failure> {
-    let values = match value {
-        toml::Value::String(text) if text.contains(':') => return Ok(Varied::Range(text)),
-        toml::Value::Array(values) => values,
-        other => vec![other],
-    };
-    let values = values.iter().map(|value| from_toml(key, value));
-    let values = values.collect::<Result<_, _>>();
-    Ok(Varied::Listed(values.map_err(Failure::bad_input)?))
+    let values = values.split(',').map(|value| {
+        let known = key_named(key)?;
+        parse_value(value.trim()).map_err(|shown| known.refuse(key, shown))
+    });
+    let values = values.collect::<Result<_, CaseError>>();
+    Ok((
+        key.to_owned(),
+        Varied::Listed(values.map_err(|error| error.at("--vary"))?),
+    ))
 }
 
 fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {

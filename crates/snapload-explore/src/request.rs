@@ -65,5 +65,5 @@ fn value(name: &str, json: JsonValue) -> Result<Option<Value>, CaseError> {
         JsonValue::Array(_) => "(a list)",
         JsonValue::Object(_) => "(a table)",
     };
-    Err(key_named(name)?.refuse_text(what))
+    Err(key_named(name)?.refuse(name, what))
 }

@@ -158,7 +158,11 @@ impl Geometry {
             Shape::Rectangle { .. } => "rectangle",
         };
         let body = BodyGeometry {
-            kind: parameters.body.name(),
+            kind: if parameters.is_point() {
+                "point"
+            } else {
+                "rigid"
+            },
             shape,
             a: parameters.a,
             b: parameters.b,

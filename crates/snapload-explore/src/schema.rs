@@ -1,7 +1,7 @@
 //! `/api/schema`: which keys there are, and the cases to start from.
 use crate::map::COLUMNS;
 use serde_json::{Map, Value as JsonValue, json};
-use snapload::{KEYS, Key, Kind, Parameters, Stop, named_cases};
+use snapload::{Bounds, DefaultValue, KEYS, Key, Kind, Parameters, Stop, named_cases};
 use snapload_report::ValueRow;
 
 /// The case that the page begins with.
@@ -41,25 +41,29 @@ fn differing(parameters: &Parameters) -> Map<String, JsonValue> {
 
 fn key(key: &Key) -> JsonValue {
     let kind = match key.kind {
-        Kind::Number {
+        Kind::Number(Bounds {
             low,
             low_included,
             high,
-        } => json!({ "type": "number", "low": low, "low_included": low_included, "high": high }),
-        Kind::Count { low, high } => json!({ "type": "count", "low": low, "high": high }),
+        }) => json!({ "type": "number", "low": low, "low_included": low_included, "high": high }),
+        Kind::Count(low, high) => json!({ "type": "count", "low": low, "high": high }),
         Kind::Flag => json!({ "type": "flag" }),
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
+        Kind::Pair(_) | Kind::Text => json!({ "type": "text" }),
     };
     json!({
         "name": key.name,
         "symbol": key.symbol,
         "unit": key.unit,
         "meaning": key.meaning,
-        "group": key.group.name(),
+        "group": key.group,
         "kind": kind,
         "allowed": key.allowed(),
-        "default": key.get(&Parameters::STANDARD).map(ValueRow),
-        "default_in_words": key.derived_default(),
+        "default": Parameters::STANDARD.get(key.name).map(ValueRow),
+        "default_in_words": match key.default {
+            DefaultValue::Derived(words) => words,
+            _ => "",
+        },
         "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
     })
 }

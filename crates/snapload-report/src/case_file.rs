@@ -42,12 +42,10 @@ pub fn python_lines(parameters: &Parameters) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snapload::BodyKind;
 
     #[test]
     fn a_case_is_written_as_its_author_would() {
         let point = Parameters {
-            body: BodyKind::Point,
             a: 0.0,
             inertia: None,
             y: 0.2,

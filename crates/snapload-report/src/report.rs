@@ -77,6 +77,7 @@ impl Serialize for ValueRow {
             Value::Integer(number) => number.serialize(serializer),
             Value::Bool(flag) => flag.serialize(serializer),
             Value::Text(text) => text.serialize(serializer),
+            Value::List(values) => serializer.collect_seq(values.iter().cloned().map(ValueRow)),
         }
     }
 }

@@ -6,7 +6,7 @@ use snapload::analysis::{
     unwatched,
 };
 use snapload::{
-    Case, CaseError, Outcome, Parameters, Stop, TABLE_6_1, Trajectory, named_case, natural_inertia,
+    Case, CaseError, Outcome, Parameters, Stop, Trajectory, named_case, natural_inertia, table_6_1,
 };
 
 /// How a run that begins to slide is read.
@@ -258,7 +258,7 @@ impl Study {
 fn cases() -> Result<Vec<CaseRuns>, Unfinished> {
     let mut codes: Vec<&'static str> = Vec::new();
     let printed = snapload::named_cases().map(|case| case.code);
-    let table = TABLE_6_1.iter().map(|(_, code)| *code);
+    let table = table_6_1().map(|(_, code)| code);
     for code in table.chain(printed.filter(|code| code.ends_with("-559"))) {
         if !codes.contains(&code) {
             codes.push(code);

@@ -3,7 +3,7 @@
 use crate::source::{Number, critical, decimals, probability, run};
 use crate::study::{CaseRuns, CriticalRow, Reading, Study};
 use snapload::analysis::CriticalForce;
-use snapload::{Norms, TABLE_6_1};
+use snapload::{Norms, table_6_1};
 
 /// A norm of a run: name, symbol, value.
 type Norm = (&'static str, &'static str, fn(&Norms) -> f64);
@@ -28,7 +28,7 @@ pub(crate) fn rows_6_1() -> Vec<(&'static str, &'static str)> {
         ("a>b (rectangle), as printed", "1921001000-559"),
         ("a>b (rectangle), as printed", "1931001000-559"),
     ];
-    TABLE_6_1.into_iter().chain(printed).collect()
+    table_6_1().chain(printed).collect()
 }
 
 /// What a run comes to: reason, end, number of impacts, norms.

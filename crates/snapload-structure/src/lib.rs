@@ -8,8 +8,6 @@
 //! engine's is upside down; see [`Scales`].
 
 mod catalogue;
-mod entries;
-mod listing;
 pub mod moordyn;
 pub mod note;
 mod physics;
@@ -20,7 +18,6 @@ mod structure;
 mod words;
 
 pub use catalogue::{Section, section};
-pub use entries::{Entries, InputError, Value, is_structure};
 pub use physics::elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_elastic, springs};
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
@@ -35,7 +32,7 @@ pub use runs::assess::{Assessment, NEIGHBOUR, assess, quantile};
 pub use runs::both::{BothModels, both_models};
 pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::seas::{SeaOutcome, Seas, seas};
-pub use schema::{Key, Kind, Need, TABLES, Table, table_named};
+pub use schema::{STRUCTURE, is_structure};
 pub use structure::{
     BodySi, IrregularSea, LineSi, Outline, Site, SpectrumShape, Structure, THREE_HOURS_S, Water,
     Wave,

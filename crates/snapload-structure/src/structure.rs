@@ -1,8 +1,8 @@
 //! A moored structure in SI units, checked once at the border.
 
 use crate::catalogue::{Section, section};
-use crate::entries::{Entries, Fields, InputError};
-use snapload::{CaseError, MAX_CABLES};
+use crate::schema::STRUCTURE;
+use snapload::{CaseError, Entries, Fields, MAX_CABLES};
 use std::f64::consts::PI;
 
 /// The outline of the body in the x-z plane.
@@ -171,32 +171,32 @@ impl Structure {
     /// Reads a case file; `name` is what errors call it.
     ///
     /// # Errors
-    /// An [`InputError`] that names the line, the key, its value and what is allowed.
-    pub fn parse(name: &str, text: &str) -> Result<Self, InputError> {
-        Self::from_entries(&Entries::parse(name, text)?)
+    /// A [`CaseError`] that names the line, the key, its value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        Self::from_entries(&Entries::parse(&STRUCTURE, name, text)?)
     }
 
     /// From the keys that a case gives.
     ///
     /// # Errors
-    /// An [`InputError`] that names the key, its value and what is allowed.
-    pub fn from_entries(entries: &Entries) -> Result<Self, InputError> {
+    /// A [`CaseError`] that names the key, its value and what is allowed.
+    pub fn from_entries(entries: &Entries) -> Result<Self, CaseError> {
         Self::read(entries).map_err(|error| entries.locate(error))
     }
 
     fn read(entries: &Entries) -> Result<Self, CaseError> {
         let site = read_site(entries.table("site", 0))?;
         let body = read_body(entries.table("body", 0), &site)?;
-        if !(1..=MAX_CABLES).contains(&entries.lines()) {
+        let count = entries.count("line");
+        if !(1..=MAX_CABLES).contains(&count) {
             let allowed = format!("1 to {MAX_CABLES} of them");
-            let shown = entries.lines().to_string();
+            let hint =
+                "write [[line]] once for each line, and below it anchor, fairlead and length";
             return Err(
-                CaseError::value("[[line]]", format!("({shown} given)"), allowed).with_hint(
-                    "write [[line]] once for each line, and below it anchor, fairlead and length",
-                ),
+                CaseError::value("[[line]]", format!("({count} given)"), allowed).with_hint(hint),
             );
         }
-        let lines = (0..entries.lines())
+        let lines = (0..count)
             .map(|index| read_line(entries.table("line", index)))
             .collect::<Result<Vec<_>, _>>()?;
         let (water, heading) = read_water(entries)?;
@@ -206,11 +206,12 @@ impl Structure {
             Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
             Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
         };
-        let duration_s = run.maybe_number("duration")?.unwrap_or(duration);
-        let given = run.maybe_number("transient")?;
+        let duration_s = run.get("duration")?.unwrap_or(duration);
+        let given: Option<f64> = run.get("transient")?;
         if let Some(transient) = given.filter(|transient| *transient >= duration_s) {
             let allowed = format!("less than the {duration_s} s that are computed");
-            return Err(CaseError::value("run.transient", transient, allowed)
+            return Err(run
+                .refuse("transient", transient, allowed)
                 .with_hint("make run.duration longer, or transient shorter"));
         }
         let structure = Self {
@@ -219,11 +220,11 @@ impl Structure {
             site,
             water,
             heading,
-            restitution: run.number("restitution")?,
+            restitution: run.need("restitution")?,
             duration_s,
             transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
-            start_m: run.maybe_pair("start")?,
-            max_snaps: run.count("max_snaps")?,
+            start_m: run.get("start")?,
+            max_snaps: run.need("max_snaps")?,
         };
         check(&structure)?;
         Ok(structure)
@@ -257,31 +258,32 @@ impl Structure {
 
 fn read_site(fields: Fields<'_>) -> Result<Site, CaseError> {
     Ok(Site {
-        depth_m: fields.number("depth")?,
-        water_density_kg_m3: fields.number("water_density")?,
-        gravity_m_s2: fields.number("gravity")?,
+        depth_m: fields.need("depth")?,
+        water_density_kg_m3: fields.need("water_density")?,
+        gravity_m_s2: fields.need("gravity")?,
     })
 }
 
 fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
-    let mass = fields.number("mass")?;
-    let volume = fields.number("displaced_volume")?;
-    let width = fields.number("width")?;
-    let outline = match fields.word("shape")?.as_str() {
-        "rectangle" => Outline::Rectangle,
+    let mass: f64 = fields.need("mass")?;
+    let volume: f64 = fields.need("displaced_volume")?;
+    let width: f64 = fields.need("width")?;
+    let outline = match fields.get::<String>("shape")?.as_deref() {
+        Some("rectangle") => Outline::Rectangle,
         _ => Outline::Circle,
     };
-    let given_height = fields.maybe_number("height")?;
+    let given_height: Option<f64> = fields.get("height")?;
     let needed = |key: &str, found: Option<f64>| {
         let allowed = "a value, which a rectangle needs";
-        found.ok_or_else(|| CaseError::value(&fields.path(key), "(left out)", allowed))
+        found.ok_or_else(|| fields.refuse(key, "(left out)", allowed))
     };
-    let added = fields.maybe_number("added_mass")?;
+    let added = fields.get("added_mass")?;
     let (height, added, inertia) = match outline {
         Outline::Circle => {
             if let Some(height) = given_height.filter(|height| *height != width) {
                 let allowed = format!("the width, {width}, for a circle");
-                return Err(CaseError::value(&fields.path("height"), height, allowed)
+                return Err(fields
+                    .refuse("height", height, allowed)
                     .with_hint("leave height out, or set shape = \"rectangle\""));
             }
             let displaced = site.water_density_kg_m3 * volume;
@@ -304,76 +306,65 @@ fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
         width_m: width,
         height_m: height,
         displaced_volume_m3: volume,
-        moment_of_inertia_kg_m2: fields.maybe_number("moment_of_inertia")?.unwrap_or(inertia),
-        drag_area_m2: fields.number("drag_area")?,
-        linear_damping_n_s_m: fields.number("linear_damping")?,
-        turning_damping_n_m_s: fields.number("turning_damping")?,
-        position_m: fields.pair("position")?,
+        moment_of_inertia_kg_m2: fields.get("moment_of_inertia")?.unwrap_or(inertia),
+        drag_area_m2: fields.need("drag_area")?,
+        linear_damping_n_s_m: fields.need("linear_damping")?,
+        turning_damping_n_m_s: fields.need("turning_damping")?,
+        position_m: fields.need("position")?,
     })
 }
 
 fn read_line(fields: Fields<'_>) -> Result<LineSi, CaseError> {
-    let length = fields.number("length")?;
-    let kind = fields.word("type")?;
-    let diameter = fields.maybe_number("diameter")?;
-    let grade = fields.word("grade")?;
-    let error =
-        |key: &str, shown: &str, allowed: &str| CaseError::value(&fields.path(key), shown, allowed);
-    let catalogued: Option<Section> = match (kind.as_str(), diameter) {
-        ("", None) => None,
-        ("", Some(_)) => return Err(error("type", "(left out)", "a type, as diameter is given")),
-        (_, None) => {
-            return Err(error(
-                "diameter",
-                "(left out)",
-                "the diameter of the line, as its type is given",
-            ));
-        }
-        (kind, Some(diameter)) => {
-            let grade = (!grade.is_empty()).then_some(grade.as_str());
-            if grade.is_some() && !kind.ends_with("chain") {
-                return Err(error(
-                    "grade",
-                    "(given)",
-                    "no grade, as the line is not a chain",
-                ));
-            }
-            section(kind, diameter, grade)
-        }
-    };
-    let (stiffness, rate) = (
-        fields.maybe_number("stiffness")?,
-        fields.maybe_number("spring_rate")?,
-    );
+    let length: f64 = fields.need("length")?;
+    let (name, catalogued) = read_section(fields)?.unwrap_or_default();
+    let stiffness = fields.get::<f64>("stiffness")?;
+    let rate = fields.get::<f64>("spring_rate")?;
     if stiffness.is_some() && rate.is_some() {
-        return Err(error(
-            "spring_rate",
-            "(given)",
-            "one of stiffness and spring_rate",
-        ));
+        return Err(fields.refuse("spring_rate", "(given)", "one of stiffness and spring_rate"));
     }
     let own = stiffness.or(rate.map(|rate| rate * length));
-    let name = match (diameter, kind.ends_with("chain")) {
-        (None, _) => String::new(),
-        (Some(d), true) => {
-            let grade = if grade.is_empty() { "R3" } else { &grade };
-            format!("{kind} {grade}, {} mm", millimetres(d))
-        }
-        (Some(d), false) => format!("{kind}, {} mm", millimetres(d)),
-    };
     Ok(LineSi {
-        anchor_m: fields.pair("anchor")?,
-        fairlead_m: fields.pair("fairlead")?,
+        anchor_m: fields.need("anchor")?,
+        fairlead_m: fields.need("fairlead")?,
         length_m: length,
         name,
         stiffness_n: own.or(catalogued.map(|section| section.stiffness_n)),
         mass_per_length_kg_m: fields
-            .maybe_number("mass_per_length")?
+            .get("mass_per_length")?
             .or(catalogued.map(|section| section.mass_per_length_kg_m)),
         breaking_load_n: fields
-            .maybe_number("breaking_load")?
+            .get("breaking_load")?
             .or(catalogued.map(|section| section.breaking_load_n)),
     })
+}
+
+/// The name of a line of a type and a diameter, and what such lines are like; none where neither is given.
+fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>, CaseError> {
+    let kind = fields.get::<String>("type")?;
+    let diameter = fields.get::<f64>("diameter")?;
+    let grade = fields.get::<String>("grade")?;
+    let left_out = |key, allowed: &str| Err(fields.refuse(key, "(left out)", allowed));
+    let (kind, diameter) = match (kind, diameter) {
+        (None, None) => return Ok(None),
+        (None, Some(_)) => return left_out("type", "a type, as diameter is given"),
+        (Some(_), None) => {
+            return left_out("diameter", "the diameter of the line, as its type is given");
+        }
+        (Some(kind), Some(diameter)) => (kind, diameter),
+    };
+    let is_chain = kind.ends_with("chain");
+    if grade.is_some() && !is_chain {
+        return Err(fields.refuse("grade", "(given)", "no grade, as the line is not a chain"));
+    }
+    let section = section(&kind, diameter, grade.as_deref());
+    let grade = match is_chain {
+        true => format!(" {}", grade.as_deref().unwrap_or("R3")),
+        false => String::new(),
+    };
+    Ok(Some((
+        format!("{kind}{grade}, {} mm", millimetres(diameter)),
+        section,
+    )))
 }
 
 /// Rounded to a tenth.
@@ -383,13 +374,10 @@ fn millimetres(metres: f64) -> f64 {
 
 fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
     let heading = |fields: Fields<'_>| -> Result<f64, CaseError> {
-        Ok(if fields.word("direction")? == "-x" {
-            -1.0
-        } else {
-            1.0
-        })
+        let against = fields.get::<String>("direction")?.as_deref() == Some("-x");
+        Ok(if against { -1.0 } else { 1.0 })
     };
-    match (entries.has("wave"), entries.has("sea")) {
+    match (entries.count("wave") > 0, entries.count("sea") > 0) {
         (true, true) => {
             let allowed = "one of [wave] and [sea]";
             Err(CaseError::value("[sea]", "(beside [wave])", allowed)
@@ -399,23 +387,24 @@ fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
         (true, false) => {
             let fields = entries.table("wave", 0);
             let wave = Wave {
-                height_m: fields.number("height")?,
-                period_s: fields.number("period")?,
+                height_m: fields.need("height")?,
+                period_s: fields.need("period")?,
             };
             Ok((Water::Wave(wave), heading(fields)?))
         }
         (false, true) => {
             let fields = entries.table("sea", 0);
-            let shape = match fields.word("spectrum")?.as_str() {
-                "pierson-moskowitz" => SpectrumShape::PiersonMoskowitz,
-                _ => SpectrumShape::Jonswap(fields.number("gamma")?),
+            let shape = match fields.get::<String>("spectrum")?.as_deref() {
+                Some("pierson-moskowitz") => SpectrumShape::PiersonMoskowitz,
+                _ => SpectrumShape::Jonswap(fields.need("gamma")?),
             };
             let sea = IrregularSea {
                 shape,
-                significant_height_m: fields.number("hs")?,
-                peak_period_s: fields.number("tp")?,
-                seed: fields.count("seed")?,
-                components: usize::try_from(fields.count("components")?).unwrap_or(usize::MAX),
+                significant_height_m: fields.need("hs")?,
+                peak_period_s: fields.need("tp")?,
+                seed: fields.need("seed")?,
+                components: usize::try_from(fields.need::<u64>("components")?)
+                    .unwrap_or(usize::MAX),
             };
             Ok((Water::Sea(sea), heading(fields)?))
         }

@@ -1,7 +1,7 @@
 //! Lines that stretch: motions that are known, and the limit in which they do not.
 
 use snapload_structure::{
-    ElasticRun, Entries, Prepared, Spring, Structure, damping_ratio, run_elastic, springs,
+    ElasticRun, Prepared, STRUCTURE, Spring, Structure, damping_ratio, run_elastic, springs,
 };
 
 /// A body straight above its anchor on two equal lines that lie on each other, so that it moves up and down.
@@ -17,7 +17,7 @@ fn vertical(restitution: f64, start_z: f64) -> Prepared {
 }
 
 fn prepared(text: &str, set: &[&str]) -> Prepared {
-    let mut entries = Entries::parse("test.toml", text).expect("a case");
+    let mut entries = snapload::Entries::parse(&STRUCTURE, "test.toml", text).expect("a case");
     for set in set {
         entries.set(set).expect("a key");
     }

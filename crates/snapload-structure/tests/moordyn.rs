@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use proptest::prelude::*;
-use snapload_structure::{Entries, Structure, moordyn};
+use snapload::Entries;
+use snapload_structure::{STRUCTURE, Structure, moordyn};
 
 const CYLINDER: &str = include_str!("../../../docs/examples/cylinder.toml");
 
@@ -41,7 +42,7 @@ ID   LineType   AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
 ";
 
 fn structure(text: &str, sets: &[&str]) -> Structure {
-    let mut entries = Entries::parse("case", text).unwrap();
+    let mut entries = Entries::parse(&STRUCTURE, "case", text).unwrap();
     for set in sets {
         entries.set(set).unwrap();
     }
@@ -397,7 +398,7 @@ proptest! {
             Err(error) => prop_assert!(error.to_string().starts_with("lines.txt"), "{}", error),
             Ok(reading) => {
                 // What is read is a case that can be written and read again, or be refused in words.
-                let again = Entries::parse("again", &reading.entries.to_toml());
+                let again = Entries::parse(&STRUCTURE, "again", &reading.entries.to_toml());
                 prop_assert!(again.is_ok(), "{:?}", again.err());
                 if let Err(error) = Structure::from_entries(&reading.entries) {
                     prop_assert!(!error.to_string().is_empty());

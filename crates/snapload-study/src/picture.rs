@@ -4,7 +4,7 @@ use crate::error::StudyError;
 use crate::plan::Axis;
 use crate::table::{Column, columns};
 use crate::whole::{Shown, read_shown};
-use snapload::{Value, key_named};
+use snapload::key_named;
 use snapload_figures::{
     Axis as PlotAxis, Cell, Layer, Map, Picture, Plot, Range, Stroke, Width, draw,
 };
@@ -36,7 +36,7 @@ impl StudyPicture {
                 ));
             }
         };
-        match axes.iter().find(|axis| number(&axis.value(0)).is_none()) {
+        match axes.iter().find(|axis| axis.value(0).number().is_none()) {
             Some(axis) => Err(StudyError::Input(format!(
                 "{} holds no numbers to draw along",
                 axis.key()
@@ -90,7 +90,7 @@ impl StudyPicture {
         let mut layers = shades(&thinned.values, &cells);
         layers.push(Layer::Line(vec![points], Stroke::default(), String::new()));
         // Where there is no legal case, too.
-        let [first, last] = [0, x.count() - 1].map(|k| number(&x.value(k)).unwrap_or_default());
+        let [first, last] = [0, x.count() - 1].map(|k| x.value(k).number().unwrap_or_default());
         Ok(Plot {
             description: format!("{} against {}", self.column.name, x.key()),
             x: PlotAxis::new(key_label(x.key()), Range::AtLeast(first, last)),
@@ -171,16 +171,8 @@ impl Thinned {
     fn of(axis: &Axis, most: u64) -> Self {
         let step = axis.count().div_ceil(most.max(1));
         let drawn = (0..axis.count()).step_by(step as usize);
-        let values = drawn.filter_map(|k| number(&axis.value(k))).collect();
+        let values = drawn.filter_map(|k| axis.value(k).number()).collect();
         Self { step, values }
-    }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Number(number) => Some(*number),
-        Value::Integer(number) => Some(*number as f64),
-        Value::Bool(_) | Value::Text(_) => None,
     }
 }
 

@@ -67,7 +67,7 @@ impl Axis {
         let key = key_named(key)?;
         if values.is_empty() {
             let error = key
-                .refuse_text("[]")
+                .refuse(key.name, "[]")
                 .with_hint("give one value at the least");
             return Err(error.into());
         }

@@ -69,7 +69,7 @@ fn given(drawn: &Drawn) -> Vec<Option<Value>> {
             Some((_, value)) => Some(value.clone()),
             // What follows from other keys does not follow from wrong ones.
             None if key.name == "inertia" => None,
-            None => key.get(&Parameters::STANDARD),
+            None => Parameters::STANDARD.get(key.name),
         })
         .collect()
 }

@@ -169,7 +169,7 @@ pub(crate) fn fields() -> Vec<Field> {
         Kind::Number { .. } => Holds::Numbers,
         Kind::Count { .. } => Holds::Counts,
         Kind::Flag => Holds::Flags,
-        Kind::Choice(_) => Holds::Words,
+        Kind::Choice(_) | Kind::Text | Kind::Pair(_) => Holds::Words,
     };
     let keys = KEYS.iter().map(|key| field(key.name, key_holds(&key.kind)));
     let ends = COLUMNS.iter().map(|c| field(c.name, c.holds()));
@@ -227,7 +227,7 @@ fn key_values<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) 
                 })
                 .collect(),
         ),
-        Kind::Choice(_) => Values::Words(
+        Kind::Choice(_) | Kind::Text | Kind::Pair(_) => Values::Words(
             values
                 .map(|v| match v? {
                     Value::Text(text) => Some(text.clone()),

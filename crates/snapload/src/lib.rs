@@ -32,12 +32,15 @@ mod motion;
 pub use arithmetic::{dual::Dual, plane::Vector2, precise::Precise, real::Real};
 pub use batch::lanes::{Lanes, Usage};
 pub use case::Case;
+pub use case::entries::{Entries, Fields, FromValue};
 pub use case::error::{CaseError, Fault};
-pub use case::named::{NamedCase, TABLE_6_1, named_case, named_cases, series_of};
-pub use case::parameters::{BodyKind, Parameters, natural_inertia};
-pub use case::schema::{
-    Group, KEYS, Key, Kind, ROTATION_LIMIT, SETTLING_HEIGHT, check_entry, key_named, nearest_key,
-};
+pub use case::key::{Bounds, DefaultValue, Key, Kind};
+pub use case::keys::{CASE, CASE_KEYS, KEYS, check_entry, key_named};
+pub use case::named::{NamedCase, named_case, named_cases, series_of, table_6_1};
+pub use case::parameters::{Parameters, ROTATION_LIMIT, SETTLING_HEIGHT, natural_inertia};
+#[cfg(feature = "toml")]
+pub use case::read::{parse_value, table_names};
+pub use case::schema::{Heading, Schema, Table};
 pub use case::value::Value;
 pub use model::body::{Body, Outline, Shape};
 pub use model::cable::{Cable, Normal};

@@ -3,8 +3,8 @@
 
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
-    Body, BodyKind, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise,
-    Real, Rules, Shape, Simulation, State, Steps, System, Tangent,
+    Body, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise, Real, Rules,
+    Shape, Simulation, State, Steps, System, Tangent,
 };
 
 type Digits = Precise<4>;
@@ -145,7 +145,6 @@ fn derivatives_of_the_first_impacts_agree() {
             ..standard
         },
         Parameters {
-            body: BodyKind::Point,
             a: 0.0,
             inertia: None,
             e: 0.4,

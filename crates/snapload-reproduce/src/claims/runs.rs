@@ -6,8 +6,8 @@ use crate::study::{CaseRuns, CriticalRow, Reading, Study, first_exceeding};
 use rayon::prelude::*;
 use snapload::analysis::ForceScan;
 use snapload::{
-    Case, CaseError, Impact, Outcome, Parameters, Playback, State, Stop, System, TABLE_6_1,
-    TautSet, Trajectory,
+    Case, CaseError, Impact, Outcome, Parameters, Playback, State, Stop, System, TautSet,
+    Trajectory, table_6_1,
 };
 
 /// How far the neighbours of a start are from it.
@@ -147,7 +147,7 @@ pub(super) fn row(study: &Study, r: f64, size: [f64; 2]) -> Result<&CriticalRow,
 /// The codes of Table 6.1, each once.
 pub(super) fn table_codes() -> Vec<&'static str> {
     let mut codes: Vec<&'static str> = Vec::new();
-    for (_, code) in TABLE_6_1 {
+    for (_, code) in table_6_1() {
         if !codes.contains(&code) {
             codes.push(code);
         }

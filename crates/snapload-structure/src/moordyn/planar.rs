@@ -2,7 +2,7 @@
 //! plane.
 
 use super::sections::{Row, Section, Sections};
-use crate::InputError;
+use snapload::CaseError;
 use std::collections::BTreeMap;
 
 /// Places closer to the plane than this are in it \[m\].
@@ -63,7 +63,7 @@ const UNSUPPORTED: [(Section, &str, &str, &str); 4] = [
 ];
 
 /// Refuses what is not supported.
-pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), InputError> {
+pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), CaseError> {
     for (section, name, allowed, hint) in UNSUPPORTED {
         if let Some(row) = sections.rows(section).next() {
             return Err(row.refuse(name, "(given)", allowed, hint));
@@ -73,7 +73,7 @@ pub(super) fn refuse_unsupported(sections: &Sections<'_>) -> Result<(), InputErr
 }
 
 /// The one body; none where points are coupled to one that is not in the file.
-pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, InputError> {
+pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, CaseError> {
     let mut rows = sections.rows(Section::Bodies);
     let Some(row) = rows.next() else {
         return Ok(None);
@@ -107,7 +107,7 @@ pub(super) fn body<'a>(sections: &'a Sections<'a>) -> Result<Option<Body<'a>>, I
 pub(super) fn points<'a>(
     sections: &'a Sections<'a>,
     body: Option<&Body<'_>>,
-) -> Result<Points<'a>, InputError> {
+) -> Result<Points<'a>, CaseError> {
     let mut points = BTreeMap::new();
     for row in sections.rows(Section::Points) {
         let id = row.word(0, "ID")?;
@@ -127,7 +127,7 @@ pub(super) fn points<'a>(
     Ok(points)
 }
 
-fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, InputError> {
+fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, CaseError> {
     let attachment = row.word(1, "Attachment")?;
     let own = row.place(2, ["X", "Y", "Z"])?;
     let lower = attachment.to_lowercase();
@@ -164,7 +164,7 @@ fn point(row: &Row<'_>, body: Option<&Body<'_>>) -> Result<Point, InputError> {
 pub(super) fn refuse_off_plane<'a>(
     body: Option<&Body<'_>>,
     used: impl Iterator<Item = &'a (&'a Row<'a>, Point)>,
-) -> Result<(), InputError> {
+) -> Result<(), CaseError> {
     let mut plane = body.map(|body| body.place_m[1]);
     for (row, point) in used {
         let y = point.place_m[1];

@@ -4,9 +4,8 @@ use super::planar::{
     Body, Holds, Point, Points, body, points, refuse_off_plane, refuse_unsupported,
 };
 use super::sections::{Row, Section, Sections, number};
-use crate::InputError;
-use crate::entries::{Entries, Value};
-use snapload::CaseError;
+use crate::schema::STRUCTURE;
+use snapload::{CaseError, Entries, Value};
 use std::f64::consts::PI;
 
 /// Lines of a file's front matter that begin so are keys of a case that MoorDyn has no place for.
@@ -30,8 +29,8 @@ pub struct Reading {
 /// is still to be given.
 ///
 /// # Errors
-/// An [`InputError`] that names line, object and column, what is allowed there and what to do.
-pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
+/// A [`CaseError`] that names line, object and column, what is allowed there and what to do.
+pub fn read(name: &str, text: &str) -> Result<Reading, CaseError> {
     let sections = Sections::parse(name, text)?;
     for (section, header) in [
         (Section::LineTypes, "LINE TYPES"),
@@ -41,15 +40,13 @@ pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
         if !sections.has(section) {
             let allowed = format!("a header line such as ---------- {header} ----------");
             let error = CaseError::value(&format!("section {header}"), "(missing)", allowed);
-            return Err(InputError {
-                origin: name.to_owned(),
-                error: Box::new(error.with_hint("is this an input file of MoorDyn version 2?")),
-            });
+            let hint = "is this an input file of MoorDyn version 2?";
+            return Err(error.with_hint(hint).at(name));
         }
     }
     refuse_unsupported(&sections)?;
     let mut reader = Reader {
-        entries: Entries::default(),
+        entries: Entries::new(&STRUCTURE),
         notes: Vec::new(),
         water_density: WATER_DENSITY,
     };
@@ -73,9 +70,8 @@ pub fn read(name: &str, text: &str) -> Result<Reading, InputError> {
     for (origin, line) in &sections.front {
         let line = line.trim_start_matches(['#', ' ', '\t']);
         if let Some(set) = line.strip_prefix(KEY_LINE) {
-            let origin = origin.clone();
             let given = reader.entries.set(set.trim());
-            given.map_err(|error| InputError { origin, ..error })?;
+            given.map_err(|error| error.at(origin.as_str()))?;
         }
     }
     Ok(Reading {
@@ -103,14 +99,14 @@ impl Reader {
         row: &Row<'_>,
         (table, index): (&'static str, usize),
         key: &'static str,
-        value: Value,
-    ) -> Result<(), InputError> {
-        let given = self.entries.give(table, index, key, value, &row.origin);
-        given.map_err(|error| row.fault(error))
+        value: impl Into<Value>,
+    ) -> Result<(), CaseError> {
+        let value = value.into();
+        self.entries.give(table, index, key, value, &row.origin)
     }
 
     /// Depth, density and gravity; the other options are about MoorDyn's computation.
-    fn options(&mut self, sections: &Sections<'_>) -> Result<(), InputError> {
+    fn options(&mut self, sections: &Sections<'_>) -> Result<(), CaseError> {
         let mut defaults = vec![("gravity", GRAVITY), ("water_density", WATER_DENSITY)];
         for row in sections.rows(Section::Options) {
             let [word, option, ..] = row.words[..] else {
@@ -137,20 +133,20 @@ impl Reader {
                 self.water_density = value;
             }
             defaults.retain(|(default, _)| *default != key);
-            self.give(row, ("site", 0), key, Value::Number(value))?;
+            self.give(row, ("site", 0), key, value)?;
         }
         for (key, value) in defaults {
-            let value = Value::Number(value);
+            let value = value.into();
             self.entries
                 .give("site", 0, key, value, "MoorDyn's default")?;
         }
         Ok(())
     }
 
-    fn body(&mut self, body: &Body<'_>) -> Result<(), InputError> {
+    fn body(&mut self, body: &Body<'_>) -> Result<(), CaseError> {
         let row = body.row;
         let [x, _, z] = body.place_m;
-        self.give(row, ("body", 0), "position", Value::Pair([x, z]))?;
+        self.give(row, ("body", 0), "position", [x, z])?;
         let (mass, volume) = (row.number(8, "Mass")?, row.number(11, "Volume")?);
         let inertia = match row.numbers(10, "I")?[..] {
             [every] | [_, every, _] => every,
@@ -184,7 +180,7 @@ impl Reader {
             ("drag_area", drag),
             ("added_mass", added * volume * self.water_density),
         ] {
-            self.give(row, ("body", 0), key, Value::Number(value))?;
+            self.give(row, ("body", 0), key, value)?;
         }
         Ok(())
     }
@@ -194,18 +190,18 @@ impl Reader {
         row: &Row<'_>,
         sections: &Sections<'_>,
         points: &'a Points<'a>,
-    ) -> Result<Ends<'a>, InputError> {
+    ) -> Result<Ends<'a>, CaseError> {
         let ends = ends(row, points)?;
         let [anchor, fairlead] = ends.map(|(_, point)| {
             let [x, _, z] = point.place_m;
-            Value::Pair([x, z])
+            [x, z]
         });
-        let index = self.entries.add_line();
+        let index = self.entries.add("line");
         let table = ("line", index);
         self.give(row, table, "anchor", anchor)?;
         self.give(row, table, "fairlead", fairlead)?;
         let length = row.number(4, "UnstrLen")?;
-        self.give(row, table, "length", Value::Number(length))?;
+        self.give(row, table, "length", length)?;
         let name = row.word(1, "LineType")?;
         let mut types = sections.rows(Section::LineTypes);
         let Some(kind) = types.find(|kind| kind.words[0] == name) else {
@@ -215,9 +211,9 @@ impl Reader {
             return Err(row.refuse("LineType", name, &allowed, ""));
         };
         let mass = kind.number(2, "Mass/m")?;
-        self.give(row, table, "mass_per_length", Value::Number(mass))?;
+        self.give(row, table, "mass_per_length", mass)?;
         if let Some(stiffness) = self.stiffness(kind, index + 1)? {
-            self.give(row, table, "stiffness", Value::Number(stiffness))?;
+            self.give(row, table, "stiffness", stiffness)?;
         }
         let diameter = kind.number(1, "Diam")?;
         let displaced = self.water_density * PI * diameter * diameter / 4.0;
@@ -233,7 +229,7 @@ impl Reader {
     }
 
     /// EA, of which MoorDyn has several forms; none where it stands in a file.
-    fn stiffness(&mut self, kind: &Row<'_>, line: usize) -> Result<Option<f64>, InputError> {
+    fn stiffness(&mut self, kind: &Row<'_>, line: usize) -> Result<Option<f64>, CaseError> {
         let word = kind.word(3, "EA")?;
         let parts: Option<Vec<f64>> = word.split('|').map(number).collect();
         let Some(parts) = parts else {
@@ -268,7 +264,7 @@ impl Reader {
 }
 
 /// C_d A in x and z, and about y.
-fn drag(row: &Row<'_>) -> Result<[f64; 2], InputError> {
+fn drag(row: &Row<'_>) -> Result<[f64; 2], CaseError> {
     match row.numbers(12, "CdA")?[..] {
         [every] => Ok([every, every]),
         [moving, turning] => Ok([moving, turning]),
@@ -284,7 +280,7 @@ fn drag(row: &Row<'_>) -> Result<[f64; 2], InputError> {
 }
 
 /// The anchor and the fairlead of a line, whichever way round it is written.
-fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, InputError> {
+fn ends<'a>(row: &Row<'_>, points: &'a Points<'a>) -> Result<Ends<'a>, CaseError> {
     let find = |index: usize, column: &str| {
         let id = row.word(index, column)?;
         points.get(id).ok_or_else(|| {

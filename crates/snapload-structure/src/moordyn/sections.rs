@@ -1,6 +1,5 @@
 //! The sections of a MoorDyn file as rows of words.
 
-use crate::InputError;
 use snapload::CaseError;
 
 /// A section of the file.
@@ -102,7 +101,7 @@ pub(super) struct Row<'a> {
 
 impl Row<'_> {
     /// The word of a column; `column` is what errors call it.
-    pub(super) fn word(&self, index: usize, column: &str) -> Result<&str, InputError> {
+    pub(super) fn word(&self, index: usize, column: &str) -> Result<&str, CaseError> {
         self.words.get(index).copied().ok_or_else(|| {
             let allowed = format!(
                 "a value in column {}; the row ends before it, and every column must have one",
@@ -113,20 +112,20 @@ impl Row<'_> {
     }
 
     /// The number of a column.
-    pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, InputError> {
+    pub(super) fn number(&self, index: usize, column: &str) -> Result<f64, CaseError> {
         let word = self.word(index, column)?;
         number(word).ok_or_else(|| self.refuse(column, word, "a number", ""))
     }
 
     /// The numbers of a column, which bars separate.
-    pub(super) fn numbers(&self, index: usize, column: &str) -> Result<Vec<f64>, InputError> {
+    pub(super) fn numbers(&self, index: usize, column: &str) -> Result<Vec<f64>, CaseError> {
         let word = self.word(index, column)?;
         let numbers: Option<Vec<f64>> = word.split('|').map(number).collect();
         numbers.ok_or_else(|| self.refuse(column, word, "numbers, with | between them", ""))
     }
 
     /// The place in the three columns from one on.
-    pub(super) fn place(&self, index: usize, columns: [&str; 3]) -> Result<[f64; 3], InputError> {
+    pub(super) fn place(&self, index: usize, columns: [&str; 3]) -> Result<[f64; 3], CaseError> {
         let [x, y, z] = columns;
         Ok([
             self.number(index, x)?,
@@ -142,7 +141,7 @@ impl Row<'_> {
         column: &str,
         allowed: &str,
         hint: &str,
-    ) -> Result<(), InputError> {
+    ) -> Result<(), CaseError> {
         match self
             .numbers(index, column)?
             .iter()
@@ -160,7 +159,7 @@ impl Row<'_> {
         shown: impl std::fmt::Display,
         allowed: &str,
         hint: &str,
-    ) -> InputError {
+    ) -> CaseError {
         let error = CaseError::value(&format!("{}, {column}", self.what), shown, allowed);
         self.fault(match hint {
             "" => error,
@@ -168,11 +167,8 @@ impl Row<'_> {
         })
     }
 
-    pub(super) fn fault(&self, error: CaseError) -> InputError {
-        InputError {
-            origin: self.origin.clone(),
-            error: Box::new(error),
-        }
+    pub(super) fn fault(&self, error: CaseError) -> CaseError {
+        error.at(self.origin.as_str())
     }
 }
 
@@ -192,7 +188,7 @@ pub(super) struct Sections<'a> {
 
 impl<'a> Sections<'a> {
     /// Cuts a file; `name` is what errors call it.
-    pub(super) fn parse(name: &str, text: &'a str) -> Result<Self, InputError> {
+    pub(super) fn parse(name: &str, text: &'a str) -> Result<Self, CaseError> {
         let mut sections = Self::default();
         let mut now: Option<(Section, usize)> = None;
         for (index, line) in text.lines().enumerate() {
@@ -246,7 +242,7 @@ impl<'a> Sections<'a> {
 }
 
 /// The columns of version 1 stand in another order; its names give it away.
-fn refuse_first_version(origin: &str, line: &str) -> Result<(), InputError> {
+fn refuse_first_version(origin: &str, line: &str) -> Result<(), CaseError> {
     let old = ["NodeAnch", "NodeFair", "MassDenInAir", "MassDen"];
     let is_old = |word: &&str| old.iter().any(|old| word.eq_ignore_ascii_case(old));
     let Some(word) = line.split_whitespace().find(is_old) else {
@@ -257,8 +253,5 @@ fn refuse_first_version(origin: &str, line: &str) -> Result<(), InputError> {
         "write LINE TYPES, POINTS and LINES as the manual of MoorDyn v2 has them, ID LineType \
          AttachA AttachB UnstrLen NumSegs for a line",
     );
-    Err(InputError {
-        origin: origin.to_owned(),
-        error: Box::new(error),
-    })
+    Err(error.at(origin))
 }

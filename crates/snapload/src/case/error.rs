@@ -1,11 +1,12 @@
-//! What is wrong with a case, in words that name the key, the value and what is allowed.
+//! What is wrong with a case, in words that name the key, the value, what is allowed and where.
+
 use std::fmt;
 
 /// The longest piece of somebody's input that an error repeats, in characters.
 const LONGEST_ECHO: usize = 60;
 
 /// Which sort of fault a [`CaseError`] reports.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
     /// The key is known, its value is not allowed.
@@ -15,14 +16,15 @@ pub enum Fault {
         /// The key that was probably meant.
         nearest: Option<&'static str>,
     },
-    /// There is no built-in case of this code.
-    UnknownCase {
-        /// The codes that look most like it, best first.
-        nearest: Vec<&'static str>,
-    },
+    /// There is no built-in case of this code; what is allowed are the codes that look most like
+    /// it.
+    UnknownCase,
+    /// The text can not be read as keys and values; the value is what its reader says.
+    Syntax,
 }
 
-/// A case that can not be run: which key, which value, what is allowed and what to do.
+/// A case that can not be run: which key, which value, what is allowed, where it stands and what to
+/// do.
 ///
 /// ```
 /// use snapload::{Parameters, Value};
@@ -39,56 +41,66 @@ pub struct CaseError {
     /// The value as text; empty where there is none to speak of.
     pub value: String,
     /// What is allowed instead.
-    pub allowed: String,
+    pub allowed: Box<str>,
+    /// Where the value stands, such as `mooring.toml, line 3` or `--set`.
+    pub place: Option<Box<str>>,
     /// What to do, where more than "choose what is allowed" can be said.
-    pub hint: Option<String>,
+    pub hint: Option<Box<str>>,
 }
 
 impl CaseError {
+    fn new(fault: Fault, key: &str, value: &str, allowed: String) -> Self {
+        let (key, value, place, hint) = (echo(key), echo(value), None, None);
+        Self {
+            fault,
+            key,
+            value,
+            allowed: allowed.into(),
+            place,
+            hint,
+        }
+    }
+
     /// A value that is not allowed. `allowed` goes on after the word "allowed:".
     pub fn value(key: &str, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
-        Self {
-            fault: Fault::Value,
-            key: echo(key),
-            value: echo(&value.to_string()),
-            allowed: allowed.into(),
-            hint: None,
-        }
+        Self::new(Fault::Value, key, &value.to_string(), allowed.into())
     }
 
     /// A key that does not exist.
     pub fn unknown_key(key: &str, nearest: Option<&'static str>, known: &[&str]) -> Self {
-        Self {
-            fault: Fault::UnknownKey { nearest },
-            key: echo(key),
-            value: String::new(),
-            allowed: known.join(", "),
-            hint: None,
-        }
+        Self::new(Fault::UnknownKey { nearest }, key, "", known.join(", "))
     }
 
     /// A code without a built-in case.
-    pub fn unknown_case(code: &str, nearest: Vec<&'static str>) -> Self {
-        Self {
-            allowed: nearest.join(", "),
-            fault: Fault::UnknownCase { nearest },
-            key: echo(code),
-            value: String::new(),
-            hint: None,
-        }
+    pub fn unknown_case(code: &str, nearest: &[&str]) -> Self {
+        Self::new(Fault::UnknownCase, code, "", nearest.join(", "))
+    }
+
+    /// A text that can not be read; `said` is why.
+    pub fn syntax(said: impl Into<String>) -> Self {
+        let mut error = Self::new(Fault::Syntax, "", "", String::new());
+        error.value = said.into();
+        error
     }
 
     /// The same with the value that was given.
     #[must_use]
-    pub(crate) fn given(mut self, value: impl fmt::Display) -> Self {
+    pub fn given(mut self, value: impl fmt::Display) -> Self {
         self.value = echo(&value.to_string());
         self
     }
 
     /// The same with words on what to do.
     #[must_use]
-    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
+    pub fn with_hint(mut self, hint: impl Into<Box<str>>) -> Self {
         self.hint = Some(hint.into());
+        self
+    }
+
+    /// The same with the place where the value stands.
+    #[must_use]
+    pub fn at(mut self, place: impl Into<Box<str>>) -> Self {
+        self.place = Some(place.into());
         self
     }
 }
@@ -96,12 +108,17 @@ impl CaseError {
 impl fmt::Display for CaseError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
+            fault,
             key,
             value,
             allowed,
-            ..
+            place,
+            hint,
         } = self;
-        match &self.fault {
+        if let Some(place) = place {
+            write!(f, "{place}: ")?;
+        }
+        match fault {
             // Such as `(left out)` or `(a table)`: words about the value, not the value itself.
             Fault::Value if value.starts_with('(') => {
                 write!(f, "{key} {value} is not allowed; allowed: {allowed}")?;
@@ -117,14 +134,13 @@ impl fmt::Display for CaseError {
                 }
                 write!(f, "\nthe keys are {allowed}")?;
             }
-            Fault::UnknownCase { .. } => {
-                write!(
-                    f,
-                    "there is no built-in case \"{key}\"; the nearest are {allowed}"
-                )?;
+            Fault::UnknownCase => {
+                let what = format!("there is no built-in case \"{key}\"");
+                write!(f, "{what}; the nearest are {allowed}")?;
             }
+            Fault::Syntax => f.write_str(value)?,
         }
-        match &self.hint {
+        match hint {
             Some(hint) => write!(f, "\nhint: {hint}"),
             None => Ok(()),
         }
@@ -134,20 +150,16 @@ impl fmt::Display for CaseError {
 impl std::error::Error for CaseError {}
 
 /// Somebody's input made fit to repeat: control characters escaped, cut where it is long.
-pub(crate) fn echo(text: &str) -> String {
-    let mut shown: String = text
+fn echo(text: &str) -> String {
+    let shown = text
         .chars()
         .take(LONGEST_ECHO)
-        .flat_map(|c| {
-            let escaped = c.is_control().then(|| c.escape_default());
-            let plain = escaped.is_none().then_some(c);
-            escaped.into_iter().flatten().chain(plain)
-        })
-        .collect();
-    if text.chars().nth(LONGEST_ECHO).is_some() {
-        shown.push_str("...");
-    }
-    shown
+        .map(|c| match c.is_control() {
+            true => c.escape_default().to_string(),
+            false => c.to_string(),
+        });
+    let cut = text.chars().nth(LONGEST_ECHO).map(|_| "...".to_owned());
+    shown.chain(cut).collect()
 }
 
 #[cfg(test)]
@@ -165,8 +177,8 @@ mod tests {
     fn texts_name_everything() {
         let error = CaseError::value("r", 0.5, "r > 0.9").with_hint("choose a longer one");
         assert_eq!(
-            error.to_string(),
-            "r = 0.5 is not allowed; allowed: r > 0.9\nhint: choose a longer one"
+            error.at("case.toml, line 3").to_string(),
+            "case.toml, line 3: r = 0.5 is not allowed; allowed: r > 0.9\nhint: choose a longer one"
         );
         let error = CaseError::unknown_key("omgea", Some("omega"), &["r", "omega"]);
         assert_eq!(

@@ -1,15 +1,20 @@
 //! A case: parameters that were checked once, at the border, and the system that they describe.
 
+pub(crate) mod border;
+pub(crate) mod entries;
 pub(crate) mod error;
+pub(crate) mod key;
+pub(crate) mod keys;
 pub(crate) mod named;
 pub(crate) mod parameters;
+#[cfg(feature = "toml")]
+pub(crate) mod read;
 pub(crate) mod schema;
 pub(crate) mod value;
 
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
-use crate::case::parameters::{BodyKind, Parameters, natural_inertia};
-use crate::case::schema::SETTLING_HEIGHT;
+use crate::case::parameters::{Parameters, SETTLING_HEIGHT, natural_inertia};
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
 use crate::model::forcing::Harmonic;
@@ -61,8 +66,8 @@ impl Case {
         self.simulation.clone()
     }
 
-    /// The same motion in another arithmetic; `number` is told each number's key. An inertia that is the
-    /// natural one of the size stays so.
+    /// The same motion in another arithmetic; `number` is told each number's key. An inertia that
+    /// is the natural one of the size stays so.
     ///
     /// # Errors
     /// [`StartError`] where that arithmetic finds the start illegal, as it may on the very edge.
@@ -117,19 +122,18 @@ fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
 }
 
 fn system<T: Real>(p: &Parameters<T>) -> System<T> {
-    let body = match (p.body, p.inertia) {
-        (BodyKind::Rigid, Some(inertia)) => Body::rigid(Shape::of_half_sizes(p.a, p.b), inertia),
-        _ => Body::point(),
+    let body = match p.inertia {
+        Some(inertia) => Body::rigid(Shape::of_half_sizes(p.a, p.b), inertia),
+        None => Body::point(),
     };
     let wave = Harmonic::ellipse(p.f_o, p.nu, p.omega);
     System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
 }
 
 fn rules<T: Real>(p: &Parameters<T>) -> Rules<T> {
-    let rotates = p.body == BodyKind::Rigid;
     let settling_height = T::from_decimal(SETTLING_HEIGHT);
     Rules {
-        rotation_limit: rotates.then(T::half_pi),
+        rotation_limit: (!p.is_point()).then(T::half_pi),
         upper_bound: Some(anchor_height(p.r, p.a) + p.b),
         settled_below: p.stop_when_settled.then_some(settling_height),
         sliding_above: p.stop_when_sliding.then_some(settling_height),

@@ -1,38 +1,15 @@
-//! The values that make a case: a plain struct, its defaults, and the check at the border.
+//! The values that make a case: a plain struct and its defaults.
+
 use crate::arithmetic::real::Real;
-use crate::case::error::CaseError;
-use crate::case::schema::{KEYS, LIGHTEST, check_entry};
 use crate::case::value::Value;
 
-/// What hangs on the cables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
-pub enum BodyKind {
-    /// A body with size and rotation.
-    #[default]
-    Rigid,
-    /// A point mass: a = b = 0, no rotation.
-    Point,
-}
+/// Below this y a cable that sticks, or two that are taut, settle the run (chapter 6.3.1).
+pub const SETTLING_HEIGHT: f64 = 0.05;
+/// The rotation limit π/2.
+pub const ROTATION_LIMIT: f64 = std::f64::consts::FRAC_PI_2;
 
-impl BodyKind {
-    /// The names, in the order of the variants.
-    pub const NAMES: &'static [&'static str] = &["rigid", "point"];
-
-    /// The name in a case file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::Point => "point",
-        }
-    }
-
-    /// The body of a name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Self::Rigid, Self::Point]
-            .into_iter()
-            .find(|kind| kind.name() == name)
-    }
-}
+/// What hangs on the cables: a body with size and rotation, or a point mass with neither.
+pub(crate) const BODIES: [&str; 2] = ["rigid", "point"];
 
 /// The values of all keys of a case, in nondimensional units (length L, mass m, force F, time T of
 /// the model), with numbers of type `T`.
@@ -49,7 +26,7 @@ pub struct Parameters<T = f64> {
     pub a: T,
     /// Half-height of the body; 0 is the circle.
     pub b: T,
-    /// Moment of inertia I; none for a point mass.
+    /// Moment of inertia I of a rigid body; without one the body is a point mass, a = b = 0.
     pub inertia: Option<T>,
     /// Force amplitude.
     pub f_o: T,
@@ -79,8 +56,6 @@ pub struct Parameters<T = f64> {
     pub stop_when_sliding: bool,
     /// Most impacts of a run.
     pub max_impacts: u64,
-    /// Rigid body or point mass.
-    pub body: BodyKind,
 }
 
 impl<T: Copy> Parameters<T> {
@@ -106,8 +81,12 @@ impl<T: Copy> Parameters<T> {
             stop_when_settled: self.stop_when_settled,
             stop_when_sliding: self.stop_when_sliding,
             max_impacts: self.max_impacts,
-            body: self.body,
         }
+    }
+
+    /// Whether the body is a point mass.
+    pub fn is_point(&self) -> bool {
+        self.inertia.is_none()
     }
 }
 
@@ -115,6 +94,13 @@ impl Default for Parameters {
     fn default() -> Self {
         Self::STANDARD
     }
+}
+
+/// Where a key's value is kept.
+enum Place<'a> {
+    Number(&'a mut f64),
+    Flag(&'a mut bool),
+    Count(&'a mut u64),
 }
 
 impl Parameters {
@@ -139,159 +125,64 @@ impl Parameters {
         stop_when_settled: true,
         stop_when_sliding: false,
         max_impacts: 1_000_000,
-        body: BodyKind::Rigid,
     };
 
-    /// A case from keys and values; keys left out take their defaults, and of a key given twice the
-    /// last value counts (each is checked).
-    ///
-    /// ```
-    /// use snapload::{Parameters, Value};
-    /// let square = Parameters::from_entries([("a", Value::Number(0.2)), ("b", Value::Number(0.2))])?;
-    /// assert_eq!(square.inertia, Some((0.2 * 0.2 + 0.2 * 0.2) / 3.0));
-    /// assert_eq!(square.r, 1.5);
-    /// # Ok::<(), snapload::CaseError>(())
-    /// ```
-    pub fn from_entries<K: AsRef<str>>(
-        entries: impl IntoIterator<Item = (K, Value)>,
-    ) -> Result<Self, CaseError> {
-        let mut p = Self {
-            inertia: None,
-            ..Self::STANDARD
-        };
-        let mut given = Vec::new();
-        for (name, value) in entries {
-            let key = check_entry(name.as_ref(), &value)?;
-            key.store(&mut p, &value)?;
-            given.push(key.name);
+    /// Whether a small change of a key that holds a number changes the motion smoothly. A point
+    /// mass has no size and no rotation, and a circle no half-height.
+    pub fn moves_by(&self, name: &str) -> bool {
+        if self.is_point() {
+            !["a", "b", "inertia", "theta", "vtheta"].contains(&name)
+        } else {
+            name != "b" || self.b > 0.0
         }
-        match p.body {
-            BodyKind::Point => {
-                p.a = if given.contains(&"a") { p.a } else { 0.0 };
-                p.b = if given.contains(&"b") { p.b } else { 0.0 };
-            }
-            BodyKind::Rigid if p.inertia.is_none() => p.inertia = natural_inertia(p.a, p.b),
-            BodyKind::Rigid => {}
-        }
-        p.check()?;
-        Ok(p)
     }
 
-    /// Whether a small change of a key that holds a number changes the motion smoothly. A point mass has no
-    /// size and no rotation, and a circle no half-height.
-    pub fn moves_by(&self, name: &str) -> bool {
-        match self.body {
-            BodyKind::Point => !["a", "b", "inertia", "theta", "vtheta"].contains(&name),
-            BodyKind::Rigid => name != "b" || self.b > 0.0,
+    /// The place of a key that is kept in a field of its own.
+    fn place(&mut self, name: &str) -> Option<Place<'_>> {
+        Some(match name {
+            "r" => Place::Number(&mut self.r),
+            "e" => Place::Number(&mut self.e),
+            "a" => Place::Number(&mut self.a),
+            "b" => Place::Number(&mut self.b),
+            "inertia" => Place::Number(self.inertia.as_mut()?),
+            "f_o" => Place::Number(&mut self.f_o),
+            "nu" => Place::Number(&mut self.nu),
+            "omega" => Place::Number(&mut self.omega),
+            "x" => Place::Number(&mut self.x),
+            "y" => Place::Number(&mut self.y),
+            "theta" => Place::Number(&mut self.theta),
+            "vx" => Place::Number(&mut self.vx),
+            "vy" => Place::Number(&mut self.vy),
+            "vtheta" => Place::Number(&mut self.vtheta),
+            "t_end" => Place::Number(&mut self.t_end),
+            "v_stick" => Place::Number(&mut self.v_stick),
+            "stop_when_settled" => Place::Flag(&mut self.stop_when_settled),
+            "stop_when_sliding" => Place::Flag(&mut self.stop_when_sliding),
+            "max_impacts" => Place::Count(&mut self.max_impacts),
+            _ => return None,
+        })
+    }
+
+    /// Puts the value of a key that was checked into its place.
+    pub(crate) fn store(&mut self, name: &str, value: &Value) {
+        match (self.place(name), value) {
+            (Some(Place::Number(place)), value) => *place = value.number().unwrap_or(*place),
+            (Some(Place::Count(place)), value) => *place = value.count().unwrap_or(*place),
+            (Some(Place::Flag(place)), Value::Bool(flag)) => *place = *flag,
+            _ => {}
         }
     }
 
     /// The value of a key; none for an unknown key, and for the inertia of a point mass.
     pub fn get(&self, name: &str) -> Option<Value> {
-        KEYS.iter().find(|key| key.name == name)?.get(self)
-    }
-
-    /// The names of all keys with their values, in the order of the schema.
-    pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<Value>)> + '_ {
-        KEYS.iter().map(|key| (key.name, key.get(self)))
-    }
-
-    /// The shortest list of keys and values that makes this case: those that are neither the default nor follow
-    /// from the others, as the inertia does from the size.
-    ///
-    /// ```
-    /// use snapload::{Parameters, Value};
-    /// let square = [("a", Value::Number(0.2)), ("b", Value::Number(0.2))];
-    /// let case = Parameters::from_entries(square.clone())?;
-    /// assert_eq!(case.differing(), square);
-    /// # Ok::<(), snapload::CaseError>(())
-    /// ```
-    pub fn differing(&self) -> Vec<(&'static str, Value)> {
-        let natural = natural_inertia(self.a, self.b);
-        let default = match self.body {
-            BodyKind::Rigid => Self {
-                inertia: natural,
-                ..Self::STANDARD
-            },
-            BodyKind::Point => Self {
-                a: 0.0,
-                b: 0.0,
-                inertia: None,
-                ..Self::STANDARD
-            },
-        };
-        self.entries()
-            .filter(|(key, value)| *value != default.get(key))
-            .filter_map(|(key, value)| Some((key, value?)))
-            .collect()
-    }
-
-    /// Checks every range, and what the keys ask of each other. The start's place among the cables
-    /// is not looked at here: that is geometry, and the business of the engine.
-    pub fn check(&self) -> Result<(), CaseError> {
-        KEYS.iter().try_for_each(|key| key.check(self))?;
-        match self.body {
-            BodyKind::Point => self.check_point()?,
-            BodyKind::Rigid => self.check_rigid()?,
+        if name == "body" {
+            return Some(BODIES[usize::from(self.is_point())].into());
         }
-        let needed = (1.0 - self.a).abs();
-        if self.r > needed {
-            return Ok(());
-        }
-        let (a, needed) = (Value::Number(self.a), Value::Number(needed));
-        let allowed = format!("r > |1 - a| = {needed} (a = {a})");
-        let hint = format!(
-            "the cables are too short to reach from the anchors to the body; choose r above {needed}"
-        );
-        Err(CaseError::value("r", Value::Number(self.r), allowed).with_hint(hint))
-    }
-
-    fn check_point(&self) -> Result<(), CaseError> {
-        let zero = [
-            ("a", self.a),
-            ("b", self.b),
-            ("theta", self.theta),
-            ("vtheta", self.vtheta),
-        ];
-        for (name, value) in zero {
-            if value != 0.0 {
-                let what = if name.len() == 1 {
-                    "no size"
-                } else {
-                    "no rotation"
-                };
-                let allowed = format!("0, as a point mass (body = \"point\") has {what}");
-                let hint = format!("set {name} = 0, or choose body = \"rigid\"");
-                return Err(CaseError::value(name, Value::Number(value), allowed).with_hint(hint));
-            }
-        }
-        match self.inertia {
-            None => Ok(()),
-            Some(inertia) => {
-                let allowed = "no inertia at all for a point mass (body = \"point\")";
-                let error = CaseError::value("inertia", Value::Number(inertia), allowed);
-                Err(error.with_hint("leave inertia out, or choose body = \"rigid\""))
-            }
-        }
-    }
-
-    fn check_rigid(&self) -> Result<(), CaseError> {
-        let (a, b) = (Value::Number(self.a), Value::Number(self.b));
-        let Some(inertia) = self.inertia else {
-            let allowed = format!(
-                "a number, 1e-12 <= inertia <= 1e6, as a = {a} and b = {b} give a rigid body none"
-            );
-            let error = CaseError::value("inertia", "(left out)", allowed);
-            return Err(
-                error.with_hint("give inertia, or a size a or b, or choose body = \"point\"")
-            );
-        };
-        let least = LIGHTEST * (self.a * self.a + self.b * self.b);
-        if inertia >= least {
-            return Ok(());
-        }
-        let allowed = format!("inertia >= 1e-6 (a^2 + b^2) = {least:e} (a = {a}, b = {b})");
-        Err(CaseError::value("inertia", Value::Number(inertia), allowed))
+        Some(match { *self }.place(name)? {
+            Place::Number(number) => Value::Number(*number),
+            Place::Flag(flag) => Value::Bool(*flag),
+            Place::Count(count) => Value::Integer(i64::try_from(*count).unwrap_or(i64::MAX)),
+        })
     }
 }
 

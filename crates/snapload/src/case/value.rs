@@ -1,4 +1,5 @@
-//! A value of a key, as it comes from a file, a command line or Python.
+//! A value of a key, as it comes from a file, a command line, a request or Python.
+
 use std::fmt;
 
 /// A value of a key before it is checked, and as it is echoed.
@@ -12,6 +13,48 @@ pub enum Value {
     Bool(bool),
     /// Text, such as `point`.
     Text(String),
+    /// Several values, such as the two numbers of a place.
+    List(Vec<Value>),
+}
+
+impl Value {
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            Self::Integer(number) => Some(*number as f64),
+            _ => None,
+        }
+    }
+
+    /// The whole number from 0 on, if it is one.
+    pub fn count(&self) -> Option<u64> {
+        match self {
+            Self::Integer(count) => u64::try_from(*count).ok(),
+            // The cast of a whole number below 2^53 is exact.
+            Self::Number(n) if n.fract() == 0.0 && (0.0..9e15).contains(n) => Some(*n as u64),
+            _ => None,
+        }
+    }
+
+    /// The two numbers, if it is a list of two.
+    pub fn pair(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::List(values) => match &values[..] {
+                [x, z] => Some([x.number()?, z.number()?]),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// The text, if it is one.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Self::Text(text) => Some(text),
+            _ => None,
+        }
+    }
 }
 
 impl From<f64> for Value {
@@ -38,6 +81,12 @@ impl From<&str> for Value {
     }
 }
 
+impl From<[f64; 2]> for Value {
+    fn from(pair: [f64; 2]) -> Self {
+        Self::List(pair.map(Self::Number).to_vec())
+    }
+}
+
 impl fmt::Display for Value {
     /// As it would stand in a case file, except that `NaN` and `inf` are Rust's.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -50,6 +99,10 @@ impl fmt::Display for Value {
             Self::Integer(n) => write!(f, "{n}"),
             Self::Bool(flag) => write!(f, "{flag}"),
             Self::Text(text) => write!(f, "\"{text}\""),
+            Self::List(values) => {
+                let values: Vec<String> = values.iter().map(Self::to_string).collect();
+                write!(f, "[{}]", values.join(", "))
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::claims::runs::{chapter, each, run, standard};
 use crate::claims::verdict::{Finding, Judged, Judges};
 use crate::study::first_exceeding;
 use snapload::analysis::ForceScan;
-use snapload::{BodyKind, Case, CaseError, Parameters, Playback, Trajectory};
+use snapload::{Case, CaseError, Parameters, Playback, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     ("6.4.3-06", |sweeps| {
@@ -51,7 +51,6 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
 /// The point mass in the place of the body.
 fn point(parameters: Parameters) -> Parameters {
     Parameters {
-        body: BodyKind::Point,
         a: 0.0,
         b: 0.0,
         inertia: None,

@@ -17,8 +17,9 @@ pub use monitor::TrustMonitor;
 use crate::analysis::progress::{OnProgress, Unfinished, record};
 use crate::case::Case;
 use crate::case::error::CaseError;
+use crate::case::key::Key;
+use crate::case::keys::key_named;
 use crate::case::parameters::Parameters;
-use crate::case::schema::{Key, key_named};
 use crate::case::value::Value;
 use crate::motion::trajectory::Trajectory;
 

@@ -1,0 +1,275 @@
+//! What a key is: name, words, unit, type, range and default. Whatever tells of a key is made from
+//! this.
+
+use crate::case::error::CaseError;
+use crate::case::value::Value;
+use std::fmt::Display;
+
+/// The type of a key and the range of its values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// A finite number.
+    Number(Bounds),
+    /// Two numbers `[x, z]`, neither larger in magnitude than this.
+    Pair(f64),
+    /// A whole number from the first to the second, both allowed.
+    Count(u64, u64),
+    /// `true` or `false`.
+    Flag,
+    /// One of some words.
+    Choice(&'static [&'static str]),
+    /// Any text.
+    Text,
+}
+
+/// The bounds of a number; the upper one is always allowed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // they are what they are called
+pub struct Bounds {
+    pub low: f64,
+    pub low_included: bool,
+    pub high: f64,
+}
+
+impl Kind {
+    /// A number above 0.
+    pub const fn positive(high: f64) -> Self {
+        let (low, low_included) = (0.0, false);
+        Self::Number(Bounds {
+            low,
+            low_included,
+            high,
+        })
+    }
+
+    /// A number from `low` to `high`, both allowed.
+    pub const fn number(low: f64, high: f64) -> Self {
+        let low_included = true;
+        Self::Number(Bounds {
+            low,
+            low_included,
+            high,
+        })
+    }
+}
+
+/// What holds where a key is left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DefaultValue {
+    /// It must not be left out.
+    Required,
+    /// This number.
+    Number(f64),
+    /// This whole number.
+    Count(i64),
+    /// This.
+    Flag(bool),
+    /// This word.
+    Word(&'static str),
+    /// What these words say; it depends on other keys.
+    Derived(&'static str),
+}
+
+impl DefaultValue {
+    /// As a value; none where there is no plain one.
+    pub fn value(self) -> Option<Value> {
+        match self {
+            Self::Required | Self::Derived(_) => None,
+            Self::Number(number) => Some(number.into()),
+            Self::Count(count) => Some(count.into()),
+            Self::Flag(flag) => Some(flag.into()),
+            Self::Word(word) => Some(word.into()),
+        }
+    }
+}
+
+/// One key of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Its name in files and on the command line.
+    pub name: &'static str,
+    /// Its symbol in the text of the model; the name where there is none.
+    pub symbol: &'static str,
+    /// Its unit; `1` where it has none, empty where it is no number.
+    pub unit: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    /// What it is about; the keys of a group stand together wherever they are shown.
+    pub group: &'static str,
+    /// Its type and range.
+    pub kind: Kind,
+    /// What holds without it.
+    pub default: DefaultValue,
+    /// Where one looks first, from and to: what a slider spans. None where sliding tells nothing.
+    pub usual: Option<[f64; 2]>,
+    /// A condition beside the range; empty where there is none.
+    pub also: &'static str,
+}
+
+impl Key {
+    /// A key whose name says enough to be its symbol, and whose range is its only condition.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        kind: Kind,
+        default: DefaultValue,
+        meaning: &'static str,
+    ) -> Self {
+        let (symbol, group, also, usual) = (name, "", "", None);
+        Self {
+            name,
+            symbol,
+            unit,
+            meaning,
+            group,
+            kind,
+            default,
+            usual,
+            also,
+        }
+    }
+
+    /// The same with the range in which one looks first.
+    pub const fn usual(mut self, low: f64, high: f64) -> Self {
+        self.usual = Some([low, high]);
+        self
+    }
+
+    /// The same with a symbol.
+    pub const fn symbol(mut self, symbol: &'static str) -> Self {
+        self.symbol = symbol;
+        self
+    }
+
+    /// The same with a condition beside the range, in words.
+    pub const fn also(mut self, also: &'static str) -> Self {
+        self.also = also;
+        self
+    }
+
+    /// The allowed values in words, such as `0 <= e <= 1`.
+    pub fn allowed(&self) -> String {
+        let name = self.name;
+        let range = match self.kind {
+            Kind::Number(Bounds {
+                low,
+                low_included,
+                high,
+            }) => {
+                let sign = if low_included { "<=" } else { "<" };
+                format!("{} {sign} {name} <= {}", short(low), short(high))
+            }
+            Kind::Pair(limit) => format!("[x, z], each from -{0} to {0}", short(limit)),
+            Kind::Count(low, u64::MAX) => format!("a whole number, {low} or more"),
+            Kind::Count(low, high) => {
+                let (low, high) = (short(low as f64), short(high as f64));
+                format!("a whole number, {low} <= {name} <= {high}")
+            }
+            Kind::Flag => "true or false".to_owned(),
+            Kind::Choice(words) => {
+                let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                quoted.join(" or ")
+            }
+            Kind::Text => "a text in quotes".to_owned(),
+        };
+        let join = if self.also.is_empty() { "" } else { "; " };
+        format!("{range}{join}{}", self.also)
+    }
+
+    /// What holds without it, in words.
+    pub fn default_words(&self) -> String {
+        match (self.default, self.default.value()) {
+            (DefaultValue::Derived(words), _) => words.to_owned(),
+            (_, Some(value)) => value.to_string(),
+            (_, None) => "required".to_owned(),
+        }
+    }
+
+    /// Its unit, where it has one.
+    pub fn own_unit(&self) -> Option<&'static str> {
+        (!matches!(self.unit, "" | "1")).then_some(self.unit)
+    }
+
+    /// Whether this key can take the value.
+    pub(crate) fn takes(&self, value: &Value) -> bool {
+        match self.kind {
+            Kind::Number(Bounds {
+                low,
+                low_included,
+                high,
+            }) => {
+                // NaN fails every comparison, infinity the upper or the lower one.
+                let above = |n: f64| n > low || (low_included && n == low);
+                value.number().is_some_and(|n| above(n) && n <= high)
+            }
+            Kind::Pair(limit) => {
+                let pair = value.pair();
+                pair.is_some_and(|pair| pair.iter().all(|n| n.abs() <= limit))
+            }
+            Kind::Count(low, high) => value.count().is_some_and(|n| (low..=high).contains(&n)),
+            Kind::Flag => matches!(value, Value::Bool(_)),
+            Kind::Choice(words) => value.text().is_some_and(|word| words.contains(&word)),
+            Kind::Text => value.text().is_some(),
+        }
+    }
+
+    /// An error unless this key can take the value; `path` is how the error calls the key.
+    pub(crate) fn check(&self, path: &str, value: &Value) -> Result<(), CaseError> {
+        match value {
+            value if self.takes(value) => Ok(()),
+            Value::List(_) if !matches!(self.kind, Kind::Pair(_)) => {
+                Err(self.refuse(path, "(a list)"))
+            }
+            value => {
+                let meant = value.text().and_then(|text| self.unquoted(text.trim()));
+                let mut error = self.refuse(path, value);
+                error.hint = meant.map(|meant| format!("write {path} = {meant}").into());
+                Err(error)
+            }
+        }
+    }
+
+    /// The error of something that this key can not take, whatever it is; `path` is how the error
+    /// calls the key, such as `e` or `body.mass`.
+    pub fn refuse(&self, path: &str, shown: impl Display) -> CaseError {
+        let numbers = match self.kind {
+            Kind::Number(_) => "a number",
+            Kind::Pair(_) => "two numbers",
+            _ => return CaseError::value(path, shown, self.allowed()),
+        };
+        // The keys of a case without tables are multiples of its own units.
+        let unit = self.own_unit().filter(|_| path != self.name);
+        let unit = unit.map_or(String::new(), |unit| format!(" in {unit}"));
+        CaseError::value(path, shown, format!("{numbers}{unit}, {}", self.allowed()))
+    }
+
+    /// What a text would be if its author had written it in the way of the file.
+    fn unquoted(&self, text: &str) -> Option<String> {
+        match self.kind {
+            Kind::Number(_) | Kind::Count(..) => {
+                let comma = text.replacen(',', ".", 1);
+                let meant = Value::Number(comma.parse().ok()?);
+                self.takes(&meant).then(|| meant.to_string())
+            }
+            Kind::Flag => match text.to_ascii_lowercase().as_str() {
+                "true" | "yes" | "on" | "1" => Some("true".to_owned()),
+                "false" | "no" | "off" | "0" => Some("false".to_owned()),
+                _ => None,
+            },
+            Kind::Choice(words) => {
+                let meant = words.iter().find(|word| word.eq_ignore_ascii_case(text))?;
+                Some(format!("\"{meant}\""))
+            }
+            Kind::Pair(_) | Kind::Text => None,
+        }
+    }
+}
+
+/// A bound as one writes it: `1e6` rather than `1000000`.
+fn short(number: f64) -> String {
+    if number != 0.0 && !(1e-3..1e5).contains(&number.abs()) {
+        format!("{number:e}")
+    } else {
+        format!("{number}")
+    }
+}

@@ -1,0 +1,212 @@
+//! Keys and values out of TOML and out of `--set KEY=VALUE`. Text is all that is read: whoever has
+//! files opens them.
+
+use crate::case::entries::Entries;
+use crate::case::error::CaseError;
+use crate::case::schema::{Heading, Schema, Table};
+use crate::case::value::Value;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+impl Entries {
+    /// The keys of a case file; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the line, the key, its value and what is allowed.
+    pub fn parse(schema: &'static Schema, name: &str, text: &str) -> Result<Self, CaseError> {
+        let mut entries = Self::new(schema);
+        let line = |at: usize| format!("{name}, line {}", line_of(text, at));
+        let document = DeTable::parse(text);
+        let document = document.map_err(|error| malformed(schema, name, text, &error))?;
+        for (key, value) in in_order(document.get_ref()) {
+            let (word, at) = (key.get_ref().as_ref(), key.span().start);
+            match (schema.table(word), schema.top(word)) {
+                (Ok(table), _) => {
+                    for keys in tables(table, value.get_ref()).map_err(|e| e.at(line(at)))? {
+                        let index = entries.add(table.name);
+                        for (key, value) in in_order(keys) {
+                            let place = line(key.span().start);
+                            entries.read(table, index, key.get_ref(), value.get_ref(), &place)?;
+                        }
+                    }
+                }
+                (_, Some(table)) => entries.read(table, 0, word, value.get_ref(), &line(at))?,
+                (Err(unknown), None) => return Err(unknown.at(line(at))),
+            }
+        }
+        Ok(entries)
+    }
+
+    fn read(
+        &mut self,
+        table: &'static Table,
+        index: usize,
+        key: &str,
+        value: &DeValue<'_>,
+        place: &str,
+    ) -> Result<(), CaseError> {
+        match value_of(value) {
+            Ok(value) => self.give(table.name, index, key, value, place),
+            Err(shown) => Err(refuse(table, &table.path(index, key), key, shown).at(place)),
+        }
+    }
+
+    /// Changes one key, from text such as `f_o=0.5` or `line.2.length = 6`; `line.length` changes
+    /// every line. A word needs no quotes.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key, its value and what is allowed.
+    pub fn set(&mut self, text: &str) -> Result<(), CaseError> {
+        let (path, value) = text.split_once('=').ok_or_else(|| self.no_setting(text))?;
+        let (path, value) = (path.trim(), value.trim());
+        let mut change = || -> Result<(), CaseError> {
+            let (table, mut indices, key) = self.meant(path)?;
+            let value = parse_value(value).map_err(|shown| refuse(table, path, key, shown))?;
+            let known = table.key(path, key);
+            known.map_err(|error| error.given(&value))?;
+            indices.try_for_each(|index| self.give(table.name, index, key, value.clone(), "--set"))
+        };
+        change().map_err(|error| error.at("--set"))
+    }
+
+    /// Which key of which tables a path means; of all where no number is said.
+    fn meant<'a>(
+        &self,
+        path: &'a str,
+    ) -> Result<(&'static Table, std::ops::Range<usize>, &'a str), CaseError> {
+        if let Some(table) = self.schema.top(path) {
+            return Ok((table, 0..1, path));
+        }
+        let (name, rest) = path.split_once('.').unwrap_or((path, ""));
+        let table = self.schema.table(name)?;
+        let (count, many) = (self.count(name), table.heading == Heading::Many);
+        let Some((number, key)) = rest.split_once('.') else {
+            return Ok((table, 0..if many { count } else { 1 }, rest));
+        };
+        match number.parse::<usize>() {
+            Ok(n) if many && (1..=count).contains(&n) => Ok((table, n - 1..n, key)),
+            _ => {
+                let allowed = match many {
+                    true => format!("the number of a {name}, from 1 to {count}"),
+                    false => format!("no number, as there is one {} only", table.header()),
+                };
+                let path = format!("{name}.{number}");
+                Err(CaseError::value(&path, "(given)", allowed))
+            }
+        }
+    }
+
+    fn no_setting(&self, text: &str) -> CaseError {
+        let Schema {
+            tables, example, ..
+        } = self.schema;
+        let headed = tables.iter().all(|table| table.heading != Heading::None);
+        let form = if headed { "TABLE.KEY" } else { "KEY" };
+        let said = format!("no value; write --set {form}=VALUE, such as --set {example}");
+        CaseError::syntax(said).at(format!("--set {text:?}"))
+    }
+}
+
+/// A value as it stands on a command line, where a word needs no quotes; else what it is instead.
+pub fn parse_value(text: &str) -> Result<Value, &'static str> {
+    match DeValue::parse(text) {
+        _ if text.is_empty() => Err("(nothing)"),
+        Ok(value) => value_of(value.get_ref()),
+        Err(_) => Ok(Value::Text(text.to_owned())),
+    }
+}
+
+/// The names of the tables in a file, `[name]` or `[[name]]`; none if it is no TOML.
+pub fn table_names(text: &str) -> Vec<String> {
+    let document = DeTable::parse(text).map(Spanned::into_inner);
+    let tables = document
+        .unwrap_or_default()
+        .into_iter()
+        .filter(|(_, value)| {
+            let value = value.get_ref();
+            value.is_table() || value.is_array()
+        });
+    tables
+        .map(|(key, _)| key.into_inner().into_owned())
+        .collect()
+}
+
+/// In the order of the file, so that the first fault in it is the one reported.
+fn in_order<'a, 'i>(
+    table: &'a DeTable<'i>,
+) -> Vec<(&'a Spanned<DeString<'i>>, &'a Spanned<DeValue<'i>>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+/// The keys below each heading of a table.
+fn tables<'a, 'i>(
+    table: &Table,
+    value: &'a DeValue<'i>,
+) -> Result<Vec<&'a DeTable<'i>>, CaseError> {
+    let tables: Option<Vec<_>> = match (value, table.heading) {
+        (DeValue::Table(keys), Heading::One | Heading::Optional) => Some(vec![keys]),
+        (DeValue::Array(items), Heading::Many) => {
+            items.iter().map(|item| item.get_ref().as_table()).collect()
+        }
+        _ => None,
+    };
+    tables.ok_or_else(|| {
+        let allowed = format!("a line {} with its keys below it", table.header());
+        CaseError::value(table.name, "(something else)", allowed)
+    })
+}
+
+fn refuse(table: &Table, path: &str, key: &str, shown: &str) -> CaseError {
+    match table.key(path, key) {
+        Ok(key) => key.refuse(path, shown),
+        Err(error) => error,
+    }
+}
+
+/// A value of TOML as a value of a key; else what it is instead, in words.
+fn value_of(value: &DeValue<'_>) -> Result<Value, &'static str> {
+    let beyond = "(a number beyond all bounds)";
+    Ok(match value {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Boolean(flag) => Value::Bool(*flag),
+        DeValue::Integer(digits) => {
+            let number = i64::from_str_radix(digits.as_str(), digits.radix());
+            Value::Integer(number.map_err(|_| beyond)?)
+        }
+        DeValue::Float(digits) => Value::Number(digits.as_str().parse().map_err(|_| beyond)?),
+        DeValue::Array(items) => {
+            let values = items.iter().map(|item| value_of(item.get_ref()));
+            Value::List(values.collect::<Result<_, _>>().map_err(|_| "(a list)")?)
+        }
+        DeValue::Table(_) => return Err("(a table)"),
+        DeValue::Datetime(_) => return Err("(a date or time)"),
+    })
+}
+
+fn line_of(text: &str, at: usize) -> usize {
+    text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
+}
+
+/// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated,
+/// since it may be long, or hold what a terminal would obey.
+fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -> CaseError {
+    let at = error.span().unwrap_or_default().start;
+    let before = text.get(..at).unwrap_or_default();
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    let said: String = error
+        .message()
+        .chars()
+        .filter(|c| !c.is_control())
+        .collect();
+    let form = schema.form;
+    CaseError::syntax(said)
+        .with_hint(format!(
+            "a case file has {form}; words stand in quotes, and decimals have a point"
+        ))
+        .at(format!(
+            "{name}, line {}, column {column}",
+            line_of(text, at)
+        ))
+}
