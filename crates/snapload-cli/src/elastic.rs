@@ -1,6 +1,8 @@
 //! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
+use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::structure_input::{Answers, StructureArgs};
+use snapload::analysis::{Progress, Unfinished};
 use snapload_structure::{BothModels, Prepared, both_models};
 use std::io;
 use std::path::PathBuf;
@@ -47,9 +49,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, structure) = args.input.read()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
     let both = Prepared::new(structure)
-        .and_then(|prepared| both_models(prepared, args.stiffer, every_s))
-        .map_err(|error| Failure::bad_input(error).with_prefix(&name))?;
+        .map_err(Unfinished::from)
+        .and_then(|prepared| both_models(prepared, args.stiffer, every_s, &on_progress))
+        .map_err(|error| Failure::from(error).with_prefix(&name))?;
+    drop(bar);
     answers.write(|out| table(&both, out))?;
     answers.finish(&both.to_json(&name), both.summary(&name))
 }

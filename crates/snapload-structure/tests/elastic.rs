@@ -1,5 +1,6 @@
 //! Lines that stretch: motions that are known, and the limit in which they do not.
 
+use snapload::analysis::unwatched;
 use snapload_structure::{
     ElasticRun, Prepared, STRUCTURE, Spring, Structure, damping_ratio, run_elastic, springs,
 };
@@ -27,7 +28,7 @@ fn prepared(text: &str, set: &[&str]) -> Prepared {
 const CYLINDER: &str = include_str!("../../../docs/examples/cylinder.toml");
 
 fn run(prepared: &Prepared, springs: &[Spring]) -> ElasticRun {
-    run_elastic(prepared, springs, 0.05, || false).expect("a run")
+    run_elastic(prepared, springs, 0.05, &unwatched).expect("a run")
 }
 
 /// Let go below, the body rises at F/M to speed v = sqrt(2 F h/M), and a spring k stops it with

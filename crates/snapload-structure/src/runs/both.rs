@@ -5,6 +5,7 @@ use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
 use snapload::CaseError;
+use snapload::analysis::{OnProgress, Unfinished};
 use std::time::Instant;
 
 /// The same case on both models of a line.
@@ -32,15 +33,16 @@ pub struct BothModels {
 /// stretch; the motion on the former is kept every `every_s` seconds.
 ///
 /// # Errors
-/// A [`CaseError`] if a line has no stiffness, or the integrator gives up.
+/// A [`CaseError`] if a line has no stiffness, or the integrator gives up, and [`Unfinished::Cancelled`].
 pub fn both_models(
     prepared: Prepared,
     stiffer: f64,
     every_s: f64,
-) -> Result<BothModels, CaseError> {
+    on_progress: OnProgress,
+) -> Result<BothModels, Unfinished> {
     let springs = springs(&prepared, stiffer)?;
     let clock = Instant::now();
-    let elastic = run_elastic(&prepared, &springs, every_s, || false)?;
+    let elastic = run_elastic(&prepared, &springs, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let (snaps, slack_fraction) = inextensible(&prepared)?;

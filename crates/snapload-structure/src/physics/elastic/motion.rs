@@ -15,6 +15,7 @@ use super::record::{ElasticRun, Record};
 use crate::physics::prepared::Prepared;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
+use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, State, TautSet};
 use std::f64::consts::FRAC_PI_2;
 
@@ -177,21 +178,21 @@ where
 }
 
 /// Runs a structure on lines that stretch, to the end of its duration or until it is turned by a
-/// quarter. `look_s` is the time between the states that are kept; `stop` is asked now and then
-/// whether to end.
+/// quarter. `look_s` is the time between the states that are kept.
 ///
 /// # Errors
-/// A [`CaseError`] if there are not as many springs as lines, or the integrator gives up.
+/// A [`CaseError`] if there are not as many springs as lines, or the integrator gives up, and
+/// [`Unfinished::Cancelled`].
 pub fn run_elastic(
     prepared: &Prepared,
     springs: &[Spring],
     look_s: f64,
-    stop: impl Fn() -> bool,
-) -> Result<ElasticRun, CaseError> {
+    on_progress: OnProgress,
+) -> Result<ElasticRun, Unfinished> {
     let model = &prepared.model;
     if springs.len() != model.system.cables.len() {
         let shown = springs.len().to_string();
-        return Err(CaseError::value("springs", shown, "one for each line"));
+        return Err(CaseError::value("springs", shown, "one for each line").into());
     }
     let body = SprungBody {
         system: &model.system,
@@ -203,7 +204,8 @@ pub fn run_elastic(
     record.change(t, &state, TautSet::SLACK, pulling);
     record.see(t, &state, pulling);
     let end = model.rules.t_end;
-    while t < end && state.theta.abs() < FRAC_PI_2 && !stop() {
+    while t < end && state.theta.abs() < FRAC_PI_2 {
+        Progress::new("lines that stretch", t, end).tell(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
         let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
         let phase = Phase {
