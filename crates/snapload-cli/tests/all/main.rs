@@ -1,0 +1,14 @@
+//! All tests of the command from outside, as one program: it is linked once, and the tests of all files run side by
+//! side.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod command_line;
+mod common;
+mod documents;
+mod explore;
+mod physics;
+mod report;
+mod structure;
+mod sweep;
+mod system;
+mod trust;

@@ -1,0 +1,175 @@
+//! Real runs through the command line: the built-in cases, their outputs, the critical force.
+
+use crate::common::{directory, listing, snapload};
+use serde_json::Value;
+use snapload::{named_cases, series_of};
+use std::path::Path;
+
+fn run(directory: &Path, verb: &str, args: &[&str]) -> Value {
+    let out = snapload(directory)
+        .arg(verb)
+        .args(args)
+        .args(["--json", "-"])
+        .assert()
+        .success();
+    serde_json::from_slice(&out.get_output().stdout).unwrap()
+}
+
+/// Every row of Table 6.1, the printed variants and both examples run to an end that the schema knows,
+/// and what the JSON says hangs together.
+#[test]
+fn every_built_in_case_runs() {
+    let d = directory();
+    for case in named_cases() {
+        let answer = run(d.path(), "run", &["--case", case.code]);
+        let end = answer["end"]["t"].as_f64().unwrap();
+        let modes = answer["modes"].as_array().unwrap();
+        assert_eq!(modes[0]["t_start"], 0.0, "{}", case.code);
+        assert_eq!(modes[modes.len() - 1]["t_end"].as_f64(), Some(end));
+        let impacts = answer["impacts"].as_array().unwrap();
+        let v_n = impacts.iter().map(|i| i["v_n"].as_f64().unwrap());
+        let rho3 = answer["norms"]["rho3"].as_f64().unwrap();
+        assert!((v_n.clone().sum::<f64>() - rho3).abs() < 1e-12 * rho3);
+        assert_eq!(v_n.fold(0.0, f64::max), answer["norms"]["rho1"]);
+        let reason = answer["end"]["reason"].as_str().unwrap();
+        let stops = series_of(case.code).next().is_some() || !case.about.is_empty();
+        assert!(
+            stops && ["settled", "rotation_limit", "end_time", "upper_bound"].contains(&reason)
+        );
+    }
+}
+
+/// At an event's instant a sample is the state after it, and the end is listed once.
+#[test]
+fn samples_are_taken_after_events_and_at_the_end() {
+    let d = directory();
+    let first = run(d.path(), "run", &[]);
+    let impact = &first["impacts"][0];
+    let dt = impact["t"].to_string();
+    let answer = run(d.path(), "run", &["--sample", &dt]);
+    let motion = answer["motion"].as_array().unwrap();
+    assert_eq!(motion[1]["t"], impact["t"]);
+    for (k, key) in ["x", "y", "theta", "vx", "vy", "vtheta"].iter().enumerate() {
+        assert_eq!(motion[1][key], impact["after"][k]);
+    }
+    assert_eq!(motion[motion.len() - 1]["t"], answer["end"]["t"]);
+    let step = impact["t"].as_f64().unwrap();
+    assert_eq!(motion[2]["t"].as_f64(), Some(2.0 * step));
+    // Sampling changes nothing else.
+    assert_eq!(answer["impacts"], first["impacts"]);
+}
+
+/// Tensions are those of the taut cables; a rocking body at rest hangs on both.
+#[test]
+fn tensions_hold_the_weight() {
+    let d = directory();
+    let rest = [
+        "--set",
+        "f_o=0",
+        "--set",
+        "y=0",
+        "--set",
+        "stop_when_settled=false",
+        "--set",
+        "t_end=1",
+        "--sample",
+        "0.5",
+    ];
+    let answer = run(d.path(), "run", &rest);
+    assert_eq!(answer["modes"][0]["mode"], "rocking");
+    for row in answer["motion"].as_array().unwrap() {
+        // 2 T h/r = 1 with h = 1.2, r = 1.5.
+        for cable in ["T1", "T2"] {
+            assert!((row[cable].as_f64().unwrap() - 0.625).abs() < 1e-14);
+        }
+    }
+    // With the settling rule on, the same start is settled already.
+    let settled = run(d.path(), "run", &["--set", "y=0"]);
+    assert_eq!(settled["end"]["reason"], "settled");
+    assert_eq!(
+        (
+            settled["end"]["t"].as_f64(),
+            settled["modes"].as_array().unwrap().len()
+        ),
+        (Some(0.0), 0)
+    );
+}
+
+#[test]
+fn a_directory_gets_tables_and_pictures() {
+    let d = directory();
+    snapload(d.path())
+        .args([
+            "run",
+            "--case",
+            "sliding-example",
+            "--set",
+            "t_end=12",
+            "--out",
+            "results",
+        ])
+        .assert()
+        .success();
+    let names = listing(&d.path().join("results"));
+    let mut wanted = vec!["impacts.csv", "modes.csv", "motion.csv", "run.json"];
+    let pictures = ["trajectory", "rotation", "snaps", "tensions", "energy"];
+    let files: Vec<String> = pictures
+        .iter()
+        .flat_map(|p| [format!("{p}.svg"), format!("{p}.png")])
+        .collect();
+    wanted.extend(files.iter().map(String::as_str));
+    wanted.sort_unstable();
+    assert_eq!(names, wanted);
+    let trajectory = std::fs::read_to_string(d.path().join("results/trajectory.svg")).unwrap();
+    for letter in ["I", "S", "G", "R", "E"] {
+        assert!(trajectory.contains(&format!(">{letter}<")), "mark {letter}");
+    }
+}
+
+#[test]
+fn the_critical_force_is_found_and_so_is_all_that_exceeds() {
+    let d = directory();
+    let standard = run(d.path(), "critical", &[]);
+    assert_eq!(standard["f_cr"], 0.31);
+    assert_eq!(standard["reason"], "rotation_limit");
+    let intervals = standard["exceeding"].as_array().unwrap();
+    assert_eq!(intervals[0][0], 0.31);
+    let inside = |f_o: f64| {
+        intervals
+            .iter()
+            .any(|i| i[0].as_f64() <= Some(f_o) && Some(f_o) <= i[1].as_f64())
+    };
+    assert!(!inside(0.4) && inside(0.5));
+    let calm = run(d.path(), "critical", &["--max", "0.3"]);
+    assert!(calm["f_cr"].is_null() && calm["exceeding"].as_array().unwrap().is_empty());
+    let over = run(
+        d.path(),
+        "critical",
+        &["--over", "r=1.5:2.5:2", "--max", "0.4"],
+    );
+    assert_eq!(over["over"], "r");
+    assert_eq!(over["points"][1]["f_cr"], 0.1);
+}
+
+#[test]
+fn critical_refuses_in_words() {
+    let d = directory();
+    let refused = |args: &[&str], wanted: &'static str| {
+        snapload(d.path())
+            .arg("critical")
+            .args(args)
+            .assert()
+            .code(2)
+            .stderr(predicates::str::contains(wanted));
+    };
+    refused(&["--over", "e"], "no values");
+    refused(&["--over", "e=0:1"], "three numbers");
+    refused(&["--over", "e=0:x:3"], "not a number");
+    refused(&["--over", "e=0:1:0"], "whole number");
+    refused(&["--over", "omgea=0:1:3"], "did you mean omega");
+    refused(&["--over", "f_o=0:1:3"], "what is sought");
+    refused(&["--over", "e=0:2:3"], "0 <= e <= 1");
+    refused(&["--step", "0"], "--step = 0");
+    refused(&["--max", "1e9"], "million");
+    assert!(listing(d.path()).is_empty());
+}

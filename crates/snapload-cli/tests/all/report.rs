@@ -1,0 +1,347 @@
+//! The report as a reader meets it: written by the command, opened in a real browser, its commands run.
+
+use crate::common::{directory, listing, snapload};
+use serde_json::Value;
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::LazyLock;
+use tempfile::TempDir;
+
+/// Debian's Chromium, which the test command installs.
+const BROWSER: &str = "chromium";
+
+/// The report, made once for all tests.
+static MADE: LazyLock<TempDir> = LazyLock::new(|| {
+    let d = directory();
+    let mut command = snapload(d.path());
+    command.args(["reproduce", "--out", "chapter"]);
+    command.assert().success();
+    d
+});
+
+/// A file of the report.
+fn place(name: &str) -> PathBuf {
+    MADE.path().join("chapter").join(name)
+}
+
+fn read(name: &str) -> String {
+    fs::read_to_string(place(name)).unwrap()
+}
+
+/// The page after its scripts, had it any, and what the browser complained of.
+fn opened(page: &Path, more: &[&str]) -> (String, String) {
+    let profile = directory();
+    let out = Command::new(BROWSER)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--disable-sync",
+            "--enable-logging=stderr",
+        ])
+        .arg(format!("--user-data-dir={}", profile.path().display()))
+        .args(more)
+        .arg(format!("file://{}", page.display()))
+        .output()
+        .expect("chromium, which test.sh installs");
+    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+    (text(out.stdout), text(out.stderr))
+}
+
+#[test]
+fn the_report_opens_with_every_figure() {
+    let (dom, said) = opened(&place("report.html"), &["--dump-dom"]);
+    assert!(
+        !said.contains("CONSOLE") || !said.contains("Error"),
+        "{said}"
+    );
+    // Self-contained: nothing is loaded from anywhere.
+    assert!(!dom.contains("src=\"") && !dom.contains("<link") && !dom.contains("<script"));
+
+    for number in 1..=45 {
+        let id = format!("figure-6-{number}");
+        let figure = figure(&dom, number);
+        assert!(
+            figure.contains("<svg") && figure.matches("<path").count() > 2,
+            "{id} is empty"
+        );
+        assert!(figure.contains(&format!("Fig. 6.{number}. ")) && figure.contains("snapload"));
+        let data = read(&format!("figures/{id}.csv"));
+        assert!(data.lines().count() > 3, "{id} has no data");
+        assert!(place(&format!("figures/{id}.svg")).is_file());
+    }
+    let files = listing(&place(""));
+    let expected = [
+        "claims.json",
+        "figures",
+        "report.html",
+        "table-6-1.csv",
+        "table-6-2.csv",
+    ];
+    assert_eq!(files, expected);
+    for table in ["table-6-1.csv", "table-6-2.csv"] {
+        assert!(read(table).lines().count() > 30, "{table}");
+    }
+    let claims = claims();
+    assert!(claims.len() >= 60, "{}", claims.len());
+    for claim in &claims {
+        let text = |key: &str| claim[key].as_str().unwrap();
+        assert!(["reproduced", "not reproduced", "not decidable"].contains(&text("verdict")));
+        for key in ["id", "section", "claim", "evidence"] {
+            assert!(!text(key).is_empty(), "{claim}");
+        }
+        assert!(dom.contains(&format!("id=\"claim-{}\"", text("id"))));
+    }
+    // Every link inside the page leads somewhere, and every file beside it is there.
+    for target in dom.split("href=\"").skip(1).map(until_quote) {
+        match target.strip_prefix('#') {
+            Some(id) => assert!(dom.contains(&format!("id=\"{id}\"")), "no {id}"),
+            None => assert!(place(target).is_file(), "no {target}"),
+        }
+    }
+}
+
+/// On a phone nothing is wider than the screen but the tables, which scroll by themselves.
+#[test]
+fn the_report_fits_a_phone() {
+    let shot = MADE.path().join("shot.png");
+    let option = format!("--screenshot={}", shot.display());
+    let page = place("report.html");
+    opened(&page, &["--window-size=400,3000", &option]);
+    assert!(fs::metadata(&shot).unwrap().len() > 50_000);
+
+    // A window is never narrower than 500 pixels, so the page is put into a frame.
+    let frame = MADE.path().join("phone.html");
+    let script = "const page = frames[0].document.documentElement; \
+                  document.title = page.scrollWidth - page.clientWidth + ' too wide'";
+    let html = format!(
+        "<iframe src=\"chapter/report.html\" style=\"width:390px;height:800px;border:0\" \
+         onload=\"{script}\"></iframe>"
+    );
+    fs::write(&frame, html).unwrap();
+    let (dom, said) = opened(&frame, &["--allow-file-access-from-files", "--dump-dom"]);
+    assert!(dom.contains("<title>0 too wide</title>"), "{dom}\n{said}");
+}
+
+fn claims() -> Vec<Value> {
+    serde_json::from_str(&read("claims.json")).unwrap()
+}
+
+fn until_quote(text: &str) -> &str {
+    text.split('"').next().unwrap()
+}
+
+fn figure(page: &str, number: usize) -> &str {
+    let start = page.find(&format!("id=\"figure-6-{number}\""));
+    let start = start.unwrap_or_else(|| panic!("no figure {number}"));
+    &page[start..start + page[start..].find("</figure>").unwrap()]
+}
+
+/// The text of a piece of HTML.
+fn text_of(html: &str) -> String {
+    let mut text = String::new();
+    for part in html.split('<') {
+        text.push_str(part.split_once('>').map_or(part, |(_, text)| text));
+    }
+    let named = [
+        ("&lt;", "<"),
+        ("&gt;", ">"),
+        ("&quot;", "\""),
+        ("&amp;", "&"),
+    ];
+    named
+        .iter()
+        .fold(text, |text, (name, c)| text.replace(name, c))
+}
+
+/// The commands of the page, in the order of their numbers.
+fn commands(page: &str) -> Vec<String> {
+    let items = page.split("<li id=\"command-").skip(1);
+    let command = |item: &str| {
+        let (_, html) = item.split_once('>').unwrap();
+        text_of(&html[..html.find("</li>").unwrap()])
+    };
+    items.map(command).collect()
+}
+
+/// A number of the page: as it is shown, the number of its command, its place in what that prints.
+struct Shown {
+    text: String,
+    command: usize,
+    key: String,
+}
+
+fn numbers(page: &str) -> Vec<Shown> {
+    let links = page.split("<a class=\"number\" href=\"#command-").skip(1);
+    let number = |link: &str| {
+        let (_, key) = link.split_once("data-key=\"").unwrap();
+        let (_, html) = link.split_once('>').unwrap();
+        Shown {
+            text: text_of(html.split("</a>").next().unwrap()),
+            command: until_quote(link).parse().unwrap(),
+            key: text_of(until_quote(key)),
+        }
+    };
+    links.map(number).collect()
+}
+
+/// What each command prints, line by line; all run in a directory of their own.
+fn printed(commands: &[String]) -> Vec<Vec<Value>> {
+    let program = assert_cmd::cargo::cargo_bin!("snapload");
+    let mut path = program.parent().unwrap().as_os_str().to_owned();
+    path.push(":");
+    path.push(std::env::var_os("PATH").unwrap());
+    let scratch = directory();
+    let print = |command: &String| {
+        // Made already: it is the report itself.
+        if command.starts_with("snapload reproduce") {
+            return Vec::new();
+        }
+        let mut shell = Command::new("sh");
+        shell.args(["-c", command]).env("PATH", &path);
+        let out = shell.current_dir(scratch.path()).output().unwrap();
+        let said = String::from_utf8_lossy(&out.stderr);
+        assert!(out.status.success() && said.is_empty(), "{command}: {said}");
+        let lines = String::from_utf8(out.stdout).unwrap();
+        let json = lines.lines().filter(|line| line.starts_with('{'));
+        json.map(|line| serde_json::from_str(line).unwrap())
+            .collect()
+    };
+    commands.iter().map(print).collect()
+}
+
+/// Every command of the page runs, and gives the very numbers that link to it.
+#[test]
+fn every_number_is_made_again_by_its_command() {
+    let page = read("report.html");
+    let commands = commands(&page);
+    let printed = printed(&commands);
+    let numbers = numbers(&page);
+    assert!(numbers.len() > 500, "{}", numbers.len());
+    for Shown { text, command, key } in &numbers {
+        let made = match key.strip_prefix("claims.json: ") {
+            Some(key) => of_claims(key, text),
+            None => value(&printed[command - 1][0], key, text),
+        };
+        let command = &commands[command - 1];
+        assert_eq!(text, &made, "{command} → {key}");
+    }
+    for number in 27..=38 {
+        curve_is_made_again(&page, number, &printed);
+    }
+}
+
+/// A number of the JSON, written as the page writes it.
+fn value(json: &Value, key: &str, shown: &str) -> String {
+    let exceeding =
+        || -> Vec<[f64; 2]> { serde_json::from_value(json["exceeding"].clone()).unwrap() };
+    if key.starts_with('[') {
+        let impacts = json["impacts"].as_array().unwrap().iter();
+        return impacts
+            .filter(|i| i["v_n"].as_f64() > Some(0.0))
+            .count()
+            .to_string();
+    }
+    if let Some((_, rest)) = key.split_once(".[0] <= ") {
+        let published: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+        let within = exceeding()
+            .iter()
+            .any(|[p, q]| (*p..=*q).contains(&published));
+        return if within { "yes" } else { "no" }.to_owned();
+    }
+    if let Some(rest) = key.strip_prefix("all(.probability[]; .f_o > ") {
+        let published: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+        let points = json["probability"].as_array().unwrap().iter();
+        let agree = points
+            .filter(|point| point["f_o"].as_f64().unwrap() <= published)
+            .all(|point| point["part"] == 0.0 || point["part"] == 1.0);
+        return if agree { "yes" } else { "no" }.to_owned();
+    }
+    if key == ".exceeding" {
+        let range = |[p, q]: &[f64; 2]| {
+            if p == q {
+                format!("{p:.2}")
+            } else {
+                format!("{p:.2}–{q:.2}")
+            }
+        };
+        return exceeding().iter().map(range).collect::<Vec<_>>().join(", ");
+    }
+    let (path, less) = key.split_once(" - ").unwrap_or((key, "0"));
+    let pointer = path.replace(['.', '['], "/").replace(']', "");
+    match json.pointer(&pointer).unwrap_or_else(|| panic!("no {key}")) {
+        Value::String(word) => word.replace('_', " "),
+        Value::Null => "none".to_owned(),
+        number => {
+            let number = number.as_f64().unwrap() - less.parse::<f64>().unwrap();
+            let places = shown
+                .split_once('.')
+                .map_or(0, |(_, decimals)| decimals.len());
+            let text = format!("{number:.places$}").replace('-', "−");
+            match key.contains(" - ") {
+                true if text.trim_start_matches('−') == "0.00" => "0.00".to_owned(),
+                true if number > 0.0 => format!("+{text}"),
+                _ => text,
+            }
+        }
+    }
+}
+
+/// The evidence of a claim, without the remark that follows it there, or how many came to a verdict.
+fn of_claims(key: &str, shown: &str) -> String {
+    let quoted = key.split('"').nth(1).unwrap();
+    let claims = claims();
+    if key.ends_with("length") {
+        let of_verdict = claims.iter().filter(|claim| claim["verdict"] == quoted);
+        return of_verdict.count().to_string();
+    }
+    let claim = claims.iter().find(|claim| claim["id"] == quoted).unwrap();
+    let evidence = claim["evidence"].as_str().unwrap();
+    evidence.get(..shown.len()).unwrap_or(evidence).to_owned()
+}
+
+/// The points behind a curve or a figure of norms are those that its two commands print; the reader of
+/// JSON may miss the last bit of a number.
+fn curve_is_made_again(page: &str, number: usize, printed: &[Vec<Value>]) {
+    let keys: &[&str] = match number {
+        27..=30 => &["/f_cr"],
+        31 | 35 => &["/norms/theta_max"],
+        32 | 36 => &["/norms/y_max"],
+        33 | 37 => &["/norms/rho1", "/norms/rho2"],
+        _ => &["/norms/rho3"],
+    };
+    let mut own: HashMap<&str, usize> = HashMap::new();
+    let cites = figure(page, number)
+        .split("<a class=\"cite\" href=\"#command-")
+        .skip(1);
+    for (reading, cite) in ["sliding ends", "sliding goes"].into_iter().zip(cites) {
+        own.insert(reading, until_quote(cite).parse().unwrap());
+    }
+    assert_eq!(own.len(), 2);
+    let data = read(&format!("figures/figure-6-{number}.csv"));
+    for (reading, command) in own {
+        let rows = data
+            .lines()
+            .filter(|row| row.contains(reading) || row.contains("both"));
+        let mut drawn: Vec<f64> = rows
+            .map(|row| row.rsplit(',').next().unwrap().parse().unwrap())
+            .collect();
+        let lines = printed[command - 1].iter();
+        let values = lines.flat_map(|line| keys.iter().map(|key| line.pointer(key).unwrap()));
+        let mut made: Vec<f64> = values.filter_map(Value::as_f64).collect();
+        drawn.sort_by(f64::total_cmp);
+        made.sort_by(f64::total_cmp);
+        assert_eq!(drawn.len(), made.len(), "Fig. 6.{number}, {reading}");
+        for (drawn, made) in drawn.iter().zip(&made) {
+            assert!(
+                (drawn - made).abs() <= 1e-15 * drawn.abs(),
+                "Fig. 6.{number}, {reading}: {drawn} {made}"
+            );
+        }
+    }
+}

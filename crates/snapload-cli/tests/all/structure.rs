@@ -1,0 +1,228 @@
+//! `snapload assess` and `snapload seas` as their users meet them.
+
+use crate::common::{directory, listing, snapload};
+use predicates::prelude::*;
+use predicates::str::contains;
+use std::fs;
+use std::path::Path;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/examples");
+
+/// A directory with the examples in it.
+fn room() -> tempfile::TempDir {
+    let room = directory();
+    for name in ["cylinder.toml", "cylinder-sea.toml"] {
+        fs::copy(Path::new(EXAMPLES).join(name), room.path().join(name)).unwrap();
+    }
+    room
+}
+
+#[test]
+fn assess_answers_in_a_few_lines_a_page_and_json() {
+    let room = room();
+    let short = [
+        "--set",
+        "run.duration=120",
+        "--neighbours",
+        "4",
+        "--no-scan",
+    ];
+    snapload(room.path())
+        .args([
+            "assess",
+            "cylinder.toml",
+            "--out",
+            "note.html",
+            "--json",
+            "note.json",
+        ])
+        .args(short)
+        .assert()
+        .success()
+        .stdout(
+            contains("force 0.364 and 0.250 of net buoyancy")
+                .and(contains("verdict"))
+                .and(contains("note.html")),
+        );
+    let page = fs::read_to_string(room.path().join("note.html")).unwrap();
+    assert!(
+        page.contains("Assumptions")
+            && page.contains("<svg")
+            && page.contains("--set 'run.duration=120'")
+    );
+    assert!(!page.contains("http://www.w3.org/1999/xlink") && !page.contains("<script"));
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(room.path().join("note.json")).unwrap()).unwrap();
+    assert_eq!(json["verdict"]["standing"], "holds");
+    assert_eq!(json["lines"].as_array().unwrap().len(), 2);
+    assert!((json["units"]["length_m"].as_f64().unwrap() - 3.593).abs() < 1e-12);
+}
+
+#[test]
+fn bad_input_is_told_and_ends_with_2() {
+    let room = room();
+    for (set, says) in [
+        ("wave.hieght=2", "did you mean height?"),
+        ("body.mass=200000", "sinks"),
+        ("line.length=9", "shorten the lines"),
+        ("run.start=[0, -2]", "within reach of every line"),
+    ] {
+        snapload(room.path())
+            .args(["assess", "cylinder.toml", "--set", set])
+            .assert()
+            .code(2)
+            .stderr(contains(says));
+    }
+    snapload(room.path())
+        .args(["assess"])
+        .assert()
+        .code(2)
+        .stderr(contains("CASE.toml"));
+    snapload(room.path())
+        .args(["seas", "cylinder.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("[sea]").and(contains("snapload assess")));
+    snapload(room.path())
+        .args(["seas", "cylinder-sea.toml", "--out", "seas.txt"])
+        .assert()
+        .code(2)
+        .stderr(contains(".html or .csv"));
+    assert_eq!(listing(room.path()), ["cylinder-sea.toml", "cylinder.toml"]);
+}
+
+/// A structure given to `run` leads to `assess`.
+#[test]
+fn run_points_to_assess() {
+    let room = room();
+    snapload(room.path())
+        .args(["run", "cylinder.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("snapload assess cylinder.toml"));
+}
+
+/// The same records from the same seed, whatever their number.
+#[test]
+fn seas_are_reproducible() {
+    let room = room();
+    let run = |seeds: &str, name: &str| {
+        snapload(room.path())
+            .args([
+                "seas",
+                "cylinder-sea.toml",
+                "--seeds",
+                seeds,
+                "--set",
+                "run.duration=200",
+                "--out",
+                name,
+            ])
+            .assert()
+            .success();
+        fs::read_to_string(room.path().join(name)).unwrap()
+    };
+    let (three, five) = (run("3", "three.csv"), run("5", "five.csv"));
+    assert!(five.starts_with(&three) && five.lines().count() == 6);
+    let page = run("4", "seas.html");
+    assert!(page.contains("Gumbel") && page.contains("<svg"));
+}
+
+#[test]
+fn the_keys_are_listed() {
+    snapload(directory().path())
+        .args(["assess", "--keys"])
+        .assert()
+        .success()
+        .stdout(
+            contains("[[line]]")
+                .and(contains("breaking_load"))
+                .and(contains("kg/m^3")),
+        );
+}
+
+/// Both models of a line beside each other: the first snap comes before any line has pulled, and is the same in both.
+#[test]
+fn elastic_runs_both_ways() {
+    let room = room();
+    let short = [
+        "--set",
+        "run.duration=3",
+        "--set",
+        "run.start=[0.3, -4.2]",
+        "--set",
+        "wave.height=1.5",
+    ];
+    snapload(room.path())
+        .args(["elastic", "cylinder.toml", "--out", "motion.csv"])
+        .args(["--every", "0.1", "--json", "both.json"])
+        .args(short)
+        .assert()
+        .success()
+        .stdout(contains("pulls of the lines that stretch").and(contains("motion.csv")));
+    let json: serde_json::Value =
+        serde_json::from_slice(&fs::read(room.path().join("both.json")).unwrap()).unwrap();
+    let (pull, snap) = (&json["pulls"][0], &json["inextensible"]["snaps"][0]);
+    assert_eq!(pull["line"], snap["line"]);
+    let near = |a: &serde_json::Value, b: &serde_json::Value| {
+        (a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 1e-6
+    };
+    assert!(near(&pull["from_s"], &snap["t_s"]) && near(&pull["speed_m_s"], &snap["speed_m_s"]));
+    assert!((json["end_s"].as_f64().unwrap() - 3.0).abs() < 1e-9);
+    let motion = fs::read_to_string(room.path().join("motion.csv")).unwrap();
+    assert!(motion.starts_with("t_s,x_m,z_m,theta_rad,tension_1_n,tension_2_n\n"));
+    assert!((25..=32).contains(&motion.lines().count()));
+    snapload(room.path())
+        .args(["elastic", "cylinder.toml", "--stiffer", "0"])
+        .assert()
+        .code(2)
+        .stderr(contains("a number from 1e-6 to 1e9"));
+}
+
+#[test]
+fn moordyn_files_are_written_and_read() {
+    let room = room();
+    snapload(room.path())
+        .args(["moordyn", "write", "cylinder.toml", "--out", "lines.txt"])
+        .assert()
+        .success()
+        .stdout(contains("lines.txt"));
+    snapload(room.path())
+        .args(["moordyn", "read", "lines.txt", "--out", "again.toml"])
+        .assert()
+        .success();
+    let verdict = |file: &str| {
+        let assert = snapload(room.path())
+            .args(["assess", file, "--json", "-", "--neighbours", "0"])
+            .args(["--set", "run.duration=60", "--set", "run.transient=10"])
+            .assert()
+            .success();
+        let json: serde_json::Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+        json["verdict"].clone()
+    };
+    assert_eq!(verdict("cylinder.toml"), verdict("again.toml"));
+    let text = fs::read_to_string(room.path().join("lines.txt")).unwrap();
+    let bare: String = text
+        .lines()
+        .filter(|line| !line.starts_with("snapload:"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    fs::write(room.path().join("bare.txt"), &bare).unwrap();
+    snapload(room.path())
+        .args(["moordyn", "read", "bare.txt"])
+        .assert()
+        .success()
+        .stdout(contains(
+            "# Still to be given: body.width, run.restitution.",
+        ));
+    fs::write(
+        room.path().join("off.txt"),
+        bare.replace("3  Fixed  -3.593  0", "3  Fixed  -3.593  8"),
+    )
+    .unwrap();
+    snapload(room.path())
+        .args(["moordyn", "read", "off.txt"])
+        .assert()
+        .code(2)
+        .stderr(contains("point 3, Y = 8").and(contains("one vertical plane")));
+}

@@ -1,0 +1,119 @@
+//! The command line among pipes, devices, links and signals.
+#![cfg(unix)]
+
+use crate::common::{directory, listing, snapload};
+use predicates::str::contains;
+use std::fs;
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let d = directory();
+    let args: [&[&str]; 3] = [
+        &["cases"],
+        &["keys"],
+        &[
+            "run",
+            "--set",
+            "t_end=0.3",
+            "--sample",
+            "1e-6",
+            "--json",
+            "-",
+        ],
+    ];
+    for args in args {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("snapload"))
+            .args(args)
+            .current_dir(d.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Read a little of the long one, nothing of the others, and go.
+        let mut stdout = child.stdout.take().unwrap();
+        if args[0] == "run" {
+            stdout.read_exact(&mut [0; 10]).unwrap();
+        }
+        drop(stdout);
+        let done = child.wait_with_output().unwrap();
+        assert_eq!(String::from_utf8(done.stderr).unwrap(), "");
+        assert_eq!(done.status.code(), Some(0));
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_fails() {
+    let d = directory();
+    let run = ["run", "--set", "t_end=0.1", "--json", "/dev/full"];
+    snapload(d.path())
+        .args(run)
+        .assert()
+        .code(1)
+        .stderr(contains("can not write /dev/full: No space"));
+    let full = fs::File::create("/dev/full").unwrap();
+    let mut keys = Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+    let done = keys.arg("keys").stdout(full).output().unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    assert!(
+        String::from_utf8(done.stderr)
+            .unwrap()
+            .contains("standard output: No space")
+    );
+}
+
+#[test]
+fn devices_are_written_into_and_links_followed() {
+    let d = directory();
+    let run = |target: &str| {
+        let run = ["run", "--set", "t_end=0.1", "--json", target];
+        snapload(d.path()).args(run).assert().success();
+    };
+    run("/dev/null");
+    fs::write(d.path().join("target.json"), "old").unwrap();
+    std::os::unix::fs::symlink("target.json", d.path().join("link.json")).unwrap();
+    run("link.json");
+    assert!(
+        fs::symlink_metadata(d.path().join("link.json"))
+            .unwrap()
+            .is_symlink()
+    );
+    assert!(
+        fs::read_to_string(d.path().join("target.json"))
+            .unwrap()
+            .starts_with("{\"case\"")
+    );
+    assert_eq!(listing(d.path()), ["link.json", "target.json"]);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn an_interruption_leaves_nothing_behind() {
+    let d = directory();
+    let run = [
+        "run",
+        "--set",
+        "t_end=0.4",
+        "--sample",
+        "5e-8",
+        "--out",
+        "new/results",
+    ];
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("snapload"))
+        .args(run)
+        .current_dir(d.path())
+        .spawn()
+        .unwrap();
+    // Wait until it is writing.
+    while !d.path().join("new/results").exists() {
+        std::thread::yield_now();
+    }
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(listing(d.path()).is_empty());
+}

@@ -1,0 +1,198 @@
+//! Lines that stretch: motions that are known, and the limit in which they do not.
+
+use snapload::analysis::unwatched;
+use snapload_structure::{
+    ElasticRun, Prepared, STRUCTURE, Spring, Structure, damping_ratio, run_elastic, springs,
+};
+
+/// A body straight above its anchor on two equal lines that lie on each other, so that it moves up and down.
+fn vertical(restitution: f64, start_z: f64) -> Prepared {
+    let text = format!(
+        "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
+         [[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = 15\nstiffness = 3e6\n\
+         [[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = 15\nstiffness = 3e6\n\
+         [site]\ndepth = 21\n\
+         [run]\nrestitution = {restitution}\nduration = 4\nstart = [0, {start_z}]\n"
+    );
+    prepared(&text, &[])
+}
+
+fn prepared(text: &str, set: &[&str]) -> Prepared {
+    let mut entries = snapload::Entries::parse(&STRUCTURE, "test.toml", text).expect("a case");
+    for set in set {
+        entries.set(set).expect("a key");
+    }
+    Prepared::new(Structure::from_entries(&entries).expect("a structure")).expect("a start")
+}
+
+const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+fn run(prepared: &Prepared, springs: &[Spring]) -> ElasticRun {
+    run_elastic(prepared, springs, 0.05, &unwatched).expect("a run")
+}
+
+/// Let go below, the body rises at F/M to speed v = sqrt(2 F h/M), and a spring k stops it with
+/// k δ = F + sqrt(F² + k M v²), after a time known too; then it is thrown back at v.
+#[test]
+fn a_spring_stops_a_body_as_energy_says() {
+    let prepared = vertical(1.0, -6.0);
+    let (rate, mass) = (2.0 * 3e6 / 15.0, 800.0);
+    let force = prepared.structure.net_buoyancy_n();
+    let law = springs(&prepared, 1.0).expect("springs");
+    let motion = run(&prepared, &law);
+    let speed = (2.0 * force * 1.0 / mass).sqrt();
+    let rise = speed / (force / mass);
+    let known = force + (force * force + rate * mass * speed * speed).sqrt();
+    let omega = (rate / mass).sqrt();
+    // δ = F/k (1 − cos ωt) + v/ω sin ωt, back at zero after twice its way to the top.
+    let contact = 2.0 * (std::f64::consts::PI - (speed * rate / (omega * force)).atan()) / omega;
+    let [first, second, ..] = &motion.pulls[..] else {
+        panic!("two lines pull: {:?}", motion.pulls);
+    };
+    assert!((first.from_s - rise).abs() < 1e-9 && (second.from_s - rise).abs() < 1e-9);
+    assert!((first.speed_m_s - speed).abs() < 1e-9);
+    assert!(
+        (first.peak_n + second.peak_n - known).abs() < 2e-4 * known,
+        "{first:?} {known}"
+    );
+    assert!(
+        (first.to_s - rise - contact).abs() < 1e-8,
+        "{first:?} {contact}"
+    );
+    assert!((first.rebound_m_s.expect("it lets go") - speed).abs() < 1e-8);
+}
+
+/// A damper that is chosen for e throws the body back at e times its speed, the more exactly the less the
+/// buoyancy does within the contact.
+#[test]
+fn the_damper_gives_the_restitution() {
+    for e in [0.9, 0.5, 0.2, 0.1] {
+        let prepared = vertical(e, -6.0);
+        let mut last = f64::INFINITY;
+        for stiffer in [1e2, 1e4, 1e6] {
+            // Both lines stop the body together, so each has half of it to stop.
+            let law: Vec<Spring> = springs(&prepared, stiffer)
+                .expect("springs")
+                .into_iter()
+                .map(|spring| Spring {
+                    damping: spring.damping / 2.0_f64.sqrt(),
+                    ..spring
+                })
+                .collect();
+            let mut short = prepared.clone();
+            short.model.rules.t_end *= 0.3;
+            let pull = run(&short, &law).pulls[0];
+            let off = (pull.rebound_m_s.expect("it lets go") / pull.speed_m_s - e).abs();
+            assert!(off < last.max(1e-9), "{e}: {off} after {last}");
+            last = off;
+        }
+        assert!(last < 2e-3, "{e}: off by {last}");
+    }
+}
+
+/// e = exp(−2ζ arccos ζ/sqrt(1 − ζ²)): at ζ = 1 it is exp(−2), for small ζ nearly exp(−πζ).
+#[test]
+fn damping_ratios_of_known_restitutions() {
+    assert!((damping_ratio((-2.0_f64).exp()) - 1.0).abs() < 1e-6);
+    assert!((damping_ratio(1.0)).abs() < 1e-12);
+    let small = 1e-4_f64;
+    let e = (-std::f64::consts::PI * small + 2.0 * small * small).exp();
+    assert!((damping_ratio(e) - small).abs() < 1e-10);
+}
+
+/// The same case, both ways: as the lines get stiffer, the times and speeds of the snaps go to those of lines that do
+/// not stretch, and the more so the shorter the contact, which lasts as 1/sqrt(k).
+#[test]
+fn stiff_lines_are_lines_that_do_not_stretch() {
+    let mut prepared = prepared(
+        CYLINDER,
+        // Dampers have their e at one effective mass; without them e is 1 at all.
+        &[
+            "run.restitution=1",
+            "run.duration=9",
+            "run.start=[0.2,-3.9]",
+            "wave.height=1.5",
+        ],
+    );
+    let mut simulation = prepared.begin(1.0).expect("a start");
+    let time = prepared.model.scales.time_s;
+    let speed = prepared.model.scales.speed_m_s();
+    let mut snaps = Vec::new();
+    while snaps.len() < 3
+        && let Some(step) = simulation.step()
+    {
+        snaps.extend(step.impacts().map(|i| (i.cable, i.t * time, i.v_n * speed)));
+    }
+    prepared.model.rules.t_end = (snaps[2].1 + 1e-3) / time;
+    let mut last = f64::INFINITY;
+    for stiffer in [1e2, 1e4, 1e6] {
+        let motion = run(&prepared, &springs(&prepared, stiffer).expect("springs"));
+        let mut worst = 0.0_f64;
+        for (pull, (line, t, v)) in motion.pulls.iter().zip(&snaps) {
+            assert_eq!(pull.line, *line, "{:?} {snaps:?}", motion.pulls);
+            worst = worst
+                .max((pull.from_s - t).abs())
+                .max((pull.speed_m_s - v).abs());
+        }
+        assert!(worst < 0.25 * last, "{stiffer}: {worst} after {last}");
+        last = worst;
+    }
+    assert!(last < 2e-3, "{last}");
+}
+
+/// Without waves and drag, springs keep what energy there is, and dampers only ever take.
+#[test]
+fn energy_is_kept_or_lost() {
+    for (e, lost) in [(1.0, false), (0.6, true)] {
+        let set = ["wave.height=0", "run.start=[0.3,-4.2]", "run.duration=20"];
+        let prepared = prepared(
+            &CYLINDER.replace("restitution = 0.5", &format!("restitution = {e}")),
+            &set,
+        );
+        let law = springs(&prepared, 1.0).expect("springs");
+        let motion = run(&prepared, &law);
+        let energy = |state: &snapload::State| {
+            let stored = law
+                .iter()
+                .zip(&prepared.model.system.cables)
+                .map(|(spring, cable)| {
+                    let [u, v] = cable.span(state).components();
+                    let stretch = (u.hypot(v) - cable.length()).max(0.0);
+                    0.5 * spring.rate * stretch * stretch
+                });
+            prepared.model.system.energy(state) + stored.sum::<f64>()
+        };
+        let first = energy(&prepared.start());
+        let mut now = first;
+        for look in &motion.looks {
+            let next = energy(&look.state);
+            // Looks lie on the dense output, which is less exact than the steps.
+            assert!(next <= now + 1e-7, "{} at {}", next - now, look.t_s);
+            now = next;
+        }
+        let end = energy(&motion.end);
+        assert!(end <= first + 1e-9, "{}", end - first);
+        // To the end, or to the quarter turn at which it stops.
+        assert!(
+            (motion.end_s - 20.0).abs() < 1e-9 || motion.end.theta.abs() >= 1.57,
+            "{} s",
+            motion.end_s
+        );
+        assert!(motion.pulls.len() > 6, "{}", motion.pulls.len());
+        assert_eq!(first - end > 1e-6, lost, "{}", first - end);
+    }
+}
+
+/// A line that nothing disturbs holds the body at rest, as long as asked: δ = T_0/k, all the time, and the run has no end
+/// before its own.
+#[test]
+fn a_body_at_rest_stays() {
+    let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);
+    let motion = run(&prepared, &springs(&prepared, 1e3).expect("springs"));
+    assert!((motion.end_s - 30.0).abs() < 1e-9, "{} s", motion.end_s);
+    assert_eq!(motion.looks.len() / 100, 6, "{}", motion.looks.len());
+    for (line, at_rest) in prepared.rest.tension_n.iter().enumerate() {
+        let last = motion.looks.last().expect("looks").tension_n[line];
+        assert!((last / at_rest - 1.0).abs() < 1e-3, "{last} {at_rest}");
+    }
+}

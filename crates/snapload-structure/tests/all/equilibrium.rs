@@ -1,0 +1,146 @@
+//! Where bodies rest: known places, and the conditions of a minimum for random moorings.
+
+use proptest::prelude::*;
+use snapload_structure::{Structure, equilibrium};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+fn case(position: [f64; 2], lines: &[([f64; 2], [f64; 2], f64)]) -> String {
+    let mut text = format!(
+        "[body]\nmass = 5000\ndisplaced_volume = 12\nwidth = 2\nposition = [{}, {}]\n\
+         [site]\ndepth = 30\n[run]\nrestitution = 0.5\n",
+        position[0], position[1]
+    );
+    for (anchor, fairlead, length) in lines {
+        text += &format!(
+            "[[line]]\nanchor = [{}, {}]\nfairlead = [{}, {}]\nlength = {length}\n",
+            anchor[0], anchor[1], fairlead[0], fairlead[1]
+        );
+    }
+    text
+}
+
+/// The example's fairleads are drawn 0.6 mm short of the lines' ends, so it rests that little higher, by symmetry
+/// upright with half the buoyancy's share in each line: T = F/(2 cos), the lines 25 degrees from vertical.
+#[test]
+fn symmetric_pair_shares_the_buoyancy() {
+    let structure = Structure::parse("cylinder.toml", EXAMPLE).unwrap();
+    let rest = equilibrium(&structure).unwrap();
+    let (run, rise) = (3.593 - 1.061, (36.0_f64 - 2.532 * 2.532).sqrt());
+    assert!(rest.place_m[0].abs() < 1e-9 && rest.theta_rad.abs() < 1e-9);
+    assert!(
+        (rest.place_m[1] - (rise - 10.0 + 1.061)).abs() < 1e-9,
+        "{rest:?} {run}"
+    );
+    let share = structure.net_buoyancy_n() / 2.0 / (rise / 6.0);
+    assert!(
+        rest.tension_n
+            .iter()
+            .all(|tension| (tension / share - 1.0).abs() < 1e-9)
+    );
+    assert!(!rest.indeterminate);
+}
+
+/// A single tether at the lowest point: the body stands above its anchor.
+#[test]
+fn single_tether_stands_upright() {
+    let text = case([3.0, -12.0], &[([4.0, -30.0], [3.0, -13.0], 18.0)]);
+    let structure = Structure::parse("tether", &text).unwrap();
+    let rest = equilibrium(&structure).unwrap();
+    assert!(
+        (rest.place_m[0] - 4.0).abs() < 1e-6 && (rest.place_m[1] + 11.0).abs() < 1e-9,
+        "{rest:?}"
+    );
+    assert!((rest.tension_n[0] / structure.net_buoyancy_n() - 1.0).abs() < 1e-9);
+}
+
+/// Four equal vertical tethers, two at each end: three freedoms, four lines, and each carries a quarter.
+#[test]
+fn statically_indeterminate_lines_share_evenly() {
+    let tether = |x: f64| ([x, -30.0], [x, -12.0], 18.0);
+    let text = case(
+        [0.0, -12.0],
+        &[tether(-1.0), tether(-0.5), tether(0.5), tether(1.0)],
+    );
+    let structure = Structure::parse("tethers", &text).unwrap();
+    let rest = equilibrium(&structure).unwrap();
+    assert!(rest.indeterminate && rest.taut.len() == 4);
+    let quarter = structure.net_buoyancy_n() / 4.0;
+    assert!(
+        rest.tension_n
+            .iter()
+            .all(|tension| (tension / quarter - 1.0).abs() < 1e-6),
+        "{rest:?}"
+    );
+}
+
+#[test]
+fn lines_too_long_to_hold_the_body_down_are_refused_in_words() {
+    let text = case(
+        [0.0, -12.0],
+        &[
+            ([5.0, -30.0], [1.0, -12.0], 40.0),
+            ([-5.0, -30.0], [-1.0, -12.0], 40.0),
+        ],
+    );
+    let structure = Structure::parse("long", &text).unwrap();
+    let error = equilibrium(&structure).unwrap_err().to_string();
+    assert!(
+        error.contains("above the still water") && error.contains("shorten the lines"),
+        "{error}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// For random moorings of two to four lines: the forces balance, slack lines carry nothing and taut ones pull, and
+    /// no place near by that all lines reach lies higher.
+    #[test]
+    fn rest_is_a_minimum(
+        lines in prop::collection::vec((-20.0..20.0f64, -1.0..1.0f64, -1.0..1.0f64, 0.0..1.0f64), 2..5),
+        probes in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64, -1.0..1.0f64), 200),
+    ) {
+        let lines: Vec<_> = lines.iter().map(|&(x, fx, fz, more)| {
+            let fairlead = [fx, -14.0 + fz];
+            let reach = (x - fx).hypot(fairlead[1] + 30.0);
+            ([x, -30.0], fairlead, reach + more)
+        }).collect();
+        let structure = Structure::parse("random", &case([0.0, -14.0], &lines)).unwrap();
+        // Moorings that hold no body are not few, but the test is one of many that do.
+        let rest = equilibrium(&structure);
+        prop_assume!(rest.is_ok());
+        let rest = rest.unwrap();
+        let place = |[x, z]: [f64; 2], theta: f64, fairlead: [f64; 2]| {
+            let (s, c) = theta.sin_cos();
+            let arm = [fairlead[0], fairlead[1] + 14.0];
+            [x + arm[0] * c - arm[1] * s, z + arm[0] * s + arm[1] * c]
+        };
+        let mut force = [0.0, structure.net_buoyancy_n()];
+        let mut moment = 0.0;
+        for ((anchor, fairlead, length), tension) in lines.iter().zip(&rest.tension_n) {
+            let at = place(rest.place_m, rest.theta_rad, *fairlead);
+            let span = [anchor[0] - at[0], anchor[1] - at[1]];
+            let distance = span[0].hypot(span[1]);
+            prop_assert!(distance <= length + 1e-6 && *tension >= 0.0);
+            prop_assert!(*tension == 0.0 || (distance - length).abs() < 1e-6);
+            let pull = [tension * span[0] / distance, tension * span[1] / distance];
+            force = [force[0] + pull[0], force[1] + pull[1]];
+            let arm = [at[0] - rest.place_m[0], at[1] - rest.place_m[1]];
+            moment += arm[0] * pull[1] - arm[1] * pull[0];
+        }
+        let buoyancy = structure.net_buoyancy_n();
+        prop_assert!(force[0].abs() < 1e-4 * buoyancy && force[1].abs() < 1e-4 * buoyancy && moment.abs() < 1e-4 * buoyancy);
+        for size in [1e-3, 1e-2, 0.05] {
+            for &(dx, dz, turn) in &probes {
+                let near = [rest.place_m[0] + size * dx, rest.place_m[1] + size * dz];
+                let theta = rest.theta_rad + size * turn;
+                let reached = lines.iter().all(|(anchor, fairlead, length)| {
+                    let at = place(near, theta, *fairlead);
+                    (anchor[0] - at[0]).hypot(anchor[1] - at[1]) <= *length
+                });
+                prop_assert!(!reached || near[1] <= rest.place_m[1] + 1e-6);
+            }
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! All tests of structures from outside, as one program: it is linked once, and the tests of all files run side by
+//! side.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod conversion;
+mod elastic;
+mod equilibrium;
+mod manual;
+mod moordyn;
+mod physics;
+mod waves;

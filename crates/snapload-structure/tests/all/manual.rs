@@ -1,0 +1,171 @@
+//! The manual's tables are the schema's.
+
+use proptest::prelude::*;
+use snapload::{DefaultValue, Entries};
+use snapload_structure::{Prepared, STRUCTURE, Structure};
+
+/// The keys that a file gives.
+fn read(text: &str) -> Entries {
+    Entries::parse(&STRUCTURE, "case", text).expect("a case")
+}
+
+/// The keys as the manual prints them.
+fn table() -> String {
+    let tables: Vec<String> = STRUCTURE
+        .tables
+        .iter()
+        .map(|table| table.markdown())
+        .collect();
+    tables.join("\n") + "\n"
+}
+
+#[test]
+fn the_manual_has_the_keys_of_the_schema() {
+    let manual = include_str!("../../../../docs/structures.md");
+    let (_, rest) = manual
+        .split_once("<!-- keys -->\n")
+        .expect("the beginning of the keys");
+    let (printed, _) = rest.split_once("<!-- /keys -->").expect("their end");
+    assert!(
+        printed == table(),
+        "docs/structures.md should have\n{}",
+        table()
+    );
+}
+
+/// Every key of the schema is read: a case with all of them is accepted, and without a required one refused in words
+/// that name it.
+#[test]
+fn every_key_is_read() {
+    let example = include_str!("../../../../docs/examples/cylinder.toml");
+    let mut required = 0;
+    for table in STRUCTURE.tables.iter().filter(|table| table.name != "sea") {
+        for key in table
+            .keys
+            .iter()
+            .filter(|key| key.default == DefaultValue::Required)
+        {
+            required += 1;
+            let without: String = example
+                .lines()
+                .filter(|line| !line.starts_with(&format!("{} =", key.name)))
+                .map(|line| format!("{line}\n"))
+                .collect();
+            let error = Structure::parse("case", &without)
+                .expect_err(key.name)
+                .to_string();
+            assert!(
+                error.contains(key.name) && error.contains("left out"),
+                "{error}"
+            );
+        }
+    }
+    assert_eq!(required, 11);
+}
+
+#[test]
+fn errors_name_the_line_the_key_and_what_to_do() {
+    let example = include_str!("../../../../docs/examples/cylinder.toml");
+    let told = |from: &str, to: &str| -> String {
+        let text = example.replacen(from, to, 1);
+        assert_ne!(text, example);
+        Structure::parse("case.toml", &text)
+            .expect_err(to)
+            .to_string()
+    };
+    let typo = told("mass = 72452", "mas = 72452");
+    assert!(
+        typo.starts_with("case.toml, line ") && typo.contains("did you mean mass?"),
+        "{typo}"
+    );
+    let table = told("[site]", "[stie]");
+    assert!(table.contains("did you mean site?"), "{table}");
+    let kind = told("depth = 10", "depth = \"ten\"");
+    assert!(
+        kind.contains(
+            "site.depth = \"ten\" is not allowed; allowed: a number in m, 0 < depth <= 12000"
+        ),
+        "{kind}"
+    );
+    let word = told("studless chain", "studles chain");
+    assert!(
+        word.contains("line.1.type") && word.contains("\"studless chain\""),
+        "{word}"
+    );
+    let heavy = told("mass = 72452", "mass = 172452");
+    assert!(
+        heavy.contains("body.mass = 172452") && heavy.contains("sinks"),
+        "{heavy}"
+    );
+    let short = told("length = 6", "length = 5");
+    assert!(
+        short.contains("line.1.length = 5") && short.contains("5.999 m"),
+        "{short}"
+    );
+    let above = told("position = [0, -3.5]", "position = [0, 3.5]");
+    assert!(above.contains("z < 0"), "{above}");
+    let both = format!("{example}[sea]\nhs = 2\ntp = 6\n");
+    let both = Structure::parse("case.toml", &both)
+        .expect_err("both")
+        .to_string();
+    assert!(both.contains("one of [wave] and [sea]"), "{both}");
+}
+
+#[test]
+fn set_changes_one_line_or_all() {
+    let example = include_str!("../../../../docs/examples/cylinder.toml");
+    let mut entries = read(example);
+    entries.set("line.2.length=6.5").unwrap();
+    entries.set("line.diameter = 0.05").unwrap();
+    entries.set("line.1.type=nylon").unwrap();
+    entries.set("body.position=[0, -3.6]").unwrap();
+    let structure = Structure::from_entries(&entries).unwrap();
+    assert_eq!(
+        (structure.lines[0].length_m, structure.lines[1].length_m),
+        (6.0, 6.5)
+    );
+    assert_eq!(structure.lines[0].name, "nylon, 50 mm");
+    assert_eq!(structure.lines[1].name, "studless chain R3, 50 mm");
+    assert_eq!(structure.body.position_m, [0.0, -3.6]);
+    for (bad, says) in [
+        ("line.3.length=6", "from 1 to 2"),
+        ("wave.hight=2", "did you mean height?"),
+        ("wave.height", "TABLE.KEY=VALUE"),
+        ("wave.height=", "(nothing)"),
+    ] {
+        let error = entries.set(bad).expect_err(bad).to_string();
+        assert!(error.contains(says), "{error}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    /// Whatever stands in a file is read or refused in words, and what is read has a place of rest or is refused.
+    #[test]
+    fn anything_is_read_or_refused(text in any::<String>(), broken in "(\\[?\\[[a-z]{1,5}\\]?\\]|[a-z]{1,6} = [-0-9.e\\[\\]\"]{0,5}|\n){0,12}") {
+        for text in [text, broken] {
+            if let Err(error) = Structure::parse("case", &text) {
+                prop_assert!(!error.to_string().is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn extreme_numbers_are_computed_or_refused(
+        key in prop::sample::select(vec![
+            "body.mass", "body.displaced_volume", "body.width", "body.added_mass", "body.moment_of_inertia",
+            "line.1.length", "line.length", "site.depth", "wave.height", "wave.period", "line.1.spring_rate",
+        ]),
+        value in prop_oneof![Just(1e-300), Just(1e-9), Just(0.3), Just(20.0), Just(1e4), Just(1e5), Just(1e12), 0.1..1e6],
+    ) {
+        let mut entries = read(include_str!("../../../../docs/examples/cylinder.toml"));
+        if entries.set(&format!("{key}={value:e}")).is_ok()
+            && let Ok(structure) = Structure::from_entries(&entries)
+            && let Ok(prepared) = Prepared::new(structure)
+        {
+            prop_assert!(prepared.rest.place_m.iter().all(|x| x.is_finite()));
+            prop_assert!(prepared.rest.tension_n.iter().all(|tension| tension.is_finite() && *tension >= 0.0));
+        }
+    }
+}

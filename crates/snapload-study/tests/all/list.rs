@@ -1,0 +1,162 @@
+//! Lists of cases are read from anywhere, and never as a whole.
+use half::f16;
+use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
+use parquet::data_type::{FloatType, Int32Type, Int64Type};
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
+use snapload::{CaseError, Value};
+use snapload_study::{List, Plan, Study, StudyError};
+use std::io::Write;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What a row gives, or why it can not be read.
+type Row = Result<Vec<(&'static str, Value)>, CaseError>;
+
+/// Some rows of a list.
+fn read(list: List, range: Range<u64>) -> Vec<Row> {
+    let study = Study::new([], Plan::List(list), false).unwrap();
+    let drawn = study.draw(range).unwrap().into_iter();
+    drawn
+        .map(|drawn| match drawn.parameters {
+            Err(error) if drawn.given.is_empty() => Err(error),
+            _ => Ok(drawn.given),
+        })
+        .collect()
+}
+
+fn csv(text: &str) -> tempfile::NamedTempFile {
+    let mut file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+    file.write_all(text.as_bytes()).unwrap();
+    file
+}
+
+#[test]
+fn a_csv_file_is_read_from_anywhere() {
+    let mut text = "f_o, e ,body\n".to_owned();
+    for k in 0..5000 {
+        text += &format!("0.{k:04},1,\"rigid\"\n");
+    }
+    let file = csv(&text);
+    assert_eq!(List::open(file.path()).unwrap().count(), 5000);
+    for range in [0..3, 1023..1026, 4999..5000, 2048..2049] {
+        let list = List::open(file.path()).unwrap();
+        for (row, k) in read(list, range.clone()).into_iter().zip(range) {
+            let f_o = format!("0.{k:04}").parse::<f64>().unwrap();
+            let wanted: Row = Ok(vec![
+                ("f_o", Value::Number(f_o)),
+                ("e", Value::Integer(1)),
+                ("body", Value::Text("rigid".to_owned())),
+            ]);
+            assert_eq!(row, wanted);
+        }
+    }
+}
+
+/// A file with a column each of the types that other programs write, two groups of so many rows.
+fn parquet(rows: usize) -> tempfile::NamedTempFile {
+    let columns = "message schema {
+        optional float f_o;
+        required binary body (STRING);
+        required int32 max_impacts (INTEGER(16,false));
+        optional int64 e (DECIMAL(6,3));
+        required fixed_len_byte_array(2) omega (DECIMAL(4,1));
+        required fixed_len_byte_array(2) c (FLOAT16);
+        optional int32 a (UNKNOWN);
+    }";
+    let schema = Arc::new(parse_message_type(columns).unwrap());
+    let mut file = tempfile::Builder::new();
+    let file = file.suffix(".parquet").tempfile().unwrap();
+    let mut writer = SerializedFileWriter::new(&file, schema, Arc::default()).unwrap();
+    for start in [0, rows] {
+        let rows = start..start + rows;
+        let mut group = writer.next_row_group().unwrap();
+        macro_rules! put {
+            ($kind:ty, $values:expr, $there:expr) => {
+                let mut column = group.next_column().unwrap().unwrap();
+                let values: Vec<_> = $values.collect();
+                let written = column.typed::<$kind>().write_batch(&values, $there, None);
+                written.unwrap();
+                column.close().unwrap();
+            };
+        }
+        let there: Vec<i16> = rows.clone().map(|k| i16::from(k % 3 > 0)).collect();
+        let nowhere = vec![0; there.len()];
+        let fixed = |bytes: [u8; 2]| FixedLenByteArray::from(ByteArray::from(bytes.to_vec()));
+        let odd = rows.clone().filter(|k| k % 3 > 0);
+        put!(FloatType, odd.clone().map(|k| k as f32), Some(&there));
+        put!(
+            ByteArrayType,
+            rows.clone().map(|_| ByteArray::from(b"point".to_vec())),
+            None
+        );
+        put!(Int32Type, rows.clone().map(|k| k as i32), None);
+        put!(Int64Type, odd.map(|k| k as i64), Some(&there));
+        put!(
+            FixedLenByteArrayType,
+            rows.clone().map(|k| fixed((-(k as i16)).to_be_bytes())),
+            None
+        );
+        put!(
+            FixedLenByteArrayType,
+            rows.clone()
+                .map(|_| fixed(f16::from_f64(0.25).to_le_bytes())),
+            None
+        );
+        put!(Int32Type, std::iter::empty(), Some(&nowhere));
+        group.close().unwrap();
+    }
+    writer.close().unwrap();
+    file
+}
+
+#[test]
+fn a_parquet_file_is_read_from_anywhere() {
+    let file = parquet(200);
+    assert_eq!(List::open(file.path()).unwrap().count(), 400);
+    for range in [123..125, 198..203, 399..400, 0..400] {
+        let rows = read(List::open(file.path()).unwrap(), range.clone());
+        for (row, k) in rows.into_iter().zip(range) {
+            let mut wanted = vec![
+                ("body", "point".into()),
+                ("max_impacts", Value::Integer(k as i64)),
+                ("omega", Value::Number(-(k as f64) / 10.0)),
+                ("c", Value::Number(0.25)),
+            ];
+            if k % 3 > 0 {
+                wanted.insert(0, ("f_o", Value::Number(k as f64)));
+                wanted.insert(3, ("e", Value::Number(k as f64 / 1000.0)));
+            }
+            assert_eq!(row, Ok(wanted));
+        }
+    }
+}
+
+#[test]
+fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
+    let file = csv("f_o,stop_when_settled\n0.1,\n0.2\n,false\nx,True\n");
+    let rows = read(List::open(file.path()).unwrap(), 0..4);
+    assert_eq!(rows[0], Ok(vec![("f_o", Value::Number(0.1))]));
+    let error = rows[1].clone().unwrap_err().to_string();
+    assert!(
+        error.contains("(a row with 1 fields)") && error.contains("2 fields"),
+        "{error}"
+    );
+    assert_eq!(rows[2], Ok(vec![("stop_when_settled", Value::Bool(false))]));
+    assert_eq!(rows[3].as_ref().unwrap()[0].1, Value::Text("x".to_owned()));
+}
+
+#[test]
+fn a_list_with_other_columns_is_refused() {
+    for (text, wanted) in [
+        ("f_o,omgea\n1,2\n", "did you mean omega?"),
+        ("f_o,f_o\n1,2\n", "f_o stands over two columns"),
+        ("f_o\n", "holds no case"),
+    ] {
+        let error = List::open(csv(text).path()).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    }
+    let error = List::open(Path::new("/no/such/list.csv")).unwrap_err();
+    assert!(matches!(&error, StudyError::Input(words) if words.contains("No such file")));
+}

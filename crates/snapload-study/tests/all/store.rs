@@ -1,0 +1,138 @@
+//! What is safe stays safe, and the file depends on the rows alone.
+use snapload::analysis::{Cancelled, Counter, Progress, unwatched};
+use snapload_study::{
+    Axis, Ending, Grid, Identity, Opened, Plan, Store, Study, StudyError, chunk, rows, sweep,
+};
+use std::fs;
+use std::ops::{ControlFlow, Range};
+use std::path::Path;
+
+fn study(count: u64) -> Study {
+    let grid = Grid::new("0.1", "0.6", count).unwrap();
+    let plan = Plan::grid(vec![Axis::even("f_o", grid).unwrap()]).unwrap();
+    Study::new([("t_end".to_owned(), 0.1.into())], plan, false).unwrap()
+}
+
+/// The name of a chunk in the directory of a study.
+fn chunk_name(range: &Range<u64>) -> String {
+    format!("rows-{:013}-{:013}.parquet", range.start, range.end)
+}
+
+fn open(target: &Path, study: &Study, resume: bool) -> Result<Opened, StudyError> {
+    Store::open(target, Identity::new(study, None), resume)
+}
+
+fn work(target: &Path, study: &Study) -> Store {
+    match open(target, study, true).unwrap() {
+        Opened::Work(store) => store,
+        Opened::Complete => panic!("complete"),
+    }
+}
+
+/// Rows that were computed elsewhere make the same file; those of another study are refused.
+#[test]
+fn rows_come_from_elsewhere() {
+    let (study, other) = (study(5), study(6));
+    let directory = tempfile::tempdir().unwrap();
+    let (here, there) = (directory.path().join("a"), directory.path().join("b"));
+    let mut store = work(&here, &study);
+    assert!(
+        store
+            .keep(0..2, &chunk(&other, 0..2, &unwatched).unwrap())
+            .is_err()
+    );
+    for range in [3..5, 0..3] {
+        store
+            .keep(range.clone(), &chunk(&study, range, &unwatched).unwrap())
+            .unwrap();
+    }
+    assert_eq!(store.gap(), None);
+    store.finish().unwrap();
+    sweep(&study, work(&there, &study), Ending::AfterChunk, &unwatched).unwrap();
+    assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
+}
+
+fn save(store: &mut Store, study: &Study, range: Range<u64>) {
+    let drawn = study.draw(range.clone()).unwrap();
+    let counter = Counter::new("running", 0, 0, &unwatched);
+    store
+        .save(range, &rows(&drawn, false, &counter).unwrap())
+        .unwrap();
+}
+
+fn complete(target: &Path, study: &Study) -> Vec<u8> {
+    sweep(study, work(target, study), Ending::AtNextCase, &unwatched).unwrap();
+    fs::read(target).unwrap()
+}
+
+/// However the rows were cut, and whatever a crash left behind.
+#[test]
+fn the_file_depends_on_the_rows_alone() {
+    let directory = tempfile::tempdir().unwrap();
+    let (study, whole) = (study(700), directory.path().join("whole"));
+    let wanted = complete(&whole, &study);
+    let target = directory.path().join("torn");
+    let parts = directory.path().join("torn.parts");
+    let mut store = work(&target, &study);
+    for range in [0..1, 1..130, 200..201, 600..700] {
+        save(&mut store, &study, range);
+    }
+    assert_eq!((store.gap(), store.safe()), (Some(130..200), 231));
+    drop(store);
+    // A chunk cut short, one that is none, one that overlaps another, and half a whole.
+    let torn = parts.join(chunk_name(&(1..130)));
+    let bytes = fs::read(&torn).unwrap();
+    fs::write(&torn, &bytes[..bytes.len() / 2]).unwrap();
+    fs::write(parts.join(chunk_name(&(300..400))), "nothing").unwrap();
+    fs::copy(
+        parts.join(chunk_name(&(0..1))),
+        parts.join(chunk_name(&(0..2))),
+    )
+    .unwrap();
+    fs::write(parts.join("scratch"), &wanted[..100]).unwrap();
+    assert!(work(&target, &study).gap() == Some(1..200));
+    assert!(complete(&target, &study) == wanted);
+    assert!(!parts.exists());
+}
+
+/// However it ends, what is safe is whole, and the rest is done later.
+#[test]
+fn a_sweep_that_is_told_to_end_goes_on_later() {
+    let directory = tempfile::tempdir().unwrap();
+    let (study, whole) = (study(700), directory.path().join("whole"));
+    let wanted = complete(&whole, &study);
+    for ending in [Ending::AfterChunk, Ending::AtNextCase] {
+        let target = directory.path().join("ended");
+        let until = |progress: Progress| match progress.done < 100.0 {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        };
+        let ended = sweep(&study, work(&target, &study), ending, &until);
+        let Err(StudyError::Cancelled(Cancelled { done })) = ended else {
+            panic!("{ended:?}");
+        };
+        assert_eq!(work(&target, &study).safe() as f64, done);
+        let chunk_is_finished = ending == Ending::AfterChunk;
+        assert_eq!(done, if chunk_is_finished { 256.0 } else { 0.0 });
+        assert!(complete(&target, &study) == wanted);
+        fs::remove_file(&target).unwrap();
+    }
+}
+
+#[test]
+fn only_one_is_at_work() {
+    let directory = tempfile::tempdir().unwrap();
+    let target = directory.path().join("file");
+    let store = work(&target, &study(3));
+    let error = open(&target, &study(3), true).unwrap_err().to_string();
+    assert!(error.contains("another snapload is at work"), "{error}");
+    drop(store);
+    let error = open(&target, &study(4), true).unwrap_err().to_string();
+    assert!(error.contains("there: # snapload"), "{error}");
+    complete(&target, &study(3));
+    assert!(matches!(
+        open(&target, &study(3), true),
+        Ok(Opened::Complete)
+    ));
+    assert!(open(&target, &study(3), false).is_err());
+}

@@ -1,0 +1,21 @@
+//! All tests of the library from outside, as one program: it is linked once, and the tests of all files run side by
+//! side.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod agrees_with_closed_forms;
+mod agrees_with_oracle;
+mod agrees_with_published;
+mod agrees_with_table_6_1;
+mod architecture;
+mod arithmetics;
+mod billiards;
+mod bouncing_ball;
+mod case_border;
+mod common;
+mod derivatives;
+mod drag;
+mod invariants;
+mod linearised_motion;
+mod many_cables;
+mod same_bits;
+mod trust;
