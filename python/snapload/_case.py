@@ -152,7 +152,7 @@ class Case(KeyValues):
         Python's lock is released meanwhile, and Ctrl-C ends it.
         """
         members, seed = whole("members", members, 0, 10**9), whole("seed", seed, 0, 2**64 - 1)
-        return Run(self._engine.run(plain(uncertainty), tolerance, members, seed), self)
+        return Run(_engine.run(self._engine, plain(uncertainty), tolerance, members, seed), self)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Case) and self.keys() == other.keys()

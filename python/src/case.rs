@@ -1,14 +1,11 @@
 //! A case, from keys and values of Python.
 
-use crate::errors::{of_case, of_work};
-use crate::interrupt::interruptible;
-use crate::run::{Run, read_uncertainty};
+use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use pyo3::{IntoPyObjectExt, intern};
-use snapload::analysis::Progress;
 use snapload::{CaseError, Parameters, Value, check_entry, key_named};
-use snapload_report::{Trusted, case_in_words};
+use snapload_report::case_in_words;
 use std::sync::Arc;
 
 /// A case that was checked.
@@ -16,7 +13,8 @@ use std::sync::Arc;
 #[derive(Clone)]
 pub(crate) struct Case {
     pub(crate) name: String,
-    /// What was given; what follows from it, such as the inertia, follows anew where one of it changes.
+    /// What was given; what follows from it, such as the inertia, follows anew where one of it
+    /// changes.
     pub(crate) given: Vec<(&'static str, Value)>,
     pub(crate) case: Arc<snapload::Case>,
 }
@@ -78,27 +76,6 @@ impl Case {
     pub(crate) fn in_words(&self) -> String {
         case_in_words(&self.name, self.parameters())
     }
-
-    /// Runs it; see `snapload.Case.run`.
-    fn run(
-        &self,
-        py: Python<'_>,
-        uncertainty: Option<&Bound<'_, PyAny>>,
-        tolerance: f64,
-        members: u32,
-        seed: u64,
-    ) -> PyResult<Run> {
-        let uncertainty = read_uncertainty(&self.case, uncertainty, tolerance)?;
-        let case = Arc::clone(&self.case);
-        let trusted = interruptible(py, None, move |watch| {
-            let on_progress = |progress: Progress| watch.go_on(progress);
-            Trusted::run(&case, uncertainty, members, seed, &on_progress)
-        })?;
-        Ok(Run {
-            case: self.clone(),
-            trusted: Arc::new(trusted.map_err(of_work)?),
-        })
-    }
 }
 
 /// Keys and values, in order.
@@ -112,7 +89,8 @@ pub(crate) fn read_entries(entries: &Bound<'_, PyDict>) -> PyResult<Vec<(&'stati
     read.collect()
 }
 
-/// A value of Python or NumPy as one of the engine; what is none is refused in the words of the key.
+/// A value of Python or NumPy as one of the engine; what is none is refused in the words of the
+/// key.
 pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     // NumPy's scalars, and its arrays without dimensions, give Python's own.
     let plain = value.call_method0(intern!(value.py(), "item")).ok();

@@ -32,8 +32,8 @@ impl Watch {
     }
 }
 
-/// Does some work on a thread of its own, without Python's lock, while this thread looks for signals and tells
-/// `progress` how much is done.
+/// Does some work on a thread of its own, without Python's lock, while this thread looks for
+/// signals and tells `progress` how much is done.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,

@@ -1,5 +1,5 @@
-//! The engine as a Python module, `snapload._engine`: plain functions and classes over the library crates. What
-//! makes it pleasant to use is the typed Python around it, in `python/snapload`.
+//! The engine as a Python module, `snapload._engine`: plain functions and classes over the library
+//! crates. What makes it pleasant to use is the typed Python around it, in `python/snapload`.
 
 mod case;
 mod critical;
@@ -22,7 +22,7 @@ mod _engine {
     #[pymodule_export]
     use super::critical::{critical_force, probability};
     #[pymodule_export]
-    use super::run::{Run, ensemble, verify};
+    use super::run::{Run, ensemble, run, verify};
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases};
     #[pymodule_export]

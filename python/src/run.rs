@@ -16,10 +16,10 @@ use snapload::analysis::{
     Cancelled, Counter, Ensemble, Progress, Uncertainty, unwatched, verify as verify_run,
 };
 use snapload::{CaseError, ModeInterval, Playback, Value};
-use snapload_report::tables::{IMPACTS, ImpactRow, MOTION, impact_rows};
+use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
-    TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
+    CaseEcho, EndRow, MOST_ROWS, MOTION, MotionRow, NormsRow, OutcomeRow, Report, Sampling,
+    ShareRow, TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -178,7 +178,8 @@ pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(of_program)
 }
 
-/// What of a case is in doubt: nothing, so much of every start value, or a size for every key that is.
+/// What of a case is in doubt: nothing, so much of every start value, or a size for every key that
+/// is.
 pub(crate) fn read_uncertainty(
     case: &snapload::Case,
     given: Option<&Bound<'_, PyAny>>,
@@ -216,6 +217,28 @@ fn positive(key: &str, value: f64) -> PyResult<f64> {
         Value::Number(value),
         allowed,
     )))
+}
+
+/// Runs a case; see `snapload.Case.run`.
+#[pyfunction]
+pub(crate) fn run(
+    py: Python<'_>,
+    case: &Case,
+    uncertainty: Option<&Bound<'_, PyAny>>,
+    tolerance: f64,
+    members: u32,
+    seed: u64,
+) -> PyResult<Run> {
+    let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
+    let begun = Arc::clone(&case.case);
+    let trusted = interruptible(py, None, move |watch| {
+        let on_progress = |progress: Progress| watch.go_on(progress);
+        Trusted::run(&begun, uncertainty, members, seed, &on_progress)
+    })?;
+    Ok(Run {
+        case: case.clone(),
+        trusted: Arc::new(trusted.map_err(of_work)?),
+    })
 }
 
 /// Runs the neighbours of a case: how they end, as JSON.

@@ -25,7 +25,8 @@ pub(crate) struct Study {
 
 #[pymethods]
 impl Study {
-    /// Of a case and the values of each axis, the first the slowest: a list, or the text `first:last:n`.
+    /// Of a case and the values of each axis, the first the slowest: a list, or the text
+    /// `first:last:n`.
     #[new]
     fn new(case: &Case, axes: Vec<(String, Bound<'_, PyAny>)>, trust: bool) -> PyResult<Self> {
         let axes = axes.iter().map(|(key, values)| axis(key, values));

@@ -1,4 +1,5 @@
-//! Tables, handed over by the Arrow C data interface: pandas, Polars and PyArrow read the very memory.
+//! Tables, handed over by the Arrow C data interface: pandas, Polars and PyArrow read the very
+//! memory.
 
 use crate::errors::of_program;
 use arrow_array::cast::AsArray;
@@ -63,8 +64,8 @@ impl Table {
         PyCapsule::new_with_value(py, schema, c"arrow_schema")
     }
 
-    /// A column for NumPy: its type and bytes, or a list of Python's own values. Numbers that are missing are
-    /// NaN, and make whole numbers and flags doubles.
+    /// A column for NumPy: its type and bytes, or a list of Python's own values. Numbers that are
+    /// missing are NaN, and make whole numbers and flags doubles.
     fn column<'py>(
         &self,
         py: Python<'py>,

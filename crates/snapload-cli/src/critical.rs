@@ -1,4 +1,5 @@
-//! `snapload critical`: the smallest force amplitude at which the limits are exceeded, and all others.
+//! `snapload critical`: the smallest force amplitude at which the limits are exceeded, and all
+//! others.
 use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
 use crate::failure::{Failure, print};
@@ -43,7 +44,8 @@ pub(crate) struct Args {
     /// Largest amplitude
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     max: f64,
-    /// Run N neighbours at each amplitude where one run can not tell, and give the probability of exceeding
+    /// Run N neighbours at each amplitude where one run can not tell, and give the probability of
+    /// exceeding
     #[arg(long, value_name = "N", conflicts_with = "over", value_parser = clap::value_parser!(u32).range(1..))]
     ensemble: Option<u32>,
     #[command(flatten)]

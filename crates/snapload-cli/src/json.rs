@@ -41,8 +41,8 @@ impl Json {
         Ok(Self::File(room, path))
     }
 
-    /// Puts the value where it was asked for, together with all else that is staged. Returns the files
-    /// written, or none where standard output belongs to the value.
+    /// Puts the value where it was asked for, together with all else that is staged. Returns the
+    /// files written, or none where standard output belongs to the value.
     pub(crate) fn write(
         self,
         mut stage: Stage,

@@ -127,7 +127,8 @@ fn main() -> ExitCode {
     failure::exit_code(result)
 }
 
-/// Ends with what is wrong with the command line. Who writes a key as an option is told how keys are set.
+/// Ends with what is wrong with the command line. Who writes a key as an option is told how keys
+/// are set.
 fn refuse(mut error: clap::Error) -> ! {
     if error.kind() == ErrorKind::UnknownArgument
         && error.get(ContextKind::SuggestedArg).is_none()

@@ -46,7 +46,8 @@ struct Read {
 struct Write {
     #[command(flatten)]
     input: StructureArgs,
-    /// Segments of each line; with one it is a spring with a damper, with more it has mass along its length
+    /// Segments of each line; with one it is a spring with a damper, with more it has mass along
+    /// its length
     #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     segments: u32,
     /// Write to a file; without it, to standard output

@@ -68,7 +68,8 @@ impl Stage {
         Ok(())
     }
 
-    /// The same for a writer that wants to know the scratch file's name, and brings it to the disk itself.
+    /// The same for a writer that wants to know the scratch file's name, and brings it to the disk
+    /// itself.
     pub(crate) fn place(
         &mut self,
         room: Room,

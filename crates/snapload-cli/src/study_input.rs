@@ -43,7 +43,8 @@ static STUDY: Schema = Schema {
 pub(crate) struct StudyArgs {
     #[command(flatten)]
     case: CaseArgs,
-    /// Let a key vary: first:last:n values, or a list v1,v2,...; repeated, the first one varies slowest
+    /// Let a key vary: first:last:n values, or a list v1,v2,...; repeated, the first one varies
+    /// slowest
     #[arg(long, value_name = "KEY=VALUES", allow_hyphen_values = true)]
     vary: Vec<String>,
     /// Sobol points in the box of the ranges instead of a grid
@@ -126,7 +127,8 @@ impl Asked {
         for text in &args.vary {
             let (key, varied) = of_text(text)?;
             match self.vary.iter_mut().find(|(known, _)| *known == key) {
-                // A second --vary of a key is a slip, which the plan reports; the file's is replaced.
+                // A second --vary of a key is a slip, which the plan reports; the file's is
+                // replaced.
                 Some(known) if args.vary.iter().filter(|t| key_of(t) == key).count() == 1 => {
                     known.1 = varied;
                 }

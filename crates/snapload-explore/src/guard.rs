@@ -1,7 +1,8 @@
 //! Whom the server answers, and what it tells the browser about its answers.
 //!
-//! A page of another site can make the browser send requests here. It can not read the answers, unless its own
-//! name was made to lead here (DNS rebinding): that is why the name that is asked for has to be ours.
+//! A page of another site can make the browser send requests here. It can not read the answers,
+//! unless its own name was made to lead here (DNS rebinding): that is why the name that is asked
+//! for has to be ours.
 use crate::refusal::Refusal;
 use axum::extract::{Request, State};
 use axum::http::header::{

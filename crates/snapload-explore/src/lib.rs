@@ -1,11 +1,13 @@
 //! The page of `snapload explore`, and the server that computes for it.
 //!
-//! A browser on the same machine shows the page and asks over a few paths: `/api/schema` says which keys there
-//! are, `/api/run` runs a case, `/api/map` runs the cases of a map, `/api/export/NAME` gives the files that the
-//! command `snapload run --out` writes. All numbers are the library's; nothing is computed by the page.
+//! A browser on the same machine shows the page and asks over a few paths: `/api/schema` says which
+//! keys there are, `/api/run` runs a case, `/api/map` runs the cases of a map, `/api/export/NAME`
+//! gives the files that the command `snapload run --out` writes. All numbers are the library's;
+//! nothing is computed by the page.
 //!
-//! Nobody else is served: the server listens on the loopback address alone, answers only to its own name, which
-//! keeps out pages of other sites that have the browser ask for them, and bounds what one request may cost.
+//! Nobody else is served: the server listens on the loopback address alone, answers only to its own
+//! name, which keeps out pages of other sites that have the browser ask for them, and bounds what
+//! one request may cost.
 
 mod api;
 mod export;

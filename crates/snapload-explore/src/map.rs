@@ -57,7 +57,8 @@ struct Axis {
 }
 
 impl AxisGiven {
-    /// The values are those of `snapload sweep --vary`, each the decimal number that one would write.
+    /// The values are those of `snapload sweep --vary`, each the decimal number that one would
+    /// write.
     fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
@@ -254,8 +255,8 @@ fn all_outcomes(
         .collect()
 }
 
-/// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many more steps
-/// (docs/limits.md).
+/// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many
+/// more steps (docs/limits.md).
 fn is_short(case: &Case) -> bool {
     let Parameters {
         t_end,

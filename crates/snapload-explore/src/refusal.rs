@@ -1,4 +1,5 @@
-//! Answers that say no: a status, the words that the command line would print, and the key that is to be changed.
+//! Answers that say no: a status, the words that the command line would print, and the key that is
+//! to be changed.
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::http::StatusCode;
@@ -12,7 +13,8 @@ use std::fmt::Display;
 pub(crate) struct Refusal {
     #[serde(skip)]
     status: StatusCode,
-    /// The key of the case, or the field of the request, that is to be changed; none where no single one is.
+    /// The key of the case, or the field of the request, that is to be changed; none where no
+    /// single one is.
     key: Option<String>,
     message: String,
 }

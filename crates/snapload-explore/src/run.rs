@@ -9,7 +9,8 @@ use snapload::{
     Case, CaseError, Impact, ModeInterval, Motion, Parameters, Playback, Shape, State, System,
     Trajectory, Value,
 };
-use snapload_report::tables::{Cell, IMPACTS, ImpactRow, MOTION};
+use snapload_report::MOTION;
+use snapload_report::tables::{Cell, IMPACTS, ImpactRow};
 use snapload_report::{
     CaseEcho, EndRow, Followed, HorizonRow, MotionRow, NormsRow, end_in_words, python_lines,
     shell_line,

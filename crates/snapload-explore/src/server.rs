@@ -44,7 +44,8 @@ impl Stop {
 }
 
 impl Server {
-    /// Takes a port of the loopback address, any free one for 0, to serve the page that begins with this case.
+    /// Takes a port of the loopback address, any free one for 0, to serve the page that begins with
+    /// this case.
     ///
     /// # Errors
     /// Where the port is taken or not ours to take.

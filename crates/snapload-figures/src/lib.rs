@@ -1,11 +1,10 @@
 //! Pictures of motions on cables, as SVG and PNG, fit for print.
 //!
 //! This crate knows axes, lines and letters, and no physics: it is handed points, or a finished run
-//! ([`RunPlots`]) that tells it where they are. Five functions
-//! ([`trajectory`], [`rotation`], [`snap_velocities`], [`tensions`], [`energy`]) turn them into a
-//! [`Plot`]; [`draw()`] puts one plot, or several over one another, on a [`Picture`] that gives
-//! itself as SVG and, from that very SVG, as PNG. A [`Map`], drawn by [`draw_map()`], shows a number or a
-//! class over two axes.
+//! ([`RunPlots`]) that tells it where they are. Five functions ([`trajectory`], [`rotation`],
+//! [`snap_velocities`], [`tensions`], [`energy`]) turn them into a [`Plot`]; [`draw()`] puts one
+//! plot, or several over one another, on a [`Picture`] that gives itself as SVG and, from that very
+//! SVG, as PNG. A [`Map`], drawn by [`draw_map()`], shows a number or a class over two axes.
 //!
 //! ```
 //! use snapload_figures::{Plot, Width, draw, rotation};

@@ -14,8 +14,8 @@ const BAR: f64 = 9.0;
 pub(crate) const BESIDE: f64 = 8.0;
 /// How many shades a scale has: more are not told apart, and fewer keep a file small.
 const LEVELS: usize = 64;
-/// Points of the scale viridis of matplotlib (CC0), evenly spaced: its lightness rises evenly, so it
-/// is read without red or green, and in grey print.
+/// Points of the scale viridis of matplotlib (CC0), evenly spaced: its lightness rises evenly, so
+/// it is read without red or green, and in grey print.
 const VIRIDIS: [[u8; 3]; 10] = [
     [0x44, 0x01, 0x54],
     [0x48, 0x28, 0x78],

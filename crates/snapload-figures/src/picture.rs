@@ -42,7 +42,8 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`FigureError::Scale`] if the scale is not positive or asks for more than 100 million pixels.
+    /// [`FigureError::Scale`] if the scale is not positive or asks for more than 100 million
+    /// pixels.
     pub fn png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
         let (width, height) = self.size_pt();
         let pixels = |points: f64| (points * f64::from(scale)).ceil();

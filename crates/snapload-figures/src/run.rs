@@ -7,7 +7,8 @@ use crate::picture::Picture;
 use crate::plot::{Mark, Plot, Point, Range, Width};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
 
-/// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of them.
+/// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of
+/// them.
 const STEP: f64 = 0.01;
 const MOST_STEPS: f64 = 20_000.0;
 /// Shorter pieces than this are of no use to the eye.
@@ -170,8 +171,8 @@ impl<'a> RunPlots<'a> {
         taut.map(|piece| joined(piece, tension)).collect()
     }
 
-    /// The letters I start, S sliding starts, R rocking starts, G the other boundary is struck while
-    /// one cable is taut, E end; each where it happens first.
+    /// The letters I start, S sliding starts, R rocking starts, G the other boundary is struck
+    /// while one cable is taut, E end; each where it happens first.
     fn marks(&self) -> Vec<Mark> {
         let run = self.run;
         let starts = |taut: usize| {
@@ -206,8 +207,8 @@ fn place(motion: &Motion) -> Point {
     [motion.state.x, motion.state.y]
 }
 
-/// Where the centre is when a cable is taut with the body upright, from the lowest place of the region
-/// up to a little above the path.
+/// Where the centre is when a cable is taut with the body upright, from the lowest place of the
+/// region up to a little above the path.
 fn boundary(run: &Trajectory, cable: usize) -> Vec<Point> {
     const POINTS: u32 = 200;
     let Some(tether) = run.system().cables.get(cable) else {

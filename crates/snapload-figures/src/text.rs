@@ -27,7 +27,8 @@ pub(crate) const TICK_GAP: f64 = 2.0;
 /// From the right side of a plot to the names of the lines across it.
 pub(crate) const NAME_GAP: f64 = 2.5;
 
-/// The parts of a text, and whether each is in italics. An asterisk without its partner is a letter.
+/// The parts of a text, and whether each is in italics. An asterisk without its partner is a
+/// letter.
 fn runs(text: &str) -> impl Iterator<Item = (&str, bool)> {
     let paired = text.matches('*').count().is_multiple_of(2);
     let lone = text.rfind('*').filter(|_| !paired);

@@ -1,5 +1,5 @@
-//! The critical force, and the probability of exceeding the limits against the force amplitude: in JSON and
-//! in words.
+//! The critical force, and the probability of exceeding the limits against the force amplitude: in
+//! JSON and in words.
 use crate::trusted::{neighbours, percent};
 use serde::Serialize;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding};

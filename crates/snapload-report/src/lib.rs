@@ -1,9 +1,10 @@
-//! What is said of a run, in words for a person and in JSON for a program: the same from the command line and
-//! from Python.
+//! What is said of a run, in words for a person and in JSON for a program: the same from the
+//! command line and from Python.
 
 mod case_file;
 mod critical;
 mod followed;
+mod motion;
 mod report;
 mod summary;
 pub mod tables;
@@ -14,9 +15,8 @@ mod verified;
 pub use case_file::{case_file, python_lines, shell_line};
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
-pub use report::{
-    CaseEcho, EndRow, MOST_ROWS, MotionRow, NormsRow, Report, Sampling, ValueRow, write_json,
-};
+pub use motion::{MOST_ROWS, MOTION, MotionRow, Sampling};
+pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use summary::{case_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
 pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};

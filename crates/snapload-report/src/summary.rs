@@ -25,8 +25,8 @@ pub fn summary(
         .collect()
 }
 
-/// The lines of a summary: a label, empty where the line goes on with what stands above it, and a text, which may
-/// have several lines itself.
+/// The lines of a summary: a label, empty where the line goes on with what stands above it, and a
+/// text, which may have several lines itself.
 pub fn summary_lines(
     name: &str,
     parameters: &Parameters,

@@ -1,5 +1,5 @@
 //! The tables of a run as CSV, and their columns for whoever writes them in another form.
-use crate::{MotionRow, Sampling};
+use crate::motion::{MOTION, MotionRow, Sampling};
 use serde::{Serialize, Serializer};
 use snapload::{Impact, Playback, Trajectory};
 use snapload_study::{Column, Take};
@@ -42,10 +42,6 @@ pub static IMPACTS: [Column<ImpactRow>; 18] = [
 
 /// The columns of the modes.
 const MODES: [&str; 4] = ["mode", "taut", "t_start", "t_end"];
-/// The columns of the motion.
-pub const MOTION: [&str; 10] = [
-    "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
-];
 
 /// The impacts of a run with their digits.
 pub fn impact_rows(

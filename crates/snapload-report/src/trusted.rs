@@ -41,7 +41,8 @@ impl Trusted {
         run.completed(case, members, seed, on_progress)
     }
 
-    /// The run alone, and how far it can be trusted: without neighbours and sensitivities, which take longer.
+    /// The run alone, and how far it can be trusted: without neighbours and sensitivities, which
+    /// take longer.
     ///
     /// # Errors
     /// As for [`Trusted::run`].
@@ -61,7 +62,8 @@ impl Trusted {
         })
     }
 
-    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`] gives.
+    /// With the sensitivities, and so many neighbours where it takes them: what [`Trusted::run`]
+    /// gives.
     ///
     /// # Errors
     /// As for [`Trusted::run`].
@@ -91,7 +93,8 @@ impl Trusted {
     }
 }
 
-/// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95 %: 60-66 %)`.
+/// `rotation limit: certain`, or a line for each end: `rotation limit: 63 % of 1,000 neighbours (95
+/// %: 60-66 %)`.
 pub fn outcome_in_words(trusted: &Trusted) -> String {
     let end = trusted.run.end().reason.words();
     let Some(tally) = &trusted.tally else {

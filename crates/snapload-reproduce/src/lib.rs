@@ -1,8 +1,8 @@
-//! Chapter 6 of the 1999 thesis on snap loading of moored breakwaters, reproduced: its tables, figures
-//! and claims as one report.
+//! Chapter 6 of the 1999 thesis on snap loading of moored breakwaters, reproduced: its tables,
+//! figures and claims as one report.
 //!
-//! [`Study`] computes all runs, each once, in two readings: the chapter's own studies ended a run that
-//! begins to slide; the motion really slides on. [`Report`] makes files of it.
+//! [`Study`] computes all runs, each once, in two readings: the chapter's own studies ended a run
+//! that begins to slide; the motion really slides on. [`Report`] makes files of it.
 
 mod claims;
 mod figures;
@@ -71,7 +71,8 @@ impl Report {
     }
 }
 
-/// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where we do.
+/// `claims.json`: id, section, claim, verdict and evidence, which ends with why we disagree where
+/// we do.
 fn claims_json(claims: &[Claim]) -> String {
     let row = |claim: &Claim| {
         let evidence = format!("{} {}", claim.evidence, claim.remark);

@@ -1,5 +1,5 @@
-//! The report as one page of HTML that needs nothing else: the words of `data/page.html`, and what was
-//! computed where these name it in braces.
+//! The report as one page of HTML that needs nothing else: the words of `data/page.html`, and what
+//! was computed where these name it in braces.
 
 use crate::ReportError;
 use crate::claims::{Claim, Verdict};

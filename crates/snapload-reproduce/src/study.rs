@@ -127,8 +127,8 @@ impl CriticalRow {
         looked_up_to(self.published, &self.computed)
     }
 
-    /// Whether arithmetic in doubles can decide the published value: at no amplitude up to it neighbours
-    /// disagree.
+    /// Whether arithmetic in doubles can decide the published value: at no amplitude up to it
+    /// neighbours disagree.
     pub(crate) fn decidable(&self, reading: Reading) -> bool {
         let points = self.probable.of(reading).points.iter();
         points

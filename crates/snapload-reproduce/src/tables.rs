@@ -18,7 +18,8 @@ pub(crate) const NORMS: [Norm; 5] = [
 /// Where `snapload critical` tells all intervals that exceed.
 pub(crate) const EXCEEDING: &str = ".exceeding";
 
-/// The rows of Table 6.1 in its order, then the variants that it prints under other codes: series, code.
+/// The rows of Table 6.1 in its order, then the variants that it prints under other codes: series,
+/// code.
 pub(crate) fn rows_6_1() -> Vec<(&'static str, &'static str)> {
     let printed = [
         ("a=b (square), as printed", "1911001000-559"),
@@ -49,8 +50,9 @@ pub(crate) fn outcome(case: &CaseRuns, reading: Reading) -> Vec<Number> {
     numbers
 }
 
-/// What a row of Table 6.2 comes to: critical force, its difference from the published one, whether that
-/// exceeds, from which amplitudes on parts of the neighbours exceed, whether they decide, all intervals.
+/// What a row of Table 6.2 comes to: critical force, its difference from the published one, whether
+/// that exceeds, from which amplitudes on parts of the neighbours exceed, whether they decide, all
+/// intervals.
 pub(crate) fn critical_outcome(row: &CriticalRow, reading: Reading) -> Vec<Number> {
     let (found, published) = (row.computed.of(reading), row.published);
     let (made, neighbours) = (critical(row, reading), probability(row, reading));

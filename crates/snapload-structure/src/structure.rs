@@ -338,7 +338,8 @@ fn read_line(fields: Fields<'_>) -> Result<LineSi, CaseError> {
     })
 }
 
-/// The name of a line of a type and a diameter, and what such lines are like; none where neither is given.
+/// The name of a line of a type and a diameter, and what such lines are like; none where neither is
+/// given.
 fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>, CaseError> {
     let kind = fields.get::<String>("type")?;
     let diameter = fields.get::<f64>("diameter")?;

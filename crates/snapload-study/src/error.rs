@@ -56,7 +56,8 @@ pub enum Occupied {
 }
 
 impl Occupied {
-    /// What is there and what to do, in words that call the option to resume and that for the file by their names.
+    /// What is there and what to do, in words that call the option to resume and that for the file
+    /// by their names.
     pub fn in_words(&self, resume: &str, out: &str) -> String {
         match self {
             Self::Complete(file) => format!(

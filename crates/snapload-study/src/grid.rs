@@ -10,8 +10,8 @@ const MOST_DIGITS: usize = 400;
 
 /// `n` values from a first to a last one, both among them.
 ///
-/// They are computed as fractions of the decimal texts and rounded once, so there is no sum whose errors
-/// would show as 0.30000000000000004.
+/// They are computed as fractions of the decimal texts and rounded once, so there is no sum whose
+/// errors would show as 0.30000000000000004.
 ///
 /// ```
 /// use snapload_study::Grid;
@@ -27,7 +27,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Of two decimal numbers and how many there are to be, one at the least; none if a text is no number.
+    /// Of two decimal numbers and how many there are to be, one at the least; none if a text is no
+    /// number.
     pub fn new(first: &str, last: &str, count: u64) -> Option<Self> {
         let (first, last) = (first.trim(), last.trim());
         let from = decimal(first)?;

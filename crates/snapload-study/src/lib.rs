@@ -1,10 +1,11 @@
 //! Studies: many cases, a row each, in one Parquet file.
 //!
-//! A [`Study`] is a base case and a [`Plan`]: axes of a grid, Sobol points in a box, or a list. It gives case i
-//! without the ones before it, so a study can be cut anywhere: into chunks, into shards for several machines,
-//! at the point where a run was killed. [`rows()`] is the one place where cases become rows; a [`Store`] keeps
-//! each chunk as a file of its own until all are there, and then joins them. What the file holds depends on the
-//! study alone, to the byte: not on threads, chunks, shards or interruptions.
+//! A [`Study`] is a base case and a [`Plan`]: axes of a grid, Sobol points in a box, or a list. It
+//! gives case i without the ones before it, so a study can be cut anywhere: into chunks, into
+//! shards for several machines, at the point where a run was killed. [`rows()`] is the one place
+//! where cases become rows; a [`Store`] keeps each chunk as a file of its own until all are there,
+//! and then joins them. What the file holds depends on the study alone, to the byte: not on
+//! threads, chunks, shards or interruptions.
 
 mod error;
 mod grid;

@@ -42,8 +42,8 @@ impl List {
     /// Opens a list; a name that ends in `.parquet` is a Parquet file, any other a CSV file.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or if a column
-    /// is no key.
+    /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or
+    /// if a column is no key.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let input = |error: &dyn std::fmt::Display| StudyError::read(path, error).of_input();
         let sha256 = digest(path).map_err(|error| input(&error))?;

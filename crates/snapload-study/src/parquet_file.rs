@@ -1,7 +1,7 @@
 //! Columns of Parquet files: written, and read from any row.
 //!
-//! The Parquet project's own readers and writers of columns do this without Arrow, whose code for every type there is
-//! takes longer to compile than all else that the command line depends on.
+//! The Parquet project's own readers and writers of columns do this without Arrow, whose code for
+//! every type there is takes longer to compile than all else that the command line depends on.
 
 use half::f16;
 use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};

@@ -26,7 +26,8 @@ impl Axis {
     /// Evenly spaced.
     ///
     /// # Errors
-    /// [`StudyError::Case`] if there is no such key, or it can not take the first or the last value.
+    /// [`StudyError::Case`] if there is no such key, or it can not take the first or the last
+    /// value.
     pub fn even(key: &str, grid: Grid) -> Result<Self, StudyError> {
         for k in [0, grid.count() - 1] {
             check_entry(key, &Value::Number(grid.value(k)))?;
@@ -129,8 +130,8 @@ impl Side {
     /// From a lowest value to a highest one, which is not reached itself.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if there is no such key, if it is none that takes every number of a range, or if
-    /// it can not take one of the two.
+    /// [`StudyError::Input`] if there is no such key, if it is none that takes every number of a
+    /// range, or if it can not take one of the two.
     pub fn new(key: &str, low: f64, high: f64) -> Result<Self, StudyError> {
         check_entry(key, &Value::Number(low))?;
         let key = check_entry(key, &Value::Number(high))?;
@@ -145,7 +146,8 @@ impl Side {
         Ok(Self { key, low, high })
     }
 
-    /// As one writes it: `low:high`. How many values a grid would have, after another colon, does not matter here.
+    /// As one writes it: `low:high`. How many values a grid would have, after another colon, does
+    /// not matter here.
     ///
     /// # Errors
     /// [`StudyError::Input`] if the text is no range, and as for [`Side::new`].
@@ -223,8 +225,8 @@ impl Plan {
     /// Random points.
     ///
     /// # Errors
-    /// [`StudyError::Input`] for a key with two sides, a box without any or with more than [`MOST_SIDES`], and
-    /// for no points or too many.
+    /// [`StudyError::Input`] for a key with two sides, a box without any or with more than
+    /// [`MOST_SIDES`], and for no points or too many.
     pub fn random(sides: Vec<Side>, count: u64, seed: u64) -> Result<Self, StudyError> {
         once(sides.iter().map(Side::key))?;
         let points = Sobol::new(sides.len(), seed).ok_or_else(|| {

@@ -9,8 +9,8 @@ use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 pub struct Row {
     /// Its place in the study, from 0.
     pub index: u64,
-    /// The values of all keys in the order of the schema; of a case that can not be run those given, and the
-    /// defaults of the others.
+    /// The values of all keys in the order of the schema; of a case that can not be run those
+    /// given, and the defaults of the others.
     pub keys: Vec<Option<Value>>,
     /// What the run comes to, or why there is none.
     pub outcome: Result<Outcome, CaseError>,
@@ -20,7 +20,8 @@ pub struct Row {
 
 /// Runs cases, on the threads that there are, and returns their rows in order. Each is counted.
 ///
-/// A row depends on its case alone, so it is the same wherever and with whichever others it is computed.
+/// A row depends on its case alone, so it is the same wherever and with whichever others it is
+/// computed.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is to end before.

@@ -1,14 +1,15 @@
 //! Sobol points, scrambled after Owen, any one of them on its own.
 //!
-//! The crates that offer them stop at 65,536 points in single precision, or go from each point to the next
-//! only; a study needs ten million, and any one of them. Direction numbers: S. Joe and F. Y. Kuo,
-//! *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci. Comput. 30 (2008)
-//! 2635-2654, set new-joe-kuo-6.21201.
+//! The crates that offer them stop at 65,536 points in single precision, or go from each point to
+//! the next only; a study needs ten million, and any one of them. Direction numbers: S. Joe and F.
+//! Y. Kuo, *Constructing Sobol sequences with better two-dimensional projections*, SIAM J. Sci.
+//! Comput. 30 (2008) 2635-2654, set new-joe-kuo-6.21201.
 
 /// Bits of a coordinate: as many as a double below 1 holds.
 const BITS: usize = 53;
 
-/// One dimension: degree s and coefficients a of its primitive polynomial, first direction numbers m.
+/// One dimension: degree s and coefficients a of its primitive polynomial, first direction numbers
+/// m.
 struct Direction {
     s: usize,
     a: u64,
@@ -54,7 +55,8 @@ impl Sobol {
     /// The most dimensions.
     pub const MOST: usize = DIRECTIONS.len() + 1;
 
-    /// A sequence of so many dimensions; none beyond [`Sobol::MOST`]. Another seed is another scrambling.
+    /// A sequence of so many dimensions; none beyond [`Sobol::MOST`]. Another seed is another
+    /// scrambling.
     pub fn new(dimensions: usize, seed: u64) -> Option<Self> {
         let rest = DIRECTIONS.get(..dimensions.checked_sub(1)?)?;
         let first = std::array::from_fn(|j| 1 << (BITS - 1 - j));
@@ -97,7 +99,8 @@ fn vectors(direction: &Direction) -> [u64; BITS] {
     v
 }
 
-/// Owen's nested scrambling: every bit is turned over, or not, by a coin that the bits above it choose.
+/// Owen's nested scrambling: every bit is turned over, or not, by a coin that the bits above it
+/// choose.
 fn scramble(point: u64, key: u64) -> u64 {
     (0..BITS).fold(0, |scrambled, j| {
         let shift = BITS - 1 - j;
@@ -129,8 +132,8 @@ mod tests {
         0.026474952697753906, 0.3119192123413086, 0.8279962539672852, 0.6682462692260742, 0.6286592483520508, 0.7950620651245117, 0.9707460403442383, 0.016793251037597656, 0.3004159927368164, 0.25440120697021484, 0.638331413269043, 0.9311761856079102, 0.27321720123291016, 0.5333433151245117, 0.6491060256958008, 0.7160959243774414, 0.4430112838745117, 0.25748538970947266, 0.5928945541381836, 0.3822927474975586, 0.040129661560058594,
     ];
 
-    /// Points 1 and 5 of scipy.stats.qmc.Sobol(21, scramble=False), which has the same direction numbers,
-    /// and point 1,000,000 of its last dimensions.
+    /// Points 1 and 5 of scipy.stats.qmc.Sobol(21, scramble=False), which has the same direction
+    /// numbers, and point 1,000,000 of its last dimensions.
     #[test]
     fn plain_points_are_those_of_other_programs() {
         let sobol = Sobol::new(Sobol::MOST, 0).unwrap();

@@ -1,9 +1,10 @@
 //! Where the rows of a study are kept until all are there.
 //!
-//! Beside the file to come stands the directory `FILE.parts`. Each chunk of rows is written there under a
-//! scratch name, brought to the disk, and renamed: it is whole or not at all. When nothing is missing the
-//! chunks are joined, the file is brought to the disk and renamed into its place, and the directory goes. At
-//! whichever point the power fails, what was renamed is still there, and all else is done again.
+//! Beside the file to come stands the directory `FILE.parts`. Each chunk of rows is written there
+//! under a scratch name, brought to the disk, and renamed: it is whole or not at all. When nothing
+//! is missing the chunks are joined, the file is brought to the disk and renamed into its place,
+//! and the directory goes. At whichever point the power fails, what was renamed is still there, and
+//! all else is done again.
 
 use crate::whole::{identity_of, join, to_bytes};
 use crate::{Identity, Occupied, Row, Study, StudyError, rows};
@@ -46,9 +47,9 @@ impl Store {
     /// Opens the place of a file. Rows of an earlier run are taken up only if `resume` says so.
     ///
     /// # Errors
-    /// [`StudyError::Occupied`] if something else stands there, if another study was begun there, or this one
-    /// was and is not to be resumed, or if another program is at work there; [`StudyError::Input`] if there is no such
-    /// folder.
+    /// [`StudyError::Occupied`] if something else stands there, if another study was begun there,
+    /// or this one was and is not to be resumed, or if another program is at work there;
+    /// [`StudyError::Input`] if there is no such folder.
     pub fn open(target: &Path, identity: Identity, resume: bool) -> Result<Opened, StudyError> {
         let mut name = OsString::from(target);
         name.push(".parts");
@@ -133,8 +134,8 @@ impl Store {
     /// Keeps rows that [`chunk`] made, perhaps on another machine.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if they are not those rows of this study, computed by this version of the program;
-    /// [`StudyError::Failed`] if they can not be written.
+    /// [`StudyError::Input`] if they are not those rows of this study, computed by this version of
+    /// the program; [`StudyError::Failed`] if they can not be written.
     pub fn keep(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
         let name = chunk_name(&range);
         self.put(&name, bytes)?;
@@ -214,7 +215,8 @@ impl Store {
     }
 }
 
-/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`] takes.
+/// Some rows of a study, computed on the threads that there are, as a file that [`Store::keep`]
+/// takes.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the list of cases can not be read, and [`StudyError::Cancelled`].
@@ -312,7 +314,8 @@ fn lock(directory: &Path) -> Result<File, StudyError> {
             let there = Occupied::InUse(directory.to_owned());
             Err(StudyError::Occupied(there))
         }
-        // Where the file system knows no locks, as some of clusters do not, there is nothing to hold.
+        // Where the file system knows no locks, as some of clusters do not, there is nothing to
+        // hold.
         Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
     }
 }

@@ -25,11 +25,12 @@ pub struct Drawn {
 }
 
 impl Study {
-    /// A study of the keys given and of what varies. With `trust` every run says how far it can be trusted.
+    /// A study of the keys given and of what varies. With `trust` every run says how far it can be
+    /// trusted.
     ///
     /// # Errors
-    /// [`StudyError::Input`] if a key of the base is unknown or can not take its value. Whether the values
-    /// go together shows only with those that vary.
+    /// [`StudyError::Input`] if a key of the base is unknown or can not take its value. Whether the
+    /// values go together shows only with those that vary.
     pub fn new(
         base: impl IntoIterator<Item = (String, Value)>,
         plan: Plan,

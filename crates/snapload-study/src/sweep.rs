@@ -27,12 +27,12 @@ pub enum Ending {
 /// A chunk that is run and not yet safe.
 type Chunk = (Range<u64>, Vec<Row>);
 
-/// Runs what is missing in the store, on the threads that there are, and completes the file. While a chunk is run the one
-/// before it is written.
+/// Runs what is missing in the store, on the threads that there are, and completes the file. While
+/// a chunk is run the one before it is written.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read; [`StudyError::Cancelled`], with
-/// the number of rows that are safe, if it is told to end.
+/// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read;
+/// [`StudyError::Cancelled`], with the number of rows that are safe, if it is told to end.
 pub fn sweep(
     study: &Study,
     mut store: Store,

@@ -1,4 +1,5 @@
-//! Columns of tables: what each is called, its unit, what it means, and how its values are taken from a row.
+//! Columns of tables: what each is called, its unit, what it means, and how its values are taken
+//! from a row.
 
 use crate::Row;
 use crate::parquet_file::{Field, Holds, Values};
@@ -49,7 +50,8 @@ impl<R> Column<R> {
         }
     }
 
-    /// One of the model's quantities, under its own name; an unknown one has neither unit nor meaning.
+    /// One of the model's quantities, under its own name; an unknown one has neither unit nor
+    /// meaning.
     pub const fn quantity(name: &'static str, take: Take<R>) -> Self {
         match quantity(name) {
             Some(known) => Self::new(name, known.symbol, known.unit, take, known.meaning),
@@ -199,7 +201,8 @@ pub(crate) fn columns_of(rows: &[Row]) -> Vec<Values> {
     columns
 }
 
-/// The values of a key. A value of another type, in a row with an error, is left out: the error tells it.
+/// The values of a key. A value of another type, in a row with an error, is left out: the error
+/// tells it.
 fn key_values<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -> Values {
     match kind {
         Kind::Number { .. } => Values::Numbers(

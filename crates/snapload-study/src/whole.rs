@@ -33,8 +33,9 @@ fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
         .build())
 }
 
-/// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it returns.
-/// Rows are taken out and written anew, so the bytes depend on the rows and not on how they were cut.
+/// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it
+/// returns. Rows are taken out and written anew, so the bytes depend on the rows and not on how
+/// they were cut.
 pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result<(), StudyError> {
     let wrong = |error: ParquetError| StudyError::write(out, to_io(error));
     let file = File::create(out).map_err(|error| StudyError::write(out, error))?;
@@ -101,8 +102,9 @@ fn to_io(error: ParquetError) -> io::Error {
 /// Joins parts of a study into the file that one run would have written, to the byte.
 ///
 /// # Errors
-/// [`StudyError::Input`] if the files are not all parts of one study by one version of the program, or do not
-/// cover it exactly; [`StudyError::Failed`] if one can not be read, or the whole not be written.
+/// [`StudyError::Input`] if the files are not all parts of one study by one version of the program,
+/// or do not cover it exactly; [`StudyError::Failed`] if one can not be read, or the whole not be
+/// written.
 pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
     let mut parts = Vec::new();
     for path in files {
@@ -260,8 +262,8 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
         .collect()
 }
 
-/// The identity of a study's file, and its columns, some tens of thousands of rows at a time; nothing if it is another
-/// file.
+/// The identity of a study's file, and its columns, some tens of thousands of rows at a time;
+/// nothing if it is another file.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if the file can not be read.

@@ -1,7 +1,7 @@
 //! How long an impact takes, alone and with company: `cargo bench -p snapload`.
 //!
-//! Throughput is counted in impacts where one run is timed and in cases where a sweep is; criterion prints
-//! both as elements a second.
+//! Throughput is counted in impacts where one run is timed and in cases where a sweep is; criterion
+//! prints both as elements a second.
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;

@@ -1,4 +1,5 @@
-//! A run followed event by event, with an account of its energy: what the snaps take away and what the wave brings.
+//! A run followed event by event, with an account of its energy: what the snaps take away and what
+//! the wave brings.
 
 use snapload::{Case, CaseError, Parameters};
 

@@ -2,8 +2,9 @@
 //!
 //! A rigid body in the plane hangs on inextensible cables under forces that vary in time. With no
 //! cable taut it flies freely, in closed form; where a cable closes it snaps taut, an impact with
-//! restitution; with one cable taut the body slides along a circle like a double pendulum, with two it
-//! rocks. A [`Simulation`] goes from event to event; each is located with a proof that none is earlier.
+//! restitution; with one cable taut the body slides along a circle like a double pendulum, with two
+//! it rocks. A [`Simulation`] goes from event to event; each is located with a proof that none is
+//! earlier.
 //!
 //! All quantities are nondimensional, in the units of the breakwater of `docs/model.md`.
 //!

@@ -105,7 +105,8 @@ impl Cable {
         (p[0] * p[0] + p[1] * p[1]) / R + n[0] * a[0] + n[1] * a[1] > 0.0
     }
 
-    /// Moves the body along the cable until its gap is `-inside`, so that the restart is on the slack side.
+    /// Moves the body along the cable until its gap is `-inside`, so that the restart is on the
+    /// slack side.
     pub fn place_inside(self, u: &mut [f64], inside: f64) {
         if inside > 0.0 {
             let (n, _) = self.normal_and_arm(u);

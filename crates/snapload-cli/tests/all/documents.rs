@@ -10,7 +10,8 @@ fn read(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).expect(path)
 }
 
-/// Every file that the tree of ARCHITECTURE.md names is there, and every source of the library is named.
+/// Every file that the tree of ARCHITECTURE.md names is there, and every source of the library is
+/// named.
 #[test]
 fn the_architecture_is_true() {
     let text = read("ARCHITECTURE.md");

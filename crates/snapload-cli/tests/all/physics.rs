@@ -15,8 +15,8 @@ fn run(directory: &Path, verb: &str, args: &[&str]) -> Value {
     serde_json::from_slice(&out.get_output().stdout).unwrap()
 }
 
-/// Every row of Table 6.1, the printed variants and both examples run to an end that the schema knows,
-/// and what the JSON says hangs together.
+/// Every row of Table 6.1, the printed variants and both examples run to an end that the schema
+/// knows, and what the JSON says hangs together.
 #[test]
 fn every_built_in_case_runs() {
     let d = directory();

@@ -1,4 +1,5 @@
-//! The report as a reader meets it: written by the command, opened in a real browser, its commands run.
+//! The report as a reader meets it: written by the command, opened in a real browser, its commands
+//! run.
 
 use crate::common::{directory, listing, snapload};
 use serde_json::Value;
@@ -292,7 +293,8 @@ fn value(json: &Value, key: &str, shown: &str) -> String {
     }
 }
 
-/// The evidence of a claim, without the remark that follows it there, or how many came to a verdict.
+/// The evidence of a claim, without the remark that follows it there, or how many came to a
+/// verdict.
 fn of_claims(key: &str, shown: &str) -> String {
     let quoted = key.split('"').nth(1).unwrap();
     let claims = claims();
@@ -305,8 +307,8 @@ fn of_claims(key: &str, shown: &str) -> String {
     evidence.get(..shown.len()).unwrap_or(evidence).to_owned()
 }
 
-/// The points behind a curve or a figure of norms are those that its two commands print; the reader of
-/// JSON may miss the last bit of a number.
+/// The points behind a curve or a figure of norms are those that its two commands print; the reader
+/// of JSON may miss the last bit of a number.
 fn curve_is_made_again(page: &str, number: usize, printed: &[Vec<Value>]) {
     let keys: &[&str] = match number {
         27..=30 => &["/f_cr"],

@@ -141,7 +141,8 @@ fn the_keys_are_listed() {
         );
 }
 
-/// Both models of a line beside each other: the first snap comes before any line has pulled, and is the same in both.
+/// Both models of a line beside each other: the first snap comes before any line has pulled, and is
+/// the same in both.
 #[test]
 fn elastic_runs_both_ways() {
     let room = room();

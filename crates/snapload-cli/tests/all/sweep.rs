@@ -136,8 +136,9 @@ fn a_full_disk_loses_nothing() {
     sweep(d.path(), &LONG, "whole.parquet").success();
     let size = bytes(d.path(), "whole.parquet").len();
     let program = assert_cmd::cargo::cargo_bin!("snapload");
-    // A limit that a chunk keeps and the whole does not, and one that not even a chunk keeps. The shell is
-    // told to ignore the signal that goes with it, so that writing fails as on a full disk.
+    // A limit that a chunk keeps and the whole does not, and one that not even a chunk keeps. The
+    // shell is told to ignore the signal that goes with it, so that writing fails as on a full
+    // disk.
     for blocks in [size / 512 / 2, 8] {
         let script = format!(
             "trap '' XFSZ; ulimit -f {blocks}; exec {} sweep {} --out full.parquet --resume",
@@ -280,7 +281,8 @@ fn a_bad_row_is_a_row_with_its_error() {
         ));
 }
 
-/// Where a cable returns half of its velocity errors hardly grow; the standard case is past trust when it ends.
+/// Where a cable returns half of its velocity errors hardly grow; the standard case is past trust
+/// when it ends.
 #[test]
 fn the_summary_tells_how_many_ends_are_certain() {
     let d = directory();

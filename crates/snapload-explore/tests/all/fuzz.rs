@@ -68,7 +68,8 @@ fn is_no_failure(server: &Running, bytes: &[u8]) {
     }
 }
 
-/// A client that waits a moment, and leaves where nothing comes back: much of what it says is no whole request.
+/// A client that waits a moment, and leaves where nothing comes back: much of what it says is no
+/// whole request.
 fn said(server: &Running, bytes: &[u8]) {
     let mut stream = server.connect();
     let _ = stream.write_all(bytes);

@@ -148,8 +148,8 @@ fn a_run_has_the_numbers_of_the_library() {
     }
 }
 
-/// Between impacts the motion is the run's; at an impact the body stays where it is, and the energy that is lost
-/// is the impact's.
+/// Between impacts the motion is the run's; at an impact the body stays where it is, and the energy
+/// that is lost is the impact's.
 fn motion_is_of(run: &Trajectory, told: &Value) {
     let names = [
         "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
@@ -350,7 +350,8 @@ fn a_map_runs_long_cases_to_their_ends() {
     assert_eq!(chunk["reason"][0], "end_time");
 }
 
-/// Two maps at one time are all there are, so a third would wait for ever if closing one did not end it.
+/// Two maps at one time are all there are, so a third would wait for ever if closing one did not
+/// end it.
 #[test]
 fn closing_the_connection_ends_a_map() {
     let server = serve();

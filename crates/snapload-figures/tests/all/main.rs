@@ -1,5 +1,5 @@
-//! All tests of pictures from outside, as one program: it is linked once, and the tests of all files run side by
-//! side.
+//! All tests of pictures from outside, as one program: it is linked once, and the tests of all
+//! files run side by side.
 
 mod paper;
 mod pictures;

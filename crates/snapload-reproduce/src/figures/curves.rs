@@ -1,4 +1,5 @@
-//! Figs 6.27-6.38: critical force over restitution and frequency, and norms over the force amplitude.
+//! Figs 6.27-6.38: critical force over restitution and frequency, and norms over the force
+//! amplitude.
 
 use super::{About, Lists, Source};
 use crate::ReportError;
@@ -140,9 +141,9 @@ impl Curve {
         ReportError::Missing(format!("the curve of {} for r = {}", self.of, self.r))
     }
 
-    /// A command for each of some values, which are counted in hundredths: so the shell hands the program
-    /// the very decimals of the report. Sums such as 0.3 + 68 · 0.01 miss them in the last bit, which is
-    /// enough to change a critical force.
+    /// A command for each of some values, which are counted in hundredths: so the shell hands the
+    /// program the very decimals of the report. Sums such as 0.3 + 68 · 0.01 miss them in the last
+    /// bit, which is enough to change a critical force.
     fn for_each(&self, verb: &str, hundredths: &str, key: &str, reading: Reading) -> String {
         let (r, option) = (self.r, reading.option());
         format!(
@@ -151,7 +152,8 @@ impl Curve {
     }
 }
 
-/// The readings agree at most amplitudes: such a point is drawn once, or the second would hide the first.
+/// The readings agree at most amplitudes: such a point is drawn once, or the second would hide the
+/// first.
 fn markers(symbol: &str, shape: Shape, values: [Vec<Point>; 2]) -> impl Iterator<Item = Layer> {
     let [chapter, mut sliding_on] = values;
     let (both, ends): (Vec<_>, Vec<_>) =

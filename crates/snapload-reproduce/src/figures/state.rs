@@ -21,7 +21,8 @@ pub(super) struct StateFigure {
     marks: Marks,
     /// What it shows.
     what: String,
-    /// Whether the case stands in for a box of Table 6.1, none of which may slide with this cable taut.
+    /// Whether the case stands in for a box of Table 6.1, none of which may slide with this cable
+    /// taut.
     #[serde(default)]
     stands_in: bool,
 }
@@ -255,7 +256,8 @@ impl Drawing<'_> {
         }
     }
 
-    /// α, from the vertical at the anchor to the cable; β, from the vertical at the fairlead to the body.
+    /// α, from the vertical at the anchor to the cable; β, from the vertical at the fairlead to the
+    /// body.
     fn angles(&self) -> Vec<Layer> {
         let cable = self.taut();
         let (anchor, fairlead) = self.ends(cable);

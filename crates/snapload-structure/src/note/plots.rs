@@ -125,9 +125,9 @@ fn path(assessment: &Assessment, window: [f64; 2]) -> Plot {
     plot
 }
 
-/// How hard each snap is, as it is drawn: its tension \[kN\], over the line's own breaking load where
-/// those differ, or the speed where a line has no stiffness. With it where lines break, if that is
-/// known, and the label of the axis.
+/// How hard each snap is, as it is drawn: its tension \[kN\], over the line's own breaking load
+/// where those differ, or the speed where a line has no stiffness. With it where lines break, if
+/// that is known, and the label of the axis.
 fn hardness(assessment: &Assessment) -> (fn(&Snap) -> f64, Option<f64>, &'static str) {
     let lines = &assessment.prepared.structure.lines;
     let loads: Vec<_> = lines

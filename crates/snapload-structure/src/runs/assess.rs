@@ -42,7 +42,8 @@ pub struct Assessment {
 /// Runs a structure with its neighbours.
 ///
 /// # Errors
-/// A [`snapload::CaseError`] if the structure rests nowhere or can not start, and [`Unfinished::Cancelled`].
+/// A [`snapload::CaseError`] if the structure rests nowhere or can not start, and
+/// [`Unfinished::Cancelled`].
 pub fn assess(
     structure: Structure,
     neighbours: u32,

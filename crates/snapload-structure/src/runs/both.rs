@@ -33,7 +33,8 @@ pub struct BothModels {
 /// stretch; the motion on the former is kept every `every_s` seconds.
 ///
 /// # Errors
-/// A [`CaseError`] if a line has no stiffness, or the integrator gives up, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] if a line has no stiffness, or the integrator gives up, and
+/// [`Unfinished::Cancelled`].
 pub fn both_models(
     prepared: Prepared,
     stiffer: f64,

@@ -27,10 +27,12 @@ pub struct Seas {
     pub records: Vec<SeaOutcome>,
 }
 
-/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow it.
+/// Runs a structure in `count` records of its sea, with the seed of the case and those that follow
+/// it.
 ///
 /// # Errors
-/// A [`CaseError`] if the case has no sea, or the structure rests nowhere, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] if the case has no sea, or the structure rests nowhere, and
+/// [`Unfinished::Cancelled`].
 pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result<Seas, Unfinished> {
     let Water::Sea(sea) = structure.water else {
         let allowed = "an irregular sea, to draw records from";

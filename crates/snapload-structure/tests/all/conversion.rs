@@ -7,8 +7,9 @@ use std::f64::consts::PI;
 const RHO: f64 = 1025.0;
 const G: f64 = 9.806_65;
 
-/// The thesis's standard case as a structure: half the anchors' distance L, a net buoyancy and a mass are chosen, and
-/// all else follows backwards from r, a, f_o, ν and Ω (docs/model.md section 10).
+/// The thesis's standard case as a structure: half the anchors' distance L, a net buoyancy and a
+/// mass are chosen, and all else follows backwards from r, a, f_o, ν and Ω (docs/model.md section
+/// 10).
 fn disguised(p: &Parameters) -> String {
     let (l, volume, mass, depth) = (15.0, 10.0, 4000.0, 40.0);
     let force = (RHO * volume - mass) * G;
@@ -37,7 +38,8 @@ fn disguised(p: &Parameters) -> String {
     )
 }
 
-/// The same groups, and the same impacts until rounding, which grows tenfold in a few impacts, has grown too far.
+/// The same groups, and the same impacts until rounding, which grows tenfold in a few impacts, has
+/// grown too far.
 #[test]
 fn thesis_in_disguise_is_the_thesis() {
     let p = Parameters::STANDARD;
@@ -77,8 +79,8 @@ fn thesis_in_disguise_is_the_thesis() {
     assert_eq!(ours.end().reason, theirs.end().reason);
 }
 
-/// A cylinder of 3 m in 10 m of water, its axis 3.5 m down, under waves of 2 m and 6 s: values worked apart from
-/// this code, from linear theory.
+/// A cylinder of 3 m in 10 m of water, its axis 3.5 m down, under waves of 2 m and 6 s: values
+/// worked apart from this code, from linear theory.
 #[test]
 fn cylinder_feels_what_linear_theory_says() {
     let text = include_str!("../../../../docs/examples/cylinder.toml");

@@ -5,7 +5,8 @@ use snapload_structure::{
     ElasticRun, Prepared, STRUCTURE, Spring, Structure, damping_ratio, run_elastic, springs,
 };
 
-/// A body straight above its anchor on two equal lines that lie on each other, so that it moves up and down.
+/// A body straight above its anchor on two equal lines that lie on each other, so that it moves up
+/// and down.
 fn vertical(restitution: f64, start_z: f64) -> Prepared {
     let text = format!(
         "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n\
@@ -62,8 +63,8 @@ fn a_spring_stops_a_body_as_energy_says() {
     assert!((first.rebound_m_s.expect("it lets go") - speed).abs() < 1e-8);
 }
 
-/// A damper that is chosen for e throws the body back at e times its speed, the more exactly the less the
-/// buoyancy does within the contact.
+/// A damper that is chosen for e throws the body back at e times its speed, the more exactly the
+/// less the buoyancy does within the contact.
 #[test]
 fn the_damper_gives_the_restitution() {
     for e in [0.9, 0.5, 0.2, 0.1] {
@@ -100,8 +101,9 @@ fn damping_ratios_of_known_restitutions() {
     assert!((damping_ratio(e) - small).abs() < 1e-10);
 }
 
-/// The same case, both ways: as the lines get stiffer, the times and speeds of the snaps go to those of lines that do
-/// not stretch, and the more so the shorter the contact, which lasts as 1/sqrt(k).
+/// The same case, both ways: as the lines get stiffer, the times and speeds of the snaps go to
+/// those of lines that do not stretch, and the more so the shorter the contact, which lasts as
+/// 1/sqrt(k).
 #[test]
 fn stiff_lines_are_lines_that_do_not_stretch() {
     let mut prepared = prepared(
@@ -183,8 +185,8 @@ fn energy_is_kept_or_lost() {
     }
 }
 
-/// A line that nothing disturbs holds the body at rest, as long as asked: δ = T_0/k, all the time, and the run has no end
-/// before its own.
+/// A line that nothing disturbs holds the body at rest, as long as asked: δ = T_0/k, all the time,
+/// and the run has no end before its own.
 #[test]
 fn a_body_at_rest_stays() {
     let prepared = prepared(CYLINDER, &["wave.height=0", "run.duration=30"]);

@@ -20,8 +20,9 @@ fn case(position: [f64; 2], lines: &[([f64; 2], [f64; 2], f64)]) -> String {
     text
 }
 
-/// The example's fairleads are drawn 0.6 mm short of the lines' ends, so it rests that little higher, by symmetry
-/// upright with half the buoyancy's share in each line: T = F/(2 cos), the lines 25 degrees from vertical.
+/// The example's fairleads are drawn 0.6 mm short of the lines' ends, so it rests that little
+/// higher, by symmetry upright with half the buoyancy's share in each line: T = F/(2 cos), the
+/// lines 25 degrees from vertical.
 #[test]
 fn symmetric_pair_shares_the_buoyancy() {
     let structure = Structure::parse("cylinder.toml", EXAMPLE).unwrap();
@@ -54,7 +55,8 @@ fn single_tether_stands_upright() {
     assert!((rest.tension_n[0] / structure.net_buoyancy_n() - 1.0).abs() < 1e-9);
 }
 
-/// Four equal vertical tethers, two at each end: three freedoms, four lines, and each carries a quarter.
+/// Four equal vertical tethers, two at each end: three freedoms, four lines, and each carries a
+/// quarter.
 #[test]
 fn statically_indeterminate_lines_share_evenly() {
     let tether = |x: f64| ([x, -30.0], [x, -12.0], 18.0);
@@ -94,8 +96,8 @@ fn lines_too_long_to_hold_the_body_down_are_refused_in_words() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
-    /// For random moorings of two to four lines: the forces balance, slack lines carry nothing and taut ones pull, and
-    /// no place near by that all lines reach lies higher.
+    /// For random moorings of two to four lines: the forces balance, slack lines carry nothing and
+    /// taut ones pull, and no place near by that all lines reach lies higher.
     #[test]
     fn rest_is_a_minimum(
         lines in prop::collection::vec((-20.0..20.0f64, -1.0..1.0f64, -1.0..1.0f64, 0.0..1.0f64), 2..5),

@@ -33,8 +33,8 @@ fn the_manual_has_the_keys_of_the_schema() {
     );
 }
 
-/// Every key of the schema is read: a case with all of them is accepted, and without a required one refused in words
-/// that name it.
+/// Every key of the schema is read: a case with all of them is accepted, and without a required one
+/// refused in words that name it.
 #[test]
 fn every_key_is_read() {
     let example = include_str!("../../../../docs/examples/cylinder.toml");
@@ -141,7 +141,8 @@ fn set_changes_one_line_or_all() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
-    /// Whatever stands in a file is read or refused in words, and what is read has a place of rest or is refused.
+    /// Whatever stands in a file is read or refused in words, and what is read has a place of rest
+    /// or is refused.
     #[test]
     fn anything_is_read_or_refused(text in any::<String>(), broken in "(\\[?\\[[a-z]{1,5}\\]?\\]|[a-z]{1,6} = [-0-9.e\\[\\]\"]{0,5}|\n){0,12}") {
         for text in [text, broken] {

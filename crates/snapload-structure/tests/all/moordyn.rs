@@ -53,8 +53,8 @@ fn near(a: f64, b: f64) -> bool {
 }
 
 fn the_same(a: &Structure, b: &Structure) {
-    // Numbers that pass through a product or a sum come back but for rounding, all others as they were; a line's name is
-    // that of a catalogue, which MoorDyn does not have.
+    // Numbers that pass through a product or a sum come back but for rounding, all others as they
+    // were; a line's name is that of a catalogue, which MoorDyn does not have.
     let mut b = b.clone();
     assert!(near(a.body.added_mass_kg, b.body.added_mass_kg));
     b.body.added_mass_kg = a.body.added_mass_kg;
@@ -99,8 +99,8 @@ fn what_is_written_is_read_as_it_was() {
     }
 }
 
-/// The numbers of a written file are those of MoorDyn's definitions: a line of one segment pulls with
-/// EA (l − l0)/l0 + BA l̇/l0, so BA is c l0, and it weighs nothing in the water.
+/// The numbers of a written file are those of MoorDyn's definitions: a line of one segment pulls
+/// with EA (l − l0)/l0 + BA l̇/l0, so BA is c l0, and it weighs nothing in the water.
 #[test]
 fn a_line_of_one_segment_is_the_spring() {
     let case = structure(CYLINDER, &["run.restitution=0.3"]);
@@ -119,7 +119,8 @@ fn a_line_of_one_segment_is_the_spring() {
     assert!(weight.abs() < 1e-12 * mass);
     assert_eq!(mass, 19.9e3 * 0.038 * 0.038);
     assert_eq!(stiffness, 0.854e11 * 0.038 * 0.038);
-    // The line of 6 m runs from (3.593, -10) to (1.061, -4.561), past the centre by s; w = 1 + s²/(I/M).
+    // The line of 6 m runs from (3.593, -10) to (1.061, -4.561), past the centre by s; w = 1 +
+    // s²/(I/M).
     let mass = 72452.0 + 144904.0;
     let arm = 1.061 * (10.0 - 4.561) / 6.0 - 1.061 * (3.593 - 1.061) / 6.0;
     let effective = mass / (1.0 + arm * arm / (163017.0 / mass));
@@ -396,7 +397,8 @@ proptest! {
         match moordyn::read("lines.txt", &lines.join("\n")) {
             Err(error) => prop_assert!(error.to_string().starts_with("lines.txt"), "{}", error),
             Ok(reading) => {
-                // What is read is a case that can be written and read again, or be refused in words.
+                // What is read is a case that can be written and read again, or be refused in
+                // words.
                 let again = Entries::parse(&STRUCTURE, "again", &reading.entries.to_toml());
                 prop_assert!(again.is_ok(), "{:?}", again.err());
                 if let Err(error) = Structure::from_entries(&reading.entries) {

@@ -7,9 +7,9 @@ use std::f64::consts::PI;
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 
-/// Force and drag against differences of the velocity potential,
-/// φ = (g A/ω) cosh k(z + d)/cosh kd sin(kx − ωt + π/2) of a wave to +x, and its mirror image: right side up, right
-/// phase, right sign.
+/// Force and drag against differences of the velocity potential, φ = (g A/ω) cosh k(z + d)/cosh kd
+/// sin(kx − ωt + π/2) of a wave to +x, and its mirror image: right side up, right phase, right
+/// sign.
 #[test]
 fn wave_force_and_drag_follow_from_the_potential() {
     for (direction, side) in [("+x", 1.0), ("-x", -1.0)] {
@@ -74,7 +74,8 @@ fn wave_force_and_drag_follow_from_the_potential() {
     }
 }
 
-/// The peak by energy against the motion of the body on a spring, in small steps: a rigid body, struck off its centre.
+/// The peak by energy against the motion of the body on a spring, in small steps: a rigid body,
+/// struck off its centre.
 #[test]
 fn energy_peak_is_that_of_a_body_on_a_spring() {
     let mut structure = Structure::parse("case", EXAMPLE).unwrap();
@@ -150,7 +151,8 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
     assert!((estimate / peak - 1.0).abs() < 2e-3, "{estimate} {peak}");
 }
 
-/// Four lines that are not symmetric, in waves: no line is ever longer than it is, and what is reported is of each.
+/// Four lines that are not symmetric, in waves: no line is ever longer than it is, and what is
+/// reported is of each.
 #[test]
 fn four_lines_are_never_longer_than_they_are() {
     let text = "[body]\nmass = 72452\ndisplaced_volume = 141.37\nwidth = 3\nposition = [0, -4]\n\
@@ -193,10 +195,11 @@ fn four_lines_are_never_longer_than_they_are() {
     assert_eq!(assessment.neighbours.len(), 2);
 }
 
-/// An elastic line of unit impedance, fixed at one end and pulled taut at the other by a body of `ratio` times its mass
-/// at speed 1: its largest tension, at either end, by the waves that run to and fro until the line goes slack at the
-/// body. With the body's speed v and the wave f' that it sends out, v(t) = f'(t) − f'(t − 2); the pull on it is
-/// f'(t) + f'(t − 2), and at the fixed end it is 2 f'(t − 1).
+/// An elastic line of unit impedance, fixed at one end and pulled taut at the other by a body of
+/// `ratio` times its mass at speed 1: its largest tension, at either end, by the waves that run to
+/// and fro until the line goes slack at the body. With the body's speed v and the wave f' that it
+/// sends out, v(t) = f'(t) − f'(t − 2); the pull on it is f'(t) + f'(t − 2), and at the fixed end
+/// it is 2 f'(t − 1).
 fn exact_peak_of_a_line(ratio: f64) -> f64 {
     let steps = 4000_usize;
     let dt = 2.0 / steps as f64;
@@ -208,7 +211,8 @@ fn exact_peak_of_a_line(ratio: f64) -> f64 {
             return peak;
         }
         peak = peak.max(now + back(steps)).max(2.0 * now);
-        // ratio dv/dt = −(v + 2 f'(t − 2)), in units of the line's length over the wave's speed, by the midpoint rule.
+        // ratio dv/dt = −(v + 2 f'(t − 2)), in units of the line's length over the wave's speed, by
+        // the midpoint rule.
         let middle = 0.5 * (back(steps) + back(steps - 1));
         sent.push(now);
         let half = 0.5 * dt / ratio;
@@ -216,8 +220,9 @@ fn exact_peak_of_a_line(ratio: f64) -> f64 {
     }
 }
 
-/// The estimated peak is that of the exact elastic line to about 1 % below and 10 % above, whatever the masses. At first the wave
-/// doubles at the fixed end, all that a light body comes to; a heavy one pulls as on a spring.
+/// The estimated peak is that of the exact elastic line to about 1 % below and 10 % above, whatever
+/// the masses. At first the wave doubles at the fixed end, all that a light body comes to; a heavy
+/// one pulls as on a spring.
 #[test]
 fn peak_is_that_of_the_exact_line_or_a_little_above() {
     assert!((exact_peak_of_a_line(0.1) - 2.0).abs() < 1e-12);
@@ -231,8 +236,8 @@ fn peak_is_that_of_the_exact_line_or_a_little_above() {
     }
 }
 
-/// What lines that snap together, and lines to which a snap is passed on, take up: against springs of their stiffness,
-/// integrated step by step.
+/// What lines that snap together, and lines to which a snap is passed on, take up: against springs
+/// of their stiffness, integrated step by step.
 #[test]
 fn lines_that_share_a_snap_share_its_energy() {
     let text = |more: &str| {
@@ -281,8 +286,8 @@ fn lines_that_share_a_snap_share_its_energy() {
     }
 }
 
-/// Every line doubled, in waves in which all go slack: the run goes on to its end, and each line of a pair does what the
-/// other does.
+/// Every line doubled, in waves in which all go slack: the run goes on to its end, and each line of
+/// a pair does what the other does.
 #[test]
 fn double_lines_run_to_the_end_and_share_evenly() {
     let line = |side: f64| {

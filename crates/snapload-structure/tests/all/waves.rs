@@ -20,7 +20,8 @@ proptest! {
         prop_assert!((back / (omega * omega) - 1.0).abs() < 8.0 * f64::EPSILON);
     }
 
-    /// The exponentials against the hyperbolic functions of the textbook, where those do not overflow.
+    /// The exponentials against the hyperbolic functions of the textbook, where those do not
+    /// overflow.
     #[test]
     fn accelerations_are_the_textbooks(period in 2.0..20.0f64, depth in 2.0..60.0f64, part in 0.0..1.0f64) {
         let site = Site { depth_m: depth, water_density_kg_m3: 1025.0, gravity_m_s2: 9.80665 };
@@ -43,7 +44,8 @@ fn sea(shape: SpectrumShape, seed: u64) -> IrregularSea {
     }
 }
 
-/// The published normalisations of JONSWAP: 1 − 0.287 ln γ (DNV) and that of Goda (1988), which is good to 1 %.
+/// The published normalisations of JONSWAP: 1 − 0.287 ln γ (DNV) and that of Goda (1988), which is
+/// good to 1 %.
 #[test]
 fn normalisation_is_the_published_one() {
     for gamma in [1.0, 2.0, 3.3, 5.0] {
@@ -62,12 +64,14 @@ fn normalisation_is_the_published_one() {
     }
 }
 
-/// Of Pierson-Moskowitz the zero-crossing period is T_p (5π/4)^(−1/4) in closed form: m0 and m2 are gamma functions.
+/// Of Pierson-Moskowitz the zero-crossing period is T_p (5π/4)^(−1/4) in closed form: m0 and m2 are
+/// gamma functions.
 #[test]
 fn zero_crossing_period_is_the_closed_form() {
     let spectrum = Spectrum::new(&sea(SpectrumShape::PiersonMoskowitz, 1));
     let period = 2.0 * PI * (spectrum.moment(0) / spectrum.moment(2)).sqrt();
-    // In s-units m0 = 1/5 and m2 = sqrt(π/20), less the tails above s = 5: ∫ s⁻⁵ = 1/2500 and ∫ s⁻³ = 1/50.
+    // In s-units m0 = 1/5 and m2 = sqrt(π/20), less the tails above s = 5: ∫ s⁻⁵ = 1/2500 and ∫ s⁻³
+    // = 1/50.
     let exact = 9.0 * (1.25 * PI).powf(-0.25);
     let (m0, m2) = (0.2_f64, (PI / 20.0).sqrt());
     let cut = ((1.0 - 4e-4 / m0) / (1.0 - 0.02 / m2)).sqrt();
@@ -98,8 +102,8 @@ fn energy_is_exact_and_every_response_is_right_on_average() {
     assert!((mean / exact - 1.0).abs() < 1e-3, "{mean} {exact}");
 }
 
-/// In three hours the autocorrelation of the record never comes back: ρ(τ) = ∑ A² cos ωτ / ∑ A² stays within
-/// what 200 random phases give.
+/// In three hours the autocorrelation of the record never comes back: ρ(τ) = ∑ A² cos ωτ / ∑ A²
+/// stays within what 200 random phases give.
 #[test]
 fn record_does_not_repeat() {
     for seed in 1..4 {
@@ -152,7 +156,8 @@ fn series_has_the_spectrums_statistics() {
     );
 }
 
-/// Samples drawn from a known Gumbel distribution: the fit is right on average, and scatters as it says it does.
+/// Samples drawn from a known Gumbel distribution: the fit is right on average, and scatters as it
+/// says it does.
 #[test]
 fn fit_of_synthetic_data_is_right_and_knows_its_error() {
     let (location, scale, count, samples) = (40.0, 7.0, 100, 4000);

@@ -1,5 +1,5 @@
-//! The critical force: the smallest force amplitude at which the rotation limit or the upper bound is
-//! reached (chapter 6.4.2), and every other one that reaches it.
+//! The critical force: the smallest force amplitude at which the rotation limit or the upper bound
+//! is reached (chapter 6.4.2), and every other one that reaches it.
 
 use crate::analysis::outcomes::outcomes;
 use crate::analysis::progress::{OnProgress, Unfinished};

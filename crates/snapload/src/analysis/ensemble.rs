@@ -14,9 +14,9 @@ use rayon::prelude::*;
 
 /// A cloud of cases about one, drawn evenly from what its uncertainty allows.
 ///
-/// Every member is drawn from a stream of its own, so that the first hundred of a thousand are
-/// the same as a hundred, on any number of threads. The generator is ChaCha with 8 rounds, of the
-/// crate `rand_chacha`: the same numbers on every platform, and streams that can be entered anywhere.
+/// Every member is drawn from a stream of its own, so that the first hundred of a thousand are the
+/// same as a hundred, on any number of threads. The generator is ChaCha with 8 rounds, of the crate
+/// `rand_chacha`: the same numbers on every platform, and streams that can be entered anywhere.
 #[derive(Clone, Debug)]
 pub struct Ensemble {
     base: Parameters,
@@ -33,7 +33,8 @@ pub const DEFAULT_CLOUD: f64 = 1e-12;
 /// How many members, unless told.
 pub const DEFAULT_MEMBERS: u32 = 1000;
 
-/// A member outside what is legal, such as one whose cable would have to be longer, is drawn again so often.
+/// A member outside what is legal, such as one whose cable would have to be longer, is drawn again
+/// so often.
 const DRAWS: usize = 1000;
 
 impl Ensemble {
@@ -180,8 +181,8 @@ impl Share {
         self.count as f64 / self.of as f64
     }
 
-    /// The interval that holds the probability with 95 % confidence (E. B. Wilson, *J. Amer. Statist.
-    /// Assoc.* 22 (1927) 209); it makes sense for none and for all, too.
+    /// The interval that holds the probability with 95 % confidence (E. B. Wilson, *J. Amer.
+    /// Statist. Assoc.* 22 (1927) 209); it makes sense for none and for all, too.
     pub fn interval(self) -> [f64; 2] {
         let (n, p) = (self.of as f64, self.part());
         let z2 = NORMAL_975 * NORMAL_975;

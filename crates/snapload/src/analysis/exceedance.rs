@@ -26,8 +26,8 @@ pub struct Exceeding {
 }
 
 impl ExceedanceCurve {
-    /// Runs `count` neighbours of the case at every amplitude; where the run itself is certain, it stands for
-    /// them all.
+    /// Runs `count` neighbours of the case at every amplitude; where the run itself is certain, it
+    /// stands for them all.
     ///
     /// # Errors
     /// A [`crate::CaseError`] if the case is not legal, or what is uncertain can not vary, and

@@ -2,9 +2,9 @@
 
 use crate::motion::step_map::{Block, StepMap};
 
-/// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani, Giorgilli &
-/// Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their lengths add up to the
-/// exponents.
+/// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani,
+/// Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their
+/// lengths add up to the exponents.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The directions are columns; two more are zero.

@@ -13,9 +13,11 @@ const FULL: usize = 64;
 /// Times that each thread takes some, so that one that meets long runs is relieved by the others.
 const TURNS: usize = 4;
 
-/// What `work` makes of the items, a result for each, in their order, on all threads that there are.
+/// What `work` makes of the items, a result for each, in their order, on all threads that there
+/// are.
 ///
-/// A thread takes items from all over the list, as neighbours in a study take alike long, and a few very long.
+/// A thread takes items from all over the list, as neighbours in a study take alike long, and a few
+/// very long.
 ///
 /// # Errors
 /// That of the work, which ends the rest of it.
@@ -40,8 +42,8 @@ pub fn on_all_threads<I: Sync, R: Send, E: Send>(
     Ok(all.collect())
 }
 
-/// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all threads that
-/// there are. Each has the bits that it has by itself.
+/// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all
+/// threads that there are. Each has the bits that it has by itself.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is to end before.

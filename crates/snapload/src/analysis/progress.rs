@@ -1,7 +1,8 @@
 //! The one convention of long work: it tells how far it has come, and is told whether to go on.
 //!
-//! Whatever may take longer than a moment takes an [`OnProgress`] and calls it now and then, from any thread. Where
-//! that answers `Break` the work ends soon after, without an answer, as [`Cancelled`].
+//! Whatever may take longer than a moment takes an [`OnProgress`] and calls it now and then, from
+//! any thread. Where that answers `Break` the work ends soon after, without an answer, as
+//! [`Cancelled`].
 
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -125,7 +126,8 @@ impl<'a> Counter<'a> {
     }
 }
 
-/// A run tells of its progress after so many steps: often enough to be ended at once, seldom enough to cost nothing.
+/// A run tells of its progress after so many steps: often enough to be ended at once, seldom enough
+/// to cost nothing.
 const STEPS: u32 = 64;
 
 /// Tells how far a run has come.
@@ -159,7 +161,8 @@ impl<'a> RunProgress<'a> {
     }
 }
 
-/// Runs a simulation to its end and keeps all of it; `see` is shown the simulation after every step, and the step.
+/// Runs a simulation to its end and keeps all of it; `see` is shown the simulation after every
+/// step, and the step.
 ///
 /// # Errors
 /// [`Cancelled`] if it is to end before.

@@ -7,8 +7,8 @@ use crate::case::Case;
 /// The quantities that an impact is told to depend on: the start and the parameters.
 pub const SENSITIVE_KEYS: usize = START_KEYS.len() + UNCERTAIN_KEYS.len();
 
-/// Derivatives of one impact by one key, all else held; the inertia follows the size where it is the natural
-/// one.
+/// Derivatives of one impact by one key, all else held; the inertia follows the size where it is
+/// the natural one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slope {
     /// The key.
@@ -30,8 +30,8 @@ pub struct Sensitivity {
     pub slopes: Vec<Slope>,
 }
 
-/// The derivatives of the first `count` impacts of a case, exact to rounding: the motion is run over dual
-/// numbers. Empty where the start, on the very edge of what is legal, has no neighbours.
+/// The derivatives of the first `count` impacts of a case, exact to rounding: the motion is run
+/// over dual numbers. Empty where the start, on the very edge of what is legal, has no neighbours.
 pub fn sensitivity(case: &Case, count: usize) -> Vec<Sensitivity> {
     let keys = || START_KEYS.into_iter().chain(UNCERTAIN_KEYS);
     let lift = |key, number| {

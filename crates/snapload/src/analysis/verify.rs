@@ -27,14 +27,14 @@ pub struct Verification {
     pub run: Trajectory,
     /// What was predicted of it.
     pub trust: Trust,
-    /// Difference of the two at each impact that both have: the largest of time and states, of each relative
-    /// to its value where that is above 1.
+    /// Difference of the two at each impact that both have: the largest of time and states, of each
+    /// relative to its value where that is above 1.
     pub differences: Vec<f64>,
-    /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one of them
-    /// has.
+    /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one
+    /// of them has.
     pub first_wrong: Option<usize>,
-    /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack flight,
-    /// impacts and the stop rules.
+    /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack
+    /// flight, impacts and the stop rules.
     pub end: Option<Stop>,
     /// When it ends.
     pub t: f64,
@@ -48,8 +48,8 @@ pub struct Verification {
 /// ordinary one begins with the double next to it.
 ///
 /// # Errors
-/// A [`CaseError`] if there are more digits asked for than [`MOST_DIGITS`], or if the start, on the very edge of
-/// what is legal, is illegal with more digits; and [`Unfinished::Cancelled`].
+/// A [`CaseError`] if there are more digits asked for than [`MOST_DIGITS`], or if the start, on the
+/// very edge of what is legal, is illegal with more digits; and [`Unfinished::Cancelled`].
 pub fn verify(
     case: &Case,
     digits: u32,

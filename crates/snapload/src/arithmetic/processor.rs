@@ -1,9 +1,9 @@
-//! Work that is compiled twice: for every processor of a family, and for those that multiply and add
-//! in one instruction.
+//! Work that is compiled twice: for every processor of a family, and for those that multiply and
+//! add in one instruction.
 //!
-//! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same. Where
-//! a processor has no instruction for it, or the compiler may not assume one, it is a function, which
-//! takes longer than a multiplication and an addition.
+//! [`crate::arithmetic::real::Real::mul_add`] rounds once everywhere, so the bits are the same.
+//! Where a processor has no instruction for it, or the compiler may not assume one, it is a
+//! function, which takes longer than a multiplication and an addition.
 //!
 //! All functions that such work spends its time in are `#[inline(always)]`: one that is only called
 //! would be compiled for every processor, without the instruction.
@@ -47,8 +47,8 @@ pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {
     }
 }
 
-/// The same for work over one arithmetic: only doubles are fast enough for the difference to matter,
-/// so the rest is compiled once.
+/// The same for work over one arithmetic: only doubles are fast enough for the difference to
+/// matter, so the rest is compiled once.
 #[inline]
 pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
     if T::FUSES {
@@ -79,7 +79,8 @@ mod tests {
         for (a, b, c, known) in [
             (one + e, one - e, -one, -e * e),
             (one + e, one + e, -(one + 2.0 * e), e * e),
-            // 1 + ε/2 is halfway between 1 and its neighbour, so the least amount more or less decides.
+            // 1 + ε/2 is halfway between 1 and its neighbour, so the least amount more or less
+            // decides.
             (e * 0.5, one + e, one, one + e),
             (e * 0.5, one - e, one, one),
             (one + e * 2.0_f64.powi(20), e * 0.5, one + e, one + 2.0 * e),

@@ -36,8 +36,8 @@ pub trait Real:
     const ONE: Self;
     /// How many steps of Newton's method take an error of 1e-9 below [`Real::EPSILON`].
     const NEWTON_STEPS: usize;
-    /// Whether its products and sums are instructions of the processor, so that it is worth compiling
-    /// a step for each kind of processor.
+    /// Whether its products and sums are instructions of the processor, so that it is worth
+    /// compiling a step for each kind of processor.
     const FUSES: bool = false;
     /// Whether it carries derivatives, which [`Real::detached`] leaves out.
     const CARRIES_SLOPES: bool = false;

@@ -53,8 +53,8 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
 ) -> [[T; W]; N] {
     let mut products = factors.map(|(a, b)| Products::begin(a, b, k));
     let length = (k + 1).next_multiple_of(BLOCK);
-    // The newest coefficients, at either end, are added last: a processor can add up the rest before
-    // they are known.
+    // The newest coefficients, at either end, are added last: a processor can add up the rest
+    // before they are known.
     let mut from = BLOCK;
     while from < length {
         for product in &mut products {
@@ -65,8 +65,8 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
     for product in &mut products {
         product.add(0);
     }
-    // A compiler that sees what becomes of the sums makes them across the lanes, with more shuffling
-    // than arithmetic.
+    // A compiler that sees what becomes of the sums makes them across the lanes, with more
+    // shuffling than arithmetic.
     std::hint::black_box(products.map(|product| product.sum()))
 }
 

@@ -155,8 +155,8 @@ struct Tally<L> {
     rho1: L,
     rho2: L,
     rho3: L,
-    /// The latest instants of impact: the bits of the set of cables, v_n, and how many in a row were
-    /// of the same cables.
+    /// The latest instants of impact: the bits of the set of cables, v_n, and how many in a row
+    /// were of the same cables.
     cables: L,
     v_n: L,
     repeats: L,

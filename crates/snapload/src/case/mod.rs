@@ -99,8 +99,8 @@ impl Outcome {
         Self::after(case.simulation())
     }
 
-    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on; none where it
-    /// did not let it come to its end.
+    /// Of a case, as long as `watch`, which is shown the motion after every step, lets it go on;
+    /// none where it did not let it come to its end.
     pub fn of_while(
         case: &Case,
         mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,

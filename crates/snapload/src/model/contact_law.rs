@@ -1,7 +1,8 @@
 //! The law of contact: what becomes of the normal velocity of a cable that snaps taut.
 //!
-//! The loop, the flights of two cables side by side, and the derivatives of an impact all ask here. A law is a value:
-//! whoever adds a number to it is led by the compiler to every place that has to hand it over.
+//! The loop, the flights of two cables side by side, and the derivatives of an impact all ask here.
+//! A law is a value: whoever adds a number to it is led by the compiler to every place that has to
+//! hand it over.
 
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::real::Real;
@@ -23,8 +24,8 @@ pub(crate) struct Snap<L> {
 }
 
 impl<L: Lane> ContactLaw<L> {
-    /// p = (1 + e) v⁻/w and v⁺ = −e v⁻ of a cable that closes at `v_before` > 0, with the inverse effective mass
-    /// w = G M⁻¹ Gᵀ.
+    /// p = (1 + e) v⁻/w and v⁺ = −e v⁻ of a cable that closes at `v_before` > 0, with the inverse
+    /// effective mass w = G M⁻¹ Gᵀ.
     #[inline(always)]
     pub(crate) fn snap(self, v_before: L, w: L) -> Snap<L> {
         let e = self.restitution;
@@ -42,15 +43,17 @@ impl<T: Real> ContactLaw<T> {
         -self.restitution * v_before.max(T::ZERO)
     }
 
-    /// v⁻ − v⁺, which the impulses have to take away: the load of the complementarity problem. Rounded as a sum of its
-    /// two terms, for which several cables keep the symmetry that they have.
+    /// v⁻ − v⁺, which the impulses have to take away: the load of the complementarity problem.
+    /// Rounded as a sum of its two terms, for which several cables keep the symmetry that they
+    /// have.
     #[inline(always)]
     pub(crate) fn load(self, v_before: T) -> T {
         v_before + self.restitution * v_before.max(T::ZERO)
     }
 
-    /// The time that a series of bounces takes which begins with a snap at `v_before`, the cable being pressed closed
-    /// with the normal acceleration α > 0 in between: Σ 2 eᵏ v⁻/α, k ≥ 1. None if it does not converge.
+    /// The time that a series of bounces takes which begins with a snap at `v_before`, the cable
+    /// being pressed closed with the normal acceleration α > 0 in between: Σ 2 eᵏ v⁻/α, k ≥ 1. None
+    /// if it does not converge.
     #[inline(always)]
     pub(crate) fn time_of_bounces(self, v_before: T, alpha: T) -> Option<T> {
         let e = self.restitution;

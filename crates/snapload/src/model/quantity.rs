@@ -7,7 +7,8 @@ pub struct Quantity {
     pub name: &'static str,
     /// Its symbol in the text of the model.
     pub symbol: &'static str,
-    /// Its unit, from the length L, mass m, force F and time T of the model; empty where it has none.
+    /// Its unit, from the length L, mass m, force F and time T of the model; empty where it has
+    /// none.
     pub unit: &'static str,
     /// What it is.
     pub meaning: &'static str,

@@ -2,10 +2,11 @@
 
 use crate::arithmetic::real::Real;
 
-/// What ends a run, each rule on or off (docs/model.md section 7), and what counts as being at rest.
+/// What ends a run, each rule on or off (docs/model.md section 7), and what counts as being at
+/// rest.
 ///
-/// Whatever has to know all of them takes this apart without `..`, so that a rule which is added is known
-/// everywhere or does not compile.
+/// Whatever has to know all of them takes this apart without `..`, so that a rule which is added is
+/// known everywhere or does not compile.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<T = f64> {
     /// Stop when |θ| reaches this angle \[rad\].
@@ -20,7 +21,8 @@ pub struct Rules<T = f64> {
     pub t_end: T,
     /// Stop after more impacts than this.
     pub max_impacts: u64,
-    /// An impact slower than this lets its cable stick, if the cable would then carry tension \[L/T\].
+    /// An impact slower than this lets its cable stick, if the cable would then carry tension
+    /// \[L/T\].
     pub v_stick: T,
 }
 

@@ -118,8 +118,9 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with (f, θ̈) the free
-    /// acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r) (docs/model.md section 6).
+    /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with
+    /// (f, θ̈) the free acceleration: n·f + s θ̈ + |Ṗ|²/r − θ̇² n·ρ, which is g̈/(2r)
+    /// (docs/model.md section 6).
     #[inline(always)]
     pub fn free_normal_acceleration(
         &self,
@@ -149,8 +150,8 @@ pub fn anchor_height<T: Real>(r: T, a: T) -> T {
 }
 
 impl<T: Real> Shape<T> {
-    /// The outline that docs/model.md section 2 gives half-sizes a and b: a circle of radius a where
-    /// b = 0, else a rectangle.
+    /// The outline that docs/model.md section 2 gives half-sizes a and b: a circle of radius a
+    /// where b = 0, else a rectangle.
     pub fn of_half_sizes(a: T, b: T) -> Self {
         if b > T::ZERO {
             Shape::Rectangle {

@@ -12,20 +12,21 @@ use crate::motion::least_norm::{SHARED, least_norm};
 pub(crate) struct ActiveSet {
     /// The taut cables.
     pub(crate) taut: TautSet,
-    /// Of these, as few as make up the motion, none of them depending on others. The rest, such as the twin of a taut
-    /// cable, stays closed with them.
+    /// Of these, as few as make up the motion, none of them depending on others. The rest, such as
+    /// the twin of a taut cable, stays closed with them.
     pub(crate) carrying: TautSet,
 }
 
-/// The cables that are taut from now on, among closed ones without normal velocity, by the complementarity problem on
-/// accelerations (docs/model.md section 6):
+/// The cables that are taut from now on, among closed ones without normal velocity, by the
+/// complementarity problem on accelerations (docs/model.md section 6):
 ///
 /// ```text
 /// 0 ≤ T  ⟂  −g̈ ≥ 0,    g̈/(2r) = b − W T
 /// ```
 ///
-/// The problem is solved with as few cables as will do. Where others stay closed as well, g̈ = 0, and all of them depend on
-/// each other, all are taut, and as many carry as there are directions to hold.
+/// The problem is solved with as few cables as will do. Where others stay closed as well, g̈ = 0,
+/// and all of them depend on each other, all are taut, and as many carry as there are directions to
+/// hold.
 #[inline(always)]
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
@@ -67,8 +68,8 @@ pub(crate) fn taut_next<T: Real>(
 
 /// The tensions of the taut cables: W T = b.
 ///
-/// Where more cables are taut than the body has freedoms for, or one lies along another, these are the tensions of the
-/// least norm: those of cables that are stretched by the same force per length.
+/// Where more cables are taut than the body has freedoms for, or one lies along another, these are
+/// the tensions of the least norm: those of cables that are stretched by the same force per length.
 #[inline(always)]
 pub(crate) fn tensions<T: Real>(
     system: &System<T>,
@@ -80,13 +81,15 @@ pub(crate) fn tensions<T: Real>(
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
-    // At the instant at which a tension is lost rounding may have made it negative; it is none then.
+    // At the instant at which a tension is lost rounding may have made it negative; it is none
+    // then.
     let (_, pulling) = complementary(taut, w, &load);
     let tension = solve(pulling, w, &load);
     least_norm(taut, w, &load, tension)
 }
 
-/// Tensions that move the body as it moves: where taut cables depend on each other, one solution of many.
+/// Tensions that move the body as it moves: where taut cables depend on each other, one solution of
+/// many.
 #[inline(always)]
 fn some_tensions<T: Real>(
     system: &System<T>,

@@ -3,17 +3,19 @@
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 
-/// A pivot below this part of the largest diagonal entry marks constraints that depend on each other.
+/// A pivot below this part of the largest diagonal entry marks constraints that depend on each
+/// other.
 const DEPENDENT: f64 = 1e-12;
-/// Of a body in the plane: more cables than that depend on each other, whatever rounding says of their pivots.
+/// Of a body in the plane: more cables than that depend on each other, whatever rounding says of
+/// their pivots.
 const FREEDOMS: usize = 3;
 /// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
 const SLANTED: f64 = 0.1;
 /// A determinant below so many roundings of the product of the diagonal is nothing but rounding.
 const NEARLY_ONE_LINE: f64 = 4.5;
 
-/// W z = q over the cables of a set, W symmetric and positive semidefinite, made ready for several q. A cable whose
-/// constraint depends on those before it gets z = 0.
+/// W z = q over the cables of a set, W symmetric and positive semidefinite, made ready for several
+/// q. A cable whose constraint depends on those before it gets z = 0.
 ///
 /// Two cables are solved by Cramer's rule, in which neither comes first: a system that is its own
 /// mirror image moves as such to the last bit.
@@ -105,8 +107,8 @@ impl<T: Real> TwoByTwo<T> {
         }
     }
 
-    /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the cables are almost in
-    /// line; there its answer is put in twice for what is left over.
+    /// Cramer's rule errs by some roundings times ac over the determinant, which is small where the
+    /// cables are almost in line; there its answer is put in twice for what is left over.
     #[inline(always)]
     fn solve(&self, q: [T; 2]) -> [T; 2] {
         let [a, b, c] = self.matrix;
@@ -131,13 +133,14 @@ impl<T: Real> TwoByTwo<T> {
     }
 }
 
-/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to rounding.
+/// Whether the two constraints of the matrix \[\[a, b\], \[b, c\]\] are one and the same, to
+/// rounding.
 fn in_line<T: Real>([a, b, c]: [T; 3]) -> bool {
     a * c - b * b <= a * c * (T::EPSILON * NEARLY_ONE_LINE)
 }
 
-/// Three and more equations. What is left over is put in twice: of three cables that are almost dependent the
-/// tensions are large, and their sum has to leave the body where it is.
+/// Three and more equations. What is left over is put in twice: of three cables that are almost
+/// dependent the tensions are large, and their sum has to leave the body where it is.
 fn eliminate_and_refine<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -197,8 +200,8 @@ fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<
 /// them pull (z > 0). Returns z and the set of those that pull.
 ///
 /// With W positive definite the solution exists and is unique (Cottle, Pang & Stone, The Linear
-/// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic; rounding
-/// can fail them all by a last bit, so the one that violates least is taken.
+/// Complementarity Problem, theorem 3.1.6), so exactly one trial passes in exact arithmetic;
+/// rounding can fail them all by a last bit, so the one that violates least is taken.
 pub(crate) fn complementary<T: Real>(
     set: TautSet,
     w: impl Fn(usize, usize) -> T,
@@ -284,8 +287,8 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// The defining conditions, for random Gram matrices of rank 1 to 3, up to 6 cables, and normal velocities that a
-        /// body can have.
+        /// The defining conditions, for random Gram matrices of rank 1 to 3, up to 6 cables, and
+        /// normal velocities that a body can have.
         #[test]
         fn conditions_hold(rows in proptest::collection::vec(row(), 1..7),
                            v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0]) {
@@ -311,9 +314,9 @@ mod tests {
             ..ProptestConfig::default()
         })]
 
-        /// Three to six cables of a body with three freedoms: where W⁺q, the least-norm solution by an eigenvalue
-        /// decomposition of another library, has no negative entry, it is ours; and it is never longer than another
-        /// set of impulses that does the same.
+        /// Three to six cables of a body with three freedoms: where W⁺q, the least-norm solution by
+        /// an eigenvalue decomposition of another library, has no negative entry, it is ours; and
+        /// it is never longer than another set of impulses that does the same.
         #[test]
         fn dependent_cables_share_with_the_least_norm(
             rows in prop::collection::vec(row(), 3..7),

@@ -6,8 +6,8 @@ use crate::model::system::System;
 use crate::model::taut_set::MAX_CABLES;
 
 /// A gap as it is known at an event. Evaluated afresh from the state it has a rounding of its own,
-/// which would swamp the last bounces of an accumulation (heights of v_n² / 2α); carried forward from
-/// the moment when the cable was struck, it has far less.
+/// which would swamp the last bounces of an accumulation (heights of v_n² / 2α); carried forward
+/// from the moment when the cable was struck, it has far less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Contact<T> {
     /// g ≤ 0; exactly 0 for a cable that is struck, taut or just released.

@@ -1,8 +1,8 @@
 //! The earliest crossing, with the bound that excludes an earlier one.
 //!
 //! Every event of a run is a function of time that reaches zero from below: a gap that closes, a
-//! tension that is lost (as −T), a limit that is reached. None is ever sampled for
-//! changes of sign. With f, ḟ, f̈ known at s and |f⃛(s + σ)| ≤ K for 0 ≤ σ ≤ H, Taylor's theorem gives
+//! tension that is lost (as −T), a limit that is reached. None is ever sampled for changes of sign.
+//! With f, ḟ, f̈ known at s and |f⃛(s + σ)| ≤ K for 0 ≤ σ ≤ H, Taylor's theorem gives
 //!
 //! ```text
 //! f(s + σ) ≤ U(σ) = f + ḟσ + f̈σ²/2 + Kσ³/6        (0 ≤ σ ≤ H)
@@ -45,10 +45,11 @@ pub(crate) struct Jet<T> {
     pub(crate) fourth: T,
     /// Bound on the rounding error of `value`, the motion taken as exact.
     pub(crate) noise: T,
-    /// What the rounding of the velocities at the motion's start may change `value` by; for a function at
-    /// rest, what counts as zero.
+    /// What the rounding of the velocities at the motion's start may change `value` by; for a
+    /// function at rest, what counts as zero.
     pub(crate) blur: T,
-    /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is f⃛.
+    /// Whether f = ḟ = 0 is known here, the cable being at rest on its constraint; then `jerk` is
+    /// f⃛.
     pub(crate) resting: bool,
     pub(crate) jerk: T,
 }
@@ -136,12 +137,13 @@ impl Reached {
     }
 }
 
-/// The first instant in (0, horizon] after time `t` at which a watched function reaches zero from below, or
-/// `None`.
+/// The first instant in (0, horizon] after time `t` at which a watched function reaches zero from
+/// below, or `None`.
 ///
-/// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of location
-/// overlap, or whose times are bit-equal, cross at one instant; the intervals allow for the rounding of the velocities, too, so that
-/// impacts which are simultaneous by symmetry stay so once rounding has broken it.
+/// The crossing is good to (rounding of f)/ḟ plus a rounding of s. Functions whose intervals of
+/// location overlap, or whose times are bit-equal, cross at one instant; the intervals allow for
+/// the rounding of the velocities, too, so that impacts which are simultaneous by symmetry stay so
+/// once rounding has broken it.
 #[inline(always)]
 pub(crate) fn first_crossing<T: Real>(
     motion: &impl HasEvents<T>,
@@ -236,8 +238,8 @@ fn safe_step<T: Real>(jet: &Jet<T>, limit: T) -> T {
     )
 }
 
-/// The first step from f = ḟ = 0, f̈ ≤ 0: below the root of f̈/2 + f⃛σ/6 + Kσ²/24, where `fourth` = K
-/// bounds the fourth derivative over one unit of time, to which the step is held.
+/// The first step from f = ḟ = 0, f̈ ≤ 0: below the root of f̈/2 + f⃛σ/6 + Kσ²/24, where `fourth` =
+/// K bounds the fourth derivative over one unit of time, to which the step is held.
 fn safe_step_from_rest<T: Real>(jet: &Jet<T>, limit: T) -> T {
     let limit = limit.min(T::ONE);
     let (a, b, c) = (
@@ -256,8 +258,8 @@ fn safe_step_from_rest<T: Real>(jet: &Jet<T>, limit: T) -> T {
     };
     let bound = |step: T| (a + (b + c * step) * step) * step * step;
     let mut harmless = limit;
-    // While the function provably stays within a rounding of zero it may be stepped over: this keeps the
-    // search moving through a touch of higher order than the bound resolves.
+    // While the function provably stays within a rounding of zero it may be stepped over: this
+    // keeps the search moving through a touch of higher order than the bound resolves.
     while bound(harmless) > jet.blur {
         harmless = harmless * 0.5;
     }
@@ -286,8 +288,8 @@ fn parabola_root<T: Real>(f: T, rate: T, accel: T) -> Option<T> {
 /// The first root in (0, reach] of U(σ) = f + ḟσ + f̈σ²/2 + kσ³/6 with f ≤ 0 ≤ k, or `reach`.
 ///
 /// U is concave up to its turning point −f̈/k and convex after it. On the concave side Newton's
-/// iteration from the left, on the convex side from the right, is monotone: neither passes the root in
-/// exact arithmetic, and a rounding past it is what `noise` allows for.
+/// iteration from the left, on the convex side from the right, is monotone: neither passes the root
+/// in exact arithmetic, and a rounding past it is what `noise` allows for.
 fn cubic_root<T: Real>(f: T, rate: T, accel: T, k: T, reach: T) -> T {
     let value = |s: T| ((k * s * (1.0 / 6.0) + accel * 0.5) * s + rate) * s + f;
     let slope = |s: T| (k * s * 0.5 + accel) * s + rate;

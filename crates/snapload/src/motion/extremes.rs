@@ -10,7 +10,8 @@ pub(crate) struct Extremes<T> {
     pub(crate) theta_max: T,
 }
 
-/// A maximum between two events is known to this; its place, where the motion is flat, to the root of it.
+/// A maximum between two events is known to this; its place, where the motion is flat, to the root
+/// of it.
 const RESOLUTION: f64 = 1e-15;
 
 impl<T: Real> Extremes<T> {
@@ -21,7 +22,8 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ| ≤ `y_bend` and
+    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
+    /// ≤ `y_bend` and
     /// |θ̈| ≤ `theta_bend`. `state` tells the state within.
     #[inline(always)]
     pub(crate) fn cover(
@@ -84,7 +86,8 @@ fn search<T: Real>(
     {
         return;
     }
-    // Above its ends by at most the bend over the width, or by the rate at one end and what that may gain.
+    // Above its ends by at most the bend over the width, or by the rate at one end and what that
+    // may gain.
     let bulge = bend * width * width * 0.125;
     let gain = up.max(T::ZERO) * width * 0.5;
     let from_left = left.1.0 + ((left.1.1 + gain) * width).max(T::ZERO);

@@ -14,7 +14,8 @@ pub struct Impact<T = f64> {
     pub t: T,
     /// The cable, by index from 0.
     pub cable: usize,
-    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse on.
+    /// Normal velocity just before, v_n⁻ ≥ 0 \[L/T\]; 0 where a taut cable only passes an impulse
+    /// on.
     pub v_n: T,
     /// Impulse in the cable \[m L/T\].
     pub impulse: T,
@@ -58,7 +59,8 @@ impl<T: Real> ImpactResult<T> {
     }
 }
 
-/// Impact of the closed cables, of which `taut` ones have no normal velocity (docs/model.md section 5):
+/// Impact of the closed cables, of which `taut` ones have no normal velocity (docs/model.md section
+/// 5):
 ///
 /// ```text
 /// 0 ≤ p  ⟂  −(v⁺ + e max(v⁻, 0)) ≥ 0,    v⁺ = v⁻ − W p,    W = G M⁻¹ Gᵀ
@@ -67,11 +69,12 @@ impl<T: Real> ImpactResult<T> {
 /// For one cable alone this is p = (1 + e) v_n / w. A taut cable stays taut when the impulse pulls
 /// on it and goes slack when the impulse unloads it.
 ///
-/// Where more cables pull than the body has freedoms for, the impulses are those of the least norm that do the same.
+/// Where more cables pull than the body has freedoms for, the impulses are those of the least norm
+/// that do the same.
 ///
-/// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the law
-/// it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is, it then
-/// snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
+/// A closed cable that opens takes no part: closed and opening is flight. Held by the letter of the
+/// law it would *gain* energy, p |v⁻|/2, whenever the impulse of another turns it round; as it is,
+/// it then snaps by itself, at the same time. Source: Moreau, in *Nonsmooth Mechanics and
 /// Applications* (1988); Brogliato, *Nonsmooth Mechanics*.
 #[inline(always)]
 pub(crate) fn impact<T: Real>(
@@ -125,8 +128,9 @@ pub(crate) fn impact<T: Real>(
     }
 }
 
-/// The derivatives of (ẋ, ẏ, θ̇) after the impact of one cable that is closed by itself and closing, by
-/// (x, y, θ, ẋ, ẏ, θ̇) before it: of v⁺ = v − M⁻¹Gᵀ p with p = (1 + e) v_n/w, v_n = G v, w = G M⁻¹Gᵀ,
+/// The derivatives of (ẋ, ẏ, θ̇) after the impact of one cable that is closed by itself and
+/// closing, by (x, y, θ, ẋ, ẏ, θ̇) before it: of v⁺ = v − M⁻¹Gᵀ p with p = (1 + e) v_n/w, v_n = G
+/// v, w = G M⁻¹Gᵀ,
 ///
 /// ```text
 /// δp = (1 + e) (δv_n/w − v_n δw/w²),   δv⁺ = δv − M⁻¹(Gᵀ δp + δGᵀ p)

@@ -1,9 +1,11 @@
-//! The limits that end a run where they are reached: all that the motion has to know of each, in one place.
+//! The limits that end a run where they are reached: all that the motion has to know of each, in
+//! one place.
 //!
-//! A limit bounds a quantity q of the state: the run ends where q reaches its bound. That instant is located
-//! like any other event, so a limit tells its event function h = q − bound with its derivatives in flight, its
-//! power series in taut motion, and what a deviation of the state changes it by. Whoever adds a limit adds a
-//! variant to [`Limit`] and is led by the compiler through every match below.
+//! A limit bounds a quantity q of the state: the run ends where q reaches its bound. That instant
+//! is located like any other event, so a limit tells its event function h = q − bound with its
+//! derivatives in flight, its power series in taut motion, and what a deviation of the state
+//! changes it by. Whoever adds a limit adds a variant to [`Limit`] and is led by the compiler
+//! through every match below.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
@@ -124,8 +126,8 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// Their event functions in taut motion, as power series of y, θ, and cos θ and sin θ; `each` is given them
-    /// one after the other.
+    /// Their event functions in taut motion, as power series of y, θ, and cos θ and sin θ; `each`
+    /// is given them one after the other.
     #[inline(always)]
     pub(crate) fn in_series(
         &self,

@@ -11,7 +11,8 @@ pub struct Outcome {
     pub end: End,
     /// The norms.
     pub norms: Norms,
-    /// How many impacts each cable had, by index from 0, impulses passed into it while taut not among them.
+    /// How many impacts each cable had, by index from 0, impulses passed into it while taut not
+    /// among them.
     pub impacts: PerCable<u64>,
     /// The first of them.
     pub first: Option<FirstImpact>,

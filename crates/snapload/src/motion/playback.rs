@@ -24,6 +24,14 @@ pub struct Motion {
     pub energy: f64,
 }
 
+impl Trajectory {
+    /// State, taut set, tensions and energy at time t, held to the run's span; at an event's
+    /// instant those after it. For many times ask [`Playback`].
+    pub fn at(&self, t: f64) -> Motion {
+        Playback::new(self).at(t)
+    }
+}
+
 /// Plays a run back: computes the motion at any time, quickest for times that follow each other.
 #[derive(Clone, Debug)]
 pub struct Playback<'a> {

@@ -1,4 +1,5 @@
-//! Back onto the constraints: what rounding has moved off a closed cable is put back by the least change.
+//! Back onto the constraints: what rounding has moved off a closed cable is put back by the least
+//! change.
 
 use crate::arithmetic::real::Real;
 use crate::model::state::State;

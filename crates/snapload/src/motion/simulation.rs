@@ -33,8 +33,9 @@ const CONVERGING: u32 = 5;
 
 /// A motion in progress.
 ///
-/// It allocates when it is made and at its first stretch without a closed form, and no other step does; it has no
-/// randomness and reads no clock: the same system, rules and start give the same bits.
+/// It allocates when it is made and at its first stretch without a closed form, and no other step
+/// does; it has no randomness and reads no clock: the same system, rules and start give the same
+/// bits.
 #[derive(Clone, Debug)]
 pub struct Simulation<T: Real = f64> {
     system: System<T>,
@@ -45,7 +46,8 @@ pub struct Simulation<T: Real = f64> {
     before: State<T>,
     active: ActiveSet,
     contacts: Contacts<T>,
-    /// The system as [`crate::motion::bounce`] takes it; none where it has not two cables and one harmonic.
+    /// The system as [`crate::motion::bounce`] takes it; none where it has not two cables and one
+    /// harmonic.
     two_cables: Option<TwoCableSystem<T>>,
     /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
     bounce_start: Option<AfterImpact<T>>,
@@ -128,8 +130,8 @@ impl<T: Real> Kernel for NextStep<'_, T> {
     }
 }
 
-/// Numbers over which a motion can be stepped. The step over doubles is compiled here, once: it is the whole engine,
-/// which every crate that steps would otherwise compile anew.
+/// Numbers over which a motion can be stepped. The step over doubles is compiled here, once: it is
+/// the whole engine, which every crate that steps would otherwise compile anew.
 pub trait Steps: Real {
     /// [`Simulation::step`].
     fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
@@ -169,7 +171,8 @@ impl<T: Real> Step<T> {
 }
 
 impl<T: Real> Simulation<T> {
-    /// A motion of `system` from `state` at time `t`, projected onto the cables that count as closed.
+    /// A motion of `system` from `state` at time `t`, projected onto the cables that count as
+    /// closed.
     ///
     /// # Errors
     /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
@@ -238,7 +241,8 @@ impl<T: Real> Simulation<T> {
         self.stop
     }
 
-    /// Where the impacts that end the run converge (see [`crate::motion::trajectory::End::t_limit`]).
+    /// Where the impacts that end the run converge (see
+    /// [`crate::motion::trajectory::End::t_limit`]).
     pub fn t_limit(&self) -> Option<T> {
         self.t_limit
     }

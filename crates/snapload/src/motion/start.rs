@@ -49,8 +49,9 @@ pub(crate) struct Start<T> {
     pub(crate) stop: Option<Stop>,
 }
 
-/// Checks a start and projects it onto the cables that count as closed: in position, and in velocity
-/// where that counts as zero. The problem on accelerations decides which of those at rest are taut.
+/// Checks a start and projects it onto the cables that count as closed: in position, and in
+/// velocity where that counts as zero. The problem on accelerations decides which of those at rest
+/// are taut.
 pub(crate) fn prepare<T: Real>(
     system: &System<T>,
     rules: &Rules<T>,
@@ -95,7 +96,8 @@ pub(crate) fn prepare<T: Real>(
     })
 }
 
-/// Whether the system has no more cables than there is room for, and whether all that decides the run is a number.
+/// Whether the system has no more cables than there is room for, and whether all that decides the
+/// run is a number.
 fn check_numbers<T: Real>(
     system: &System<T>,
     rules: &Rules<T>,

@@ -1,6 +1,8 @@
-//! What one step of a run does to small deviations: a linear map, and how it acts on one or on many of them.
+//! What one step of a run does to small deviations: a linear map, and how it acts on one or on many
+//! of them.
 //!
-//! Deviations are told at the events, as (w, τ): see [`crate::motion::tangent`], which makes these maps.
+//! Deviations are told at the events, as (w, τ): see [`crate::motion::tangent`], which makes these
+//! maps.
 
 /// ∂z/∂z, rows by what changes: 6 × 6, order x, y, θ, ẋ, ẏ, θ̇.
 pub type Matrix = [[f64; 6]; 6];
@@ -8,8 +10,8 @@ pub type Matrix = [[f64; 6]; 6];
 /// A deviation (w, τ): six of the state, and the time.
 pub type Deviation = [f64; 7];
 
-/// Deviations side by side: a row for each of their seven components, a column for each of them, so that
-/// one operation does them all.
+/// Deviations side by side: a row for each of their seven components, a column for each of them, so
+/// that one operation does them all.
 pub(crate) type Block<const M: usize> = [[f64; M]; 7];
 
 /// One step of the linearised motion.
@@ -33,7 +35,8 @@ pub struct StepMap {
 pub(super) struct Flow {
     /// How long it is.
     pub(super) s: f64,
-    /// Φ where velocities change by the state: with taut cables, or drag. Else positions drift with the velocities.
+    /// Φ where velocities change by the state: with taut cables, or drag. Else positions drift with
+    /// the velocities.
     pub(super) driven: Option<Matrix>,
 }
 
@@ -107,7 +110,8 @@ impl StepMap {
         }
     }
 
-    /// What [`StepMap::meet`] undoes: the deviation told at the previous event's time, when τ was `tau`.
+    /// What [`StepMap::meet`] undoes: the deviation told at the previous event's time, when τ was
+    /// `tau`.
     pub(crate) fn before_meeting(&self, deviation: &Deviation, tau: f64) -> Deviation {
         let (w, now) = split(deviation);
         join(&add_scaled(&w, &self.rate, tau - now), tau)

@@ -1,8 +1,8 @@
 //! The linearised motion: what becomes of a small deviation from a run.
 //!
-//! Two neighbours reach an event at different times, and between these times they differ by a
-//! whole jump of velocity, however close they are. So a deviation is told here *at the events*, as
-//! (w, τ): the neighbour is at z + w at the time t + τ, when it has had the same events as the run. A
+//! Two neighbours reach an event at different times, and between these times they differ by a whole
+//! jump of velocity, however close they are. So a deviation is told here *at the events*, as (w,
+//! τ): the neighbour is at z + w at the time t + τ, when it has had the same events as the run. A
 //! deviation δz at one time is (δz, 0), and (w, τ) is δz = w − ż τ at one time.
 //!
 //! Along a stretch from t to t + s, with Φ = ∂z(t + s)/∂z(t) for the taut set that it has,
@@ -13,10 +13,10 @@
 //! w ← R' (w + ż₋ δs),   τ ← τ + δs      R the law of impact
 //! ```
 //!
-//! which with δz = w − ż τ is the saltation matrix
-//! S = R' + (ż₊ − R' ż₋) ∇h / ḣ (Aizerman & Gantmakher 1958; Müller, *Chaos, Solitons & Fractals* 5 (1995)
-//! 1671). R' is the law of [`crate::motion::impact`] itself over [`Dual`] numbers, sticking and several cables
-//! included; for one cable alone, which is nearly every impact, it is written out there.
+//! which with δz = w − ż τ is the saltation matrix S = R' + (ż₊ − R' ż₋) ∇h / ḣ (Aizerman &
+//! Gantmakher 1958; Müller, *Chaos, Solitons & Fractals* 5 (1995) 1671). R' is the law of
+//! [`crate::motion::impact`] itself over [`Dual`] numbers, sticking and several cables included;
+//! for one cable alone, which is nearly every impact, it is written out there.
 
 use crate::arithmetic::dual::Dual;
 use crate::model::state::State;
@@ -30,8 +30,9 @@ use crate::motion::step_map::{Flow, Matrix, StepMap, add_scaled, dot6, join, sin
 
 type Number = Dual<f64, 6>;
 
-/// Φ along taut motion is integrated in so many steps for each expansion of the motion, whose length
-/// goes with the motion's own time scale; with the rule of Runge and Kutta this leaves about 1e-4 of Φ.
+/// Φ along taut motion is integrated in so many steps for each expansion of the motion, whose
+/// length goes with the motion's own time scale; with the rule of Runge and Kutta this leaves about
+/// 1e-4 of Φ.
 const SUBSTEPS: f64 = 3.0;
 
 /// The linearised motion along a run.
@@ -95,8 +96,9 @@ impl Tangent {
         }
     }
 
-    /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the rule of Runge and
-    /// Kutta. The motion itself is known to rounding; its deviation need only be known to some digits.
+    /// Φ along a stretch with taut cables or drag: Φ̇ = A Φ, A = ∂ż/∂z along the motion, by the
+    /// rule of Runge and Kutta. The motion itself is known to rounding; its deviation need only be
+    /// known to some digits.
     #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
@@ -214,8 +216,8 @@ mod tests {
             .expect("a legal case")
     }
 
-    /// The whole motion over dual numbers, in which no saltation matrix is written down, against this
-    /// file's, at the end of each step; relative to the largest deviation there.
+    /// The whole motion over dual numbers, in which no saltation matrix is written down, against
+    /// this file's, at the end of each step; relative to the largest deviation there.
     fn worst_difference(case: &Case) -> (f64, usize, usize) {
         let mut simulation = case.simulation();
         let keys = ["x", "y", "theta", "vx", "vy", "vtheta"];

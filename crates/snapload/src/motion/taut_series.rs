@@ -22,11 +22,11 @@
 //! Σ_j W_ij T_{j,k} = n_i·a + s_i α + (k+1)(k+2) b_i,   W_ij = n_i·n_j + s_i s_j / I
 //! ```
 //!
-//! with W, n and s at the start, a and α the accelerations without the part of T_k, and b_i the part
-//! of the constraint that no acceleration changes: n_i·ρ_i of the orders of θ below k + 2, and
+//! with W, n and s at the start, a and α the accelerations without the part of T_k, and b_i the
+//! part of the constraint that no acceleration changes: n_i·ρ_i of the orders of θ below k + 2, and
 //! Σ d_j·d_{k+2−j}/2r_i, 0 < j < k + 2. At k = 0 this is the centripetal term, b_i = |Ṗ_i|²/2r_i −
-//! θ̇² n_i·ρ_i/2. It holds for every taut set, with parallel cables and b ≠ 0; the gaps of
-//! the slack cables and the tensions come out as polynomials on the step, in which
+//! θ̇² n_i·ρ_i/2. It holds for every taut set, with parallel cables and b ≠ 0; the gaps of the
+//! slack cables and the tensions come out as polynomials on the step, in which
 //! [`crate::motion::events`] finds events with the guarantee it has in flight.
 //!
 //! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:

@@ -5,7 +5,6 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::impact::Impact;
-use crate::motion::playback::{Motion, Playback};
 use crate::motion::simulation::{Simulation, Step};
 use std::ops::ControlFlow;
 
@@ -78,8 +77,8 @@ impl Trajectory {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
 
-    /// The same, as long as `watch`, which is shown the simulation after every step, and the step, lets it go on; none
-    /// where it did not let it come to its end.
+    /// The same, as long as `watch`, which is shown the simulation after every step, and the step,
+    /// lets it go on; none where it did not let it come to its end.
     pub fn record_while(
         simulation: Simulation,
         watch: impl FnMut(&Simulation, &Step) -> ControlFlow<()>,
@@ -170,12 +169,6 @@ impl Trajectory {
 
     pub(crate) fn segments(&self) -> &[Segment] {
         &self.segments
-    }
-
-    /// State, taut set, tensions and energy at time t, held to the run's span; at an event's instant
-    /// those after it. For many times ask [`Playback`].
-    pub fn at(&self, t: f64) -> Motion {
-        Playback::new(self).at(t)
     }
 }
 

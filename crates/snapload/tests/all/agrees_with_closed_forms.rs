@@ -31,8 +31,8 @@ fn run(system: System, t_end: f64, v_stick: f64, start: State) -> Trajectory {
     Trajectory::record(simulation.expect("a legal start"))
 }
 
-/// A mass that swings up on a string loses tension where v² = g L sin φ, φ above the horizontal. Its
-/// parabola meets the circle again at −3φ exactly, after 4 sqrt(sin φ) cos φ sqrt(L/g).
+/// A mass that swings up on a string loses tension where v² = g L sin φ, φ above the horizontal.
+/// Its parabola meets the circle again at −3φ exactly, after 4 sqrt(sin φ) cos φ sqrt(L/g).
 #[test]
 fn a_string_goes_slack_and_snaps() {
     for (phi, length, g) in [
@@ -267,8 +267,8 @@ fn each_impact_loses_what_its_effective_mass_says() {
     }
 }
 
-/// A cable started exactly at rest on its circle with tension slides at once; pushed inward it flies;
-/// pushed outward it snaps at t = 0.
+/// A cable started exactly at rest on its circle with tension slides at once; pushed inward it
+/// flies; pushed outward it snaps at t = 0.
 #[test]
 fn starts_on_the_boundary_do_what_the_signs_say() {
     let base = Breakwater {

@@ -4,7 +4,8 @@ use crate::common::{breakwater, distance, number, oracle, state};
 use snapload::{Rules, Simulation, Stop, Trajectory};
 
 /// How far an ordinary double run may be from the truth at an impact: 1e-9 as long as the oracle's
-/// own double run is within 1e-10, after that a hundred times the largest difference that one has had.
+/// own double run is within 1e-10, after that a hundred times the largest difference that one has
+/// had.
 fn allowed(running_maximum: f64) -> f64 {
     if running_maximum < 1e-10 {
         1e-9
@@ -108,8 +109,8 @@ fn grazes_are_neither_missed_nor_invented() {
                 "{id}: {t_error:e} at v_n = {v_n:e}"
             );
         }
-        // The touch at 1e-13 has v_n < 1e-6 without tension: the flight goes on (docs/model.md section 6),
-        // where the file stops by the bare rule.
+        // The touch at 1e-13 has v_n < 1e-6 without tension: the flight goes on (docs/model.md
+        // section 6), where the file stops by the bare rule.
         assert_eq!(run.end().reason, Stop::RotationLimit, "{id}");
         if case["end"]["kind"] == "rotation_limit" {
             let t = number(&case["end"]["t"]);
@@ -123,7 +124,8 @@ fn taut_motion_agrees() {
     let mut worst = 0.0_f64;
     for case in oracle("constrained.json") {
         let id = case["id"].as_str().unwrap_or_default();
-        // The oracle stops where the body's *centre* reaches the anchors' level, later than our rule.
+        // The oracle stops where the body's *centre* reaches the anchors' level, later than our
+        // rule.
         let it = breakwater(&case);
         let rules = Rules {
             upper_bound: None,
@@ -175,8 +177,8 @@ fn taut_motion_agrees() {
     println!("worst {worst:e}");
 }
 
-/// The instant at which the oracle's motion ends: tension is lost, the other cable closes or a limit
-/// is reached. Our own must be the same.
+/// The instant at which the oracle's motion ends: tension is lost, the other cable closes or a
+/// limit is reached. Our own must be the same.
 fn end_of_motion(case: &serde_json::Value, run: &Trajectory, id: &str) -> f64 {
     let end = number(&case["end"]["t"]);
     let kind = case["end"]["kind"].as_str().unwrap_or_default();

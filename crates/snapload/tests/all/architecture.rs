@@ -9,17 +9,17 @@ fn workspace() -> PathBuf {
 }
 
 fn read(path: &Path) -> String {
-    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    fs::read_to_string(path).expect("a file of the repository")
 }
 
-/// The levels of the line of ARCHITECTURE.md that begins with `first`: whatever stands in a level may use what
-/// stands in the levels before it, and nothing else.
+/// The levels of the line of ARCHITECTURE.md that begins with `first`: whatever stands in a level
+/// may use what stands in the levels before it, and nothing else.
 fn levels(first: &str) -> BTreeMap<String, usize> {
     let text = read(&workspace().join("ARCHITECTURE.md"));
     let line = text
         .lines()
         .find(|line| line.starts_with(first) && line.contains("->"));
-    let line = line.unwrap_or_else(|| panic!("ARCHITECTURE.md has no arrows from {first}"));
+    let line = line.expect("arrows in ARCHITECTURE.md");
     let mut levels = BTreeMap::new();
     for (level, names) in line.split("->").enumerate() {
         for name in names.split(',') {
@@ -127,7 +127,8 @@ fn given_out(root: &str) -> BTreeMap<String, Vec<String>> {
     names
 }
 
-/// Which file uses which, of one crate. A folder within a room, or within a flat crate, counts as one.
+/// Which file uses which, of one crate. A folder within a room, or within a flat crate, counts as
+/// one.
 fn uses(folder: &Path, depth: usize) -> BTreeMap<String, BTreeSet<String>> {
     let files = sources(folder);
     let place = |name: &str| {

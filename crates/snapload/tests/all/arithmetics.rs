@@ -51,8 +51,8 @@ fn components<T: Real>(s: &State<T>) -> [T; 6] {
     [s.x, s.y, s.theta, s.vx, s.vy, s.vtheta]
 }
 
-/// The oracle lists 21 decimals, cut and not rounded, computed by other code; seventy-six digits of ours
-/// reproduce every one.
+/// The oracle lists 21 decimals, cut and not rounded, computed by other code; seventy-six digits of
+/// ours reproduce every one.
 #[test]
 fn many_digits_reproduce_the_oracle() {
     for truth in oracle("cases.json") {

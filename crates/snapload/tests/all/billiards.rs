@@ -1,5 +1,5 @@
-//! Billiards, in which the growth of deviations is known exactly: a mass inside its cables' circles, without
-//! weight and without loss. The formulas are derived beside each test.
+//! Billiards, in which the growth of deviations is known exactly: a mass inside its cables'
+//! circles, without weight and without loss. The formulas are derived beside each test.
 
 use crate::common::{IDENTITY, Square, block, determinant, matrix, product, trace, unending};
 use snapload::analysis::Frame;
@@ -29,11 +29,12 @@ fn assert_close(found: &Square, known: &Square, allowed: f64) {
     }
 }
 
-/// A mass that bounces at speed v along the axis between two circular mirrors of radii l0 and l1, a distance
-/// d apart. Across the axis a flight of d/v is δy += (d/v) δẏ and a mirror is δẏ −= (2v/l) δy, so the lap has
-/// the determinant 1 and the trace 4 g0 g1 − 2, g = 1 − d/l (the resonator of optics). Two equal cables with
-/// anchors at ±c have g = 2c/l − 1 = γ: the trace 4γ² − 2 is never beyond ±2. Unequal ones with
-/// l0 > D > l1, D the distance of the anchors, have g0 g1 < 0, and the lap is unstable.
+/// A mass that bounces at speed v along the axis between two circular mirrors of radii l0 and l1, a
+/// distance d apart. Across the axis a flight of d/v is δy += (d/v) δẏ and a mirror is δẏ −= (2v/l)
+/// δy, so the lap has the determinant 1 and the trace 4 g0 g1 − 2, g = 1 − d/l (the resonator of
+/// optics). Two equal cables with anchors at ±c have g = 2c/l − 1 = γ: the trace 4γ² − 2 is never
+/// beyond ±2. Unequal ones with l0 > D > l1, D the distance of the anchors, have g0 g1 < 0, and the
+/// lap is unstable.
 #[test]
 fn the_lap_between_two_mirrors() {
     let equal = |c: f64, l: f64| ([c, -c], [l, l]);
@@ -95,8 +96,9 @@ fn the_lap_between_two_mirrors() {
             // Along the axis a lap only shears: one that is faster is ahead.
             assert_close(&block(&lap, 0), &[[1.0, period], [0.0, 1.0]], 1e-12);
 
-            // Many laps: the frame's second direction begins across the axis and stays there. Its growth
-            // is a power of the larger multiplier but for what dies out like the square of it.
+            // Many laps: the frame's second direction begins across the axis and stays there. Its
+            // growth is a power of the larger multiplier but for what dies out like the square of
+            // it.
             let (laps, mut frame) = (60, Frame::new());
             let mut grown = [0.0; 3];
             for grown in &mut grown[1..] {
@@ -114,7 +116,8 @@ fn the_lap_between_two_mirrors() {
                 assert!((exponents[0] - largest / period).abs() < 0.02 / period);
                 assert!((exponents[0] + exponents[5]).abs() < 1e-2 * exponents[0]);
             } else {
-                // A rotation, or where the trace is −2 exactly a shear, grows no faster than its laps.
+                // A rotation, or where the trace is −2 exactly a shear, grows no faster than its
+                // laps.
                 assert!(grown[2].abs() < (2.0 * f64::from(laps) * 10.0 * (1.0 + speed)).ln());
             }
         }
@@ -124,9 +127,9 @@ fn the_lap_between_two_mirrors() {
 /// The components of a motion in the plane without rotation.
 const PLANAR: [usize; 4] = [0, 1, 3, 4];
 
-/// Inside a circle the angle α of the chords to the circle is constant. With t v/(2R sin α) chords behind it, a
-/// neighbour with another speed and another angle is ahead by t δv/v along its path, turned by 2 δα for each
-/// chord, and late by δ(2R sin α/v) for each:
+/// Inside a circle the angle α of the chords to the circle is constant. With t v/(2R sin α) chords
+/// behind it, a neighbour with another speed and another angle is ahead by t δv/v along its path,
+/// turned by 2 δα for each chord, and late by δ(2R sin α/v) for each:
 ///
 /// δz = t ( (δv/v) ż + (v/(2R sin α)) δα (2 z_turned − (2R cos α/v) ż) ) + O(1).
 ///
@@ -154,8 +157,8 @@ fn drift(radius: f64, start: &State, now: &State) -> [[f64; 4]; 4] {
     })
 }
 
-/// Deviations in a circle grow like time and no faster, so the exponents vanish like ln t/t, and the constant
-/// beside the logarithm is known, too.
+/// Deviations in a circle grow like time and no faster, so the exponents vanish like ln t/t, and
+/// the constant beside the logarithm is known, too.
 #[test]
 fn deviations_in_a_circle_grow_like_time() {
     for (radius, x, y, vx, vy) in [
@@ -200,7 +203,8 @@ fn deviations_in_a_circle_grow_like_time() {
                     assert!((found - known).abs() < 20.0 / t, "{found} {known} at {t}");
                 }
             }
-            // The frame's first direction is the first column, so its growth is known with its constant.
+            // The frame's first direction is the first column, so its growth is known with its
+            // constant.
             let length = known[0].iter().map(|g| g * g).sum::<f64>().sqrt();
             let excess = frame.logs()[0] - t.ln() - length.ln();
             assert!(excess.abs() < 20.0 / t, "{excess:e} at {t}");

@@ -1,5 +1,6 @@
-//! The ball on a vibrating table: multipliers, thresholds and exponents that are known exactly (Holmes, *J. Sound
-//! Vib.* 84 (1982) 173; Luck & Mehta, *Phys. Rev. E* 48 (1993) 3988). None of the table's motion is left out.
+//! The ball on a vibrating table: multipliers, thresholds and exponents that are known exactly
+//! (Holmes, *J. Sound Vib.* 84 (1982) 173; Luck & Mehta, *Phys. Rev. E* 48 (1993) 3988). None of
+//! the table's motion is left out.
 
 use crate::common::{Square, block, determinant, matrix, trace, unending};
 use snapload::analysis::Frame;
@@ -8,8 +9,8 @@ use snapload::{
 };
 use std::f64::consts::PI;
 
-/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y has
-/// ÿ = −1 + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never taut at
+/// A ball on a table that moves as A sin ωt, seen from the table: the relative height y has ÿ =
+/// −1 + Γ sin ωt, Γ = Aω², and the constraint y ≥ 0 is a cable of such length that it is never taut at
 /// its other end.
 #[derive(Clone, Copy, Debug)]
 struct Table {
@@ -67,8 +68,8 @@ impl Table {
         2.0 * PI / self.omega
     }
 
-    /// The stable orbit of one bounce each n periods: it leaves at V = nT/2 and comes back at −V, which
-    /// V − ẇ = e (V + ẇ) holds up for Γ cos ωt = nπ(1 − e)/(1 + e).
+    /// The stable orbit of one bounce each n periods: it leaves at V = nT/2 and comes back at −V,
+    /// which V − ẇ = e (V + ẇ) holds up for Γ cos ωt = nπ(1 − e)/(1 + e).
     fn orbit(&self, n: f64) -> Bounce {
         let phase = (n * PI * (1.0 - self.e) / (1.0 + self.e) / self.gamma)
             .min(1.0)
@@ -77,8 +78,9 @@ impl Table {
         [t, 0.5 * n * self.period() - self.velocity(t)]
     }
 
-    /// The sum of that orbit's multipliers, 1 + e² − (1 + e)² Γ sin ωt; their product is e². From V and t of
-    /// one bounce to the next, δt' = δt + (1 + e) δV and δV' = −(1 + e) Γ sin ωt δt' + e² δV.
+    /// The sum of that orbit's multipliers, 1 + e² − (1 + e)² Γ sin ωt; their product is e². From V
+    /// and t of one bounce to the next, δt' = δt + (1 + e) δV and δV' = −(1 + e) Γ sin ωt δt' + e²
+    /// δV.
     fn trace(&self, n: f64) -> f64 {
         let lower = n * PI * (1.0 - self.e) / (1.0 + self.e);
         let sine = (self.gamma * self.gamma - lower * lower).max(0.0).sqrt();
@@ -129,7 +131,8 @@ impl Table {
         None
     }
 
-    /// Where the ball is after so many bounces from its orbit of one bounce, which it was pushed off a little.
+    /// Where the ball is after so many bounces from its orbit of one bounce, which it was pushed
+    /// off a little.
     fn settled(&self, bounces: usize) -> Bounce {
         let [t, vy] = self.orbit(1.0);
         let mut simulation = self.begin([t, vy * 1.01]);
@@ -140,8 +143,9 @@ impl Table {
         [t.rem_euclid(self.period()), simulation.state().vy]
     }
 
-    /// The Γ at which a multiplier of the orbit of so many bounces is −1, by the rule of the secant from two
-    /// guesses: with multipliers −1 and μ the characteristic polynomial at −1, 1 + trace + determinant, is zero.
+    /// The Γ at which a multiplier of the orbit of so many bounces is −1, by the rule of the secant
+    /// from two guesses: with multipliers −1 and μ the characteristic polynomial at −1, 1 + trace +
+    /// determinant, is zero.
     fn threshold(
         &self,
         guesses: [f64; 2],
@@ -195,7 +199,8 @@ fn the_bouncing_ball_has_its_multipliers() {
                 let orbit = table.orbit(n);
                 let (end, a) = table.map(orbit, 1);
                 let period = n * table.period();
-                // At the lower end the phase is the root of a cosine of 1, so good to half the digits.
+                // At the lower end the phase is the root of a cosine of 1, so good to half the
+                // digits.
                 let blunt = if share == 0.0 { 1e-7 } else { 1e-11 };
                 assert!(
                     (end[0] - orbit[0] - period).abs() < blunt * period,
@@ -230,7 +235,8 @@ fn the_bouncing_ball_has_its_multipliers() {
     }
 }
 
-/// The upper end, found as a root, is where it must be: Γ² = (nπ(1 − e)/(1 + e))² + (2(1 + e²)/(1 + e)²)².
+/// The upper end, found as a root, is where it must be: Γ² = (nπ(1 − e)/(1 + e))² + (2(1 + e²)/(1 +
+/// e)²)².
 #[test]
 fn the_bouncing_ball_first_doubles_its_period_where_it_must() {
     for (e, n) in [
@@ -260,9 +266,9 @@ fn the_bouncing_ball_first_doubles_its_period_where_it_must() {
     }
 }
 
-/// The cascade at e = 0.5: orbits of 2, 4 and 8 bounces lose their stability at values known to ten digits and
-/// more from the map of bounces in forty digits, beside this engine. Here each is found as a root in Γ, every orbit
-/// by Newton's method with the derivatives of the linearised motion.
+/// The cascade at e = 0.5: orbits of 2, 4 and 8 bounces lose their stability at values known to ten
+/// digits and more from the map of bounces in forty digits, beside this engine. Here each is found
+/// as a root in Γ, every orbit by Newton's method with the derivatives of the linearised motion.
 #[test]
 fn the_bouncing_ball_goes_on_doubling_its_period() {
     let known = [
@@ -290,9 +296,9 @@ fn the_bouncing_ball_goes_on_doubling_its_period() {
     }
 }
 
-/// One bounce of any motion on the table, with s = A sin ωt, V the ball's velocity and Δ the time of flight:
-/// s' = s + VΔ − Δ²/2 and V' = (1 + e) ṡ' − e (V − Δ), so
-/// (ṡ' − V + Δ) δt' = (ṡ − V + Δ) δt + Δ δV and δV' = (1 + e) s̈' δt' − e δV + e (δt' − δt).
+/// One bounce of any motion on the table, with s = A sin ωt, V the ball's velocity and Δ the time
+/// of flight: s' = s + VΔ − Δ²/2 and V' = (1 + e) ṡ' − e (V − Δ), so (ṡ' − V + Δ) δt' = (ṡ − V + Δ)
+/// δt + Δ δV and δV' = (1 + e) s̈' δt' − e δV + e (δt' − δt).
 fn by_hand(table: &Table, step: &Step) -> Square {
     let (t, later) = (step.t_start, step.t_end);
     let flight = later - t;
@@ -303,13 +309,15 @@ fn by_hand(table: &Table, step: &Step) -> Square {
     [delay, [a * delay[0] - table.e, a * delay[1] - table.e]]
 }
 
-/// A flight so short belongs to bounces that accumulate: chaotic motion, too, comes sooner or later to a phase of
-/// the table at which the ball is caught, and is free no more (Luck & Mehta). It is followed until then.
+/// A flight so short belongs to bounces that accumulate: chaotic motion, too, comes sooner or later
+/// to a phase of the table at which the ball is caught, and is free no more (Luck & Mehta). It is
+/// followed until then.
 const CHATTER: f64 = 1e-6;
 
-/// The exponents of the one vertical degree of freedom sum to 2 ln e/⟨time between impacts⟩, whatever the motion:
-/// a bounce contracts phase area by e², and flight not at all (Müller 1995). Each by itself is known where
-/// the motion ends in the orbit of one bounce: from the multipliers above.
+/// The exponents of the one vertical degree of freedom sum to 2 ln e/⟨time between impacts⟩,
+/// whatever the motion: a bounce contracts phase area by e², and flight not at all (Müller 1995).
+/// Each by itself is known where the motion ends in the orbit of one bounce: from the multipliers
+/// above.
 #[test]
 fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
     let simple = |e: f64, gamma: f64| (e, gamma, Some(true));
@@ -348,7 +356,8 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
             (bounces, elapsed) = (bounces + 1, step.t_end - t);
         }
         assert!(bounces > 300, "{bounces}");
-        // Height and its velocity move by themselves, so the frame's two directions of them stay theirs.
+        // Height and its velocity move by themselves, so the frame's two directions of them stay
+        // theirs.
         let vertical = [frame.logs()[1] / elapsed, frame.logs()[4] / elapsed];
         let sum = vertical[0] + vertical[1];
         let known = 2.0 * e.ln() / (elapsed / f64::from(bounces));
@@ -372,8 +381,8 @@ fn exponents_of_the_bouncing_ball_obey_their_sum_rule() {
     }
 }
 
-/// The largest difference of a bounce's map from the one by hand, relative to the latter's size and to the
-/// velocity by which both divide.
+/// The largest difference of a bounce's map from the one by hand, relative to the latter's size and
+/// to the velocity by which both divide.
 fn worst_entry(table: &Table, step: &Step, map: &StepMap) -> f64 {
     // The map by hand is told V, this engine's the velocity relative to the table.
     let later = [

@@ -1,5 +1,5 @@
-//! Derivatives of the first impacts, by the two ways in which the library has them, against differences of runs
-//! with many digits, which know nothing of derivatives.
+//! Derivatives of the first impacts, by the two ways in which the library has them, against
+//! differences of runs with many digits, which know nothing of derivatives.
 
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
@@ -16,7 +16,8 @@ fn keys() -> impl Iterator<Item = &'static str> {
     START_KEYS.into_iter().chain(UNCERTAIN_KEYS)
 }
 
-/// What an impact is told by: the state before it, its time, its normal velocity, the state after it.
+/// What an impact is told by: the state before it, its time, its normal velocity, the state after
+/// it.
 const QUANTITIES: usize = 14;
 
 fn quantities<T: Real>(impact: &Impact<T>) -> [T; QUANTITIES] {
@@ -27,8 +28,8 @@ fn quantities<T: Real>(impact: &Impact<T>) -> [T; QUANTITIES] {
     all
 }
 
-/// Differences of runs ± 1e-20 apart. Of seventy-six digits more than fifty are left, and the error of the formula
-/// is 1e-40 of the third derivatives.
+/// Differences of runs ± 1e-20 apart. Of seventy-six digits more than fifty are left, and the error
+/// of the formula is 1e-40 of the third derivatives.
 fn differences(run: impl Fn(Digits) -> Vec<Impact<Digits>>) -> Vec<[f64; QUANTITIES]> {
     let step = Digits::from_decimal(1e-20);
     let (ahead, behind) = (run(step), run(-step));
@@ -54,7 +55,8 @@ fn first_impacts<T: Steps>(mut simulation: Simulation<T>, count: usize) -> Vec<I
     impacts
 }
 
-/// The same by the linearised motion: columns of the start, each told at the impacts, of all but the normal velocity.
+/// The same by the linearised motion: columns of the start, each told at the impacts, of all but
+/// the normal velocity.
 fn by_the_linearised_motion(
     mut simulation: Simulation,
     count: usize,
@@ -94,8 +96,8 @@ fn worst(found: &[f64], known: &[f64]) -> f64 {
     if off > 0.0 { off / size } else { 0.0 }
 }
 
-/// By all of the start and all parameters, of circles, squares, rectangles and a point mass. The inertia
-/// given is none that follows from a size, so that it is a parameter of its own.
+/// By all of the start and all parameters, of circles, squares, rectangles and a point mass. The
+/// inertia given is none that follows from a size, so that it is a parameter of its own.
 #[test]
 fn derivatives_of_the_first_impacts_agree() {
     let standard = Parameters {
@@ -192,8 +194,8 @@ fn derivatives_of_the_first_impacts_agree() {
     }
 }
 
-/// A body on one cable that rises to the end of it and, but for `depth`, no further: with `depth` = 0 it would
-/// touch the circle with no normal velocity a time 1/2 after its start and fall back.
+/// A body on one cable that rises to the end of it and, but for `depth`, no further: with `depth` =
+/// 0 it would touch the circle with no normal velocity a time 1/2 after its start and fall back.
 fn towards_a_graze(depth: f64) -> (System, State) {
     let (length, arms, inertia, weight) = (1.0, [0.3, 0.1], 0.1, 1.0);
     let system = System {
@@ -246,8 +248,8 @@ fn first_impact<T: Steps>(
 /// v_n ∂q̇⁺/∂z_j  → −(f + (1 + e) |α| M⁻¹Gᵀ/w) G ∂q⁻/∂z_j
 /// ```
 ///
-/// the first by the implicit function theorem; v_n falls along the flight at |α|, and the rest of the
-/// derivatives stays bounded.
+/// the first by the implicit function theorem; v_n falls along the flight at |α|, and the rest of
+/// the derivatives stays bounded.
 #[test]
 fn derivatives_grow_towards_a_graze() {
     for k in 0..6 {

@@ -91,7 +91,8 @@ fn instants(run: &Trajectory) -> Vec<f64> {
 }
 
 proptest! {
-    // A fixed seed: the same cases on every machine. PROPTEST_RNG_SEED and PROPTEST_CASES choose others.
+    // A fixed seed: the same cases on every machine. PROPTEST_RNG_SEED and PROPTEST_CASES choose
+    // others.
     #![proptest_config(ProptestConfig {
         cases: 3000,
         max_shrink_iters: 300,
@@ -187,7 +188,8 @@ proptest! {
         };
         let image = Case::new(mirrored).expect("legal as its original").run();
         prop_assert!(image.impacts().len() >= reliable(&run).len());
-        // Rows of one instant are listed by cable, so the mirror image lists them the other way round.
+        // Rows of one instant are listed by cable, so the mirror image lists them the other way
+        // round.
         let instants = reliable(&run).chunk_by(|a, b| a.after == b.after);
         let images = image.impacts().chunk_by(|a, b| a.after == b.after);
         for (instant, image) in instants.zip(images) {
@@ -306,8 +308,8 @@ fn work_of_forcing(run: &Trajectory) -> f64 {
     work
 }
 
-/// Started in the corner where both cables are closed, with any velocity: one may open while the other
-/// closes, and still no impact creates energy, and no gap opens.
+/// Started in the corner where both cables are closed, with any velocity: one may open while the
+/// other closes, and still no impact creates energy, and no gap opens.
 #[test]
 fn corner_starts_neither_gain_energy_nor_open_a_gap() {
     let mut impacts = 0;
@@ -365,8 +367,8 @@ fn corner_starts_neither_gain_energy_nor_open_a_gap() {
     assert!(impacts > 1000);
 }
 
-/// Cases that are legal and unreasonable: very light bodies, very large ones, corners struck at speed.
-/// All of them must end, and soon.
+/// Cases that are legal and unreasonable: very light bodies, very large ones, corners struck at
+/// speed. All of them must end, and soon.
 #[test]
 fn extreme_cases_end() {
     let base = Parameters {

@@ -1,4 +1,5 @@
-//! What flight and impacts do to small deviations, and to volumes and areas of phase space, over random systems.
+//! What flight and impacts do to small deviations, and to volumes and areas of phase space, over
+//! random systems.
 
 use crate::common::{Breakwater, IDENTITY, STANDARD, matrix, product, unending};
 use proptest::prelude::*;
@@ -104,7 +105,8 @@ fn length(row: &[f64; 6]) -> f64 {
     dot(row, row).sqrt()
 }
 
-/// The same with components scaled by the roots of their masses, which makes the mass matrix that of unity.
+/// The same with components scaled by the roots of their masses, which makes the mass matrix that
+/// of unity.
 fn weighted(a: &Matrix, inertia: f64) -> Matrix {
     let weights = [1.0, 1.0, inertia.sqrt(), 1.0, 1.0, inertia.sqrt()];
     let mut scaled = *a;
@@ -129,16 +131,18 @@ fn symplectic_form(s: &Matrix) -> Matrix {
     form
 }
 
-/// So many roundings are allowed of the size of what a formula adds up: about as many as it has operations.
+/// So many roundings are allowed of the size of what a formula adds up: about as many as it has
+/// operations.
 const ROUNDINGS: f64 = 32.0;
 
-/// S of an impact of one cable by the formula of the literature (Aizerman & Gantmakher 1958; Müller 1995),
+/// S of an impact of one cable by the formula of the literature (Aizerman & Gantmakher 1958; Müller
+/// 1995),
 ///
 /// S = D_xR + (f⁺ − D_xR f⁻ − D_tR) D_xg/(D_t g + D_x g f⁻),
 ///
-/// with neither R nor g dependent on time, and with all derivatives worked out by hand. The normal is taken as d/|d|
-/// of the span d, whatever its length, where the engine divides by r: both are the law where g = 0, and S must
-/// not depend on how it is continued.
+/// with neither R nor g dependent on time, and with all derivatives worked out by hand. The normal
+/// is taken as d/|d| of the span d, whatever its length, where the engine divides by r: both are
+/// the law where g = 0, and S must not depend on how it is continued.
 fn saltation(system: &System, cable: &Cable, step: &Step) -> Matrix {
     let (q, e, inverse_inertia) = (
         &step.before,
@@ -202,12 +206,13 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// The determinant of the motion at one time is 1 in flight, and e² in an impact of one cable, forced or
-    /// not: with v⁺ = P v⁻, P = 1 − (1 + e) M⁻¹ g gᵀ/w, a neighbour δq off is late by −gᵀδq/v_n and has
-    /// the velocity q̇⁻ instead of q̇⁺ = q̇⁻ − (1 + e) (v_n/w) M⁻¹ g meanwhile, so that δq⁺ = P δq⁻: the same P as in
-    /// ∂v⁺/∂v⁻ = P. Positions do not depend on velocities, so det S = (det P)², where det P = 1 − (1 + e) = −e
-    /// as gᵀM⁻¹g = w. The forces stand in the corner that the determinant does not ask for. So the exponents
-    /// of any run sum to 2 ln e/⟨time between impacts⟩.
+    /// The determinant of the motion at one time is 1 in flight, and e² in an impact of one cable,
+    /// forced or not: with v⁺ = P v⁻, P = 1 − (1 + e) M⁻¹ g gᵀ/w, a neighbour δq off is late by
+    /// −gᵀδq/v_n and has the velocity q̇⁻ instead of q̇⁺ = q̇⁻ − (1 + e) (v_n/w) M⁻¹ g meanwhile,
+    /// so that δq⁺ = P δq⁻: the same P as in ∂v⁺/∂v⁻ = P. Positions do not depend on velocities, so
+    /// det S = (det P)², where det P = 1 − (1 + e) = −e as gᵀM⁻¹g = w. The forces stand in the
+    /// corner that the determinant does not ask for. So the exponents of any run sum to 2 ln
+    /// e/⟨time between impacts⟩.
     #[test]
     fn an_impact_contracts_phase_volume_by_e_squared((system, state) in systems(any_restitution())) {
         let e = system.restitution;
@@ -230,8 +235,8 @@ proptest! {
         prop_assert!((sum - 2.0 * impacts * e.ln()).abs() <= rounding, "{} impacts: {}", impacts, sum);
     }
 
-    /// Flight and impacts without loss keep SᵀJS = J, with forces that depend on time, too. So the eigenvalues
-    /// of what they make of deviations come in pairs whose product is 1.
+    /// Flight and impacts without loss keep SᵀJS = J, with forces that depend on time, too. So the
+    /// eigenvalues of what they make of deviations come in pairs whose product is 1.
     #[test]
     fn motion_without_loss_is_symplectic((system, state) in systems(Just(1.0).boxed())) {
         let form = symplectic_form(&IDENTITY);
@@ -270,8 +275,8 @@ proptest! {
     }
 }
 
-/// Without forcing and without loss the breakwater is a chaotic billiard under gravity. Whatever directions its
-/// exponents are computed from, in pairs they cancel but for what vanishes like 1/t.
+/// Without forcing and without loss the breakwater is a chaotic billiard under gravity. Whatever
+/// directions its exponents are computed from, in pairs they cancel but for what vanishes like 1/t.
 #[test]
 fn exponents_come_in_pairs() {
     for (a, b, x, theta) in [

@@ -8,8 +8,8 @@ use snapload::{
     Simulation, State, Stop, System, Trajectory, named_case,
 };
 
-/// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much longer than their
-/// reach at x = y = θ = 0 the cables are; 0 closes several at the start.
+/// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much
+/// longer than their reach at x = y = θ = 0 the cables are; 0 closes several at the start.
 fn systems(forced: bool) -> impl Strategy<Value = System> {
     let more = prop_oneof![1 => Just(0.0), 2 => 0.0..0.3];
     let cable = (-1.5..1.5, 0.8..1.5, -0.3..0.3, -0.2..0.2, more);
@@ -91,15 +91,16 @@ fn holds(run: &Trajectory) -> Result<(), TestCaseError> {
             "{momentum:?}"
         );
     }
-    // An impulse may turn another closed cable round, which then snaps by itself at the same time, up to rounding;
-    // after the last of them no closed cable closes on.
+    // An impulse may turn another closed cable round, which then snaps by itself at the same time,
+    // up to rounding; after the last of them no closed cable closes on.
     for instant in run.impacts().chunk_by(|a, b| b.t - a.t < 1e-12) {
         let Some(Impact { after, .. }) = instant.last() else {
             continue;
         };
         for tether in &system.cables {
             let v = tether.normal(after).velocity(after);
-            // A gap of a few roundings is a closed one, unless the bounces themselves are that small.
+            // A gap of a few roundings is a closed one, unless the bounces themselves are that
+            // small.
             let closed = tether.gap(after) > -1e-15 && v > 1e-4;
             prop_assert!(!closed, "a closed cable is passed through: {v}");
         }
@@ -133,8 +134,8 @@ proptest! {
     }
 }
 
-/// Four equal parallel tethers, thrown up against their ends all at once: four impulses for three freedoms, the same in
-/// each, as least norm and symmetry want; and the body comes to rest on them.
+/// Four equal parallel tethers, thrown up against their ends all at once: four impulses for three
+/// freedoms, the same in each, as least norm and symmetry want; and the body comes to rest on them.
 #[test]
 fn parallel_tethers_share_an_impact_evenly() {
     let tether = |x: f64| Cable::taut_at_rest([0.0, -1.0], [x, 0.0], 1.0);
@@ -162,8 +163,8 @@ fn parallel_tethers_share_an_impact_evenly() {
     assert!(run.end().state.vy.abs() < 1e-9 && run.end().state.theta.abs() < 1e-9);
 }
 
-/// Every line doubled: a pair moves the body as one line does, and each of the pair carries half, at impacts and while
-/// taut. The cases slide and rock, and lines come taut and go slack.
+/// Every line doubled: a pair moves the body as one line does, and each of the pair carries half,
+/// at impacts and while taut. The cases slide and rock, and lines come taut and go slack.
 #[test]
 fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
     // One begins with both cables taut.
@@ -235,8 +236,8 @@ fn twins_do_what_one_line_does_and_carry_half() -> Result<(), CaseError> {
     Ok(())
 }
 
-/// Four equal parallel tethers, let go from the side: the body swings as a point on one tether does, and each carries
-/// a quarter of what that one does.
+/// Four equal parallel tethers, let go from the side: the body swings as a point on one tether
+/// does, and each carries a quarter of what that one does.
 #[test]
 fn parallel_tethers_swing_as_one_pendulum() {
     let swing = |lines: &[f64]| {
@@ -274,9 +275,9 @@ fn parallel_tethers_swing_as_one_pendulum() {
     }
 }
 
-/// Moorings in which many cables hold the same directions: pairs to one fairlead, parallel tethers whose loads wander from
-/// one to the other, twins that are not quite alike, ten lines at one place. Each runs to its end, and every law
-/// holds along it, as it is played back.
+/// Moorings in which many cables hold the same directions: pairs to one fairlead, parallel tethers
+/// whose loads wander from one to the other, twins that are not quite alike, ten lines at one
+/// place. Each runs to its end, and every law holds along it, as it is played back.
 #[test]
 fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
     type Line = ([f64; 2], [f64; 2]);
@@ -346,7 +347,8 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                     "{case}: {reason:?} at {t}"
                 );
                 assert!(t > 2.0, "{case} at {t}");
-                // Of constraints that are all but one, roundings come out 1e7 times larger (docs/limits.md).
+                // Of constraints that are all but one, roundings come out 1e7 times larger
+                // (docs/limits.md).
                 if name == "near" {
                     continue;
                 }

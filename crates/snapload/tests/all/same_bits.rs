@@ -9,7 +9,8 @@ use std::ops::ControlFlow::{Break, Continue};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state after).
+/// A number that changes with any bit of any impact (FNV-1a over the bits of t, v_n and the state
+/// after).
 fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     while let Some(step) = simulation.step() {
@@ -27,8 +28,9 @@ fn fingerprint(mut simulation: Simulation) -> (u64, u64) {
 
 /// Time of the end and fingerprint of named cases: what every machine must compute.
 ///
-/// They may change only where arithmetic is changed on purpose, which the change log then says: in a chaotic
-/// motion another last bit is another picture. The test prints what it found; put that here.
+/// They may change only where arithmetic is changed on purpose, which the change log then says: in
+/// a chaotic motion another last bit is another picture. The test prints what it found; put that
+/// here.
 const HELD: [(&str, u64, u64); 5] = [
     (
         "1910001000-359",
@@ -72,7 +74,8 @@ fn named_cases_have_the_bits_they_had() {
     assert_eq!(found, HELD, "found\n{listed}");
 }
 
-/// Several hundred cases of all kinds: shapes, restitutions, forces, stops, point masses, starts at speed.
+/// Several hundred cases of all kinds: shapes, restitutions, forces, stops, point masses, starts at
+/// speed.
 fn varied() -> Vec<Case> {
     let cases = (0..600_u32).filter_map(|k| {
         let x = f64::from(k);
@@ -185,7 +188,8 @@ fn few_cases_fill_no_lanes() {
     }
 }
 
-/// A lane whose run has stopped takes the next one at once: of the places for bounces hardly any stay empty.
+/// A lane whose run has stopped takes the next one at once: of the places for bounces hardly any
+/// stay empty.
 #[test]
 fn lanes_are_kept_full() {
     let cases: Vec<Case> = (0..1000)

@@ -25,8 +25,8 @@ fn of_oracle(truth: &Json) -> Case {
     case(keys_of_oracle(truth).chain([("stop_when_sliding", Value::Bool(true))]))
 }
 
-/// The impact at which trust ends, counted from 1; where it does not within the part of the run that is
-/// proven, the number of its impacts plus one.
+/// The impact at which trust ends, counted from 1; where it does not within the part of the run
+/// that is proven, the number of its impacts plus one.
 fn predicted(found: &Verification) -> usize {
     let none = found.differences.len() + 1;
     let horizon = found.trust.horizon.map_or(none, |h| h.impact);
@@ -37,11 +37,11 @@ fn first_wrong(found: &Verification) -> usize {
     found.first_wrong.unwrap_or(found.differences.len() + 1)
 }
 
-/// The prediction is the width of a distribution, the difference that is proven one draw from it. While errors
-/// grow from impact to impact, this does not move the horizon; where bounces accumulate they stand still for a
-/// hundred impacts, at times near the tolerance. So the prediction is held to where the difference passes a
-/// twentieth of the tolerance, as 4 % of all draws are smaller than that part of the width, and to where it passes three
-/// times it.
+/// The prediction is the width of a distribution, the difference that is proven one draw from it.
+/// While errors grow from impact to impact, this does not move the horizon; where bounces
+/// accumulate they stand still for a hundred impacts, at times near the tolerance. So the
+/// prediction is held to where the difference passes a twentieth of the tolerance, as 4 % of all
+/// draws are smaller than that part of the width, and to where it passes three times it.
 fn assert_as_proven(id: &str, found: &Verification) {
     let passes = |size: f64| {
         let wrong = found.differences.iter().position(|d| *d > size);
@@ -94,10 +94,11 @@ fn horizons_are_where_the_oracle_has_them() {
     });
 }
 
-/// Up to the horizon the difference from the run with many digits is of the size of the standard deviation
-/// that was predicted: one draw from a distribution whose width is itself a model of rounding. Where
-/// bounces accumulate the model says too much, as gaps and normal velocities then keep their relative
-/// precision; it must never say too little by much. Of a handful of impacts the median is one draw like any other.
+/// Up to the horizon the difference from the run with many digits is of the size of the standard
+/// deviation that was predicted: one draw from a distribution whose width is itself a model of
+/// rounding. Where bounces accumulate the model says too much, as gaps and normal velocities then
+/// keep their relative precision; it must never say too little by much. Of a handful of impacts the
+/// median is one draw like any other.
 fn errors_are_of_the_size_predicted(id: &str, found: &Verification) {
     let horizon = predicted(found).min(first_wrong(found)) - 1;
     let mut ratios: Vec<f64> = (0..horizon)
@@ -189,8 +190,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
     }
 }
 
-/// Tuned starts whose gap peaks at ±1e-4 ... ±1e-13: a doubt larger than that can not tell whether the cable
-/// snaps, and says so there and then; a smaller one can.
+/// Tuned starts whose gap peaks at ±1e-4 ... ±1e-13: a doubt larger than that can not tell whether
+/// the cable snaps, and says so there and then; a smaller one can.
 #[test]
 fn a_graze_ends_trust_where_the_doubt_is_larger() {
     for truth in oracle("grazing.json") {
@@ -273,8 +274,9 @@ fn cables_that_snap_at_one_instant_end_trust() {
     );
 }
 
-/// Without restitution the cables stick in turn, ever faster, until both are taut: normal velocities fall to
-/// 1e-14, and a neighbour's impacts are still told with an error of the size that they have.
+/// Without restitution the cables stick in turn, ever faster, until both are taut: normal
+/// velocities fall to 1e-14, and a neighbour's impacts are still told with an error of the size
+/// that they have.
 #[test]
 fn an_error_is_never_nothing() {
     let numbers = [
@@ -309,8 +311,8 @@ fn an_error_is_never_nothing() {
     }
 }
 
-/// A run that rests on its cables at the start, or that stops just before its time is over, is not certain where
-/// neighbours leave the cables, or run out of time.
+/// A run that rests on its cables at the start, or that stops just before its time is over, is not
+/// certain where neighbours leave the cables, or run out of time.
 #[test]
 fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let number = |key, value| (key, Value::Number(value));

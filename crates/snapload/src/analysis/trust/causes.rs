@@ -12,8 +12,8 @@ use crate::motion::step_map::StepMap;
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
 
-/// Whether, and why, neighbours may leave the run's sequence of events at this step. `spread` is told just
-/// before the event, at the time of the one before.
+/// Whether, and why, neighbours may leave the run's sequence of events at this step. `spread` is
+/// told just before the event, at the time of the one before.
 #[inline(always)]
 pub(super) fn cause(
     simulation: &Simulation,
@@ -42,8 +42,8 @@ pub(super) fn cause(
     may.then_some(HorizonCause::StopRule)
 }
 
-/// A cable that is closed at the start of a run, and might be slack within what is in doubt, or leave or snap where
-/// it rests.
+/// A cable that is closed at the start of a run, and might be slack within what is in doubt, or
+/// leave or snap where it rests.
 pub(super) fn cause_at_start(
     simulation: &Simulation,
     covariance: &CovarianceFactor,
@@ -67,7 +67,8 @@ pub(super) fn cause_at_start(
     Some(HorizonCause::Start { cable })
 }
 
-/// Whether the run stops so late that a neighbour, `met` just before the same event, may run out of time first.
+/// Whether the run stops so late that a neighbour, `met` just before the same event, may run out of
+/// time first.
 pub(super) fn may_run_out_of_time(
     simulation: &Simulation,
     step: &Step,
@@ -109,15 +110,16 @@ impl Closing {
     }
 }
 
-/// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in time,
-/// which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
+/// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in
+/// time, which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
 #[inline(always)]
 fn may_miss(map: &StepMap, covariance: &CovarianceFactor, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
     alpha < 0.0 && REACH * covariance.along(map.delay()) * 2.0 * -alpha >= v_n
 }
 
-/// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its end.
+/// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its
+/// end.
 #[inline(always)]
 fn may_snap(
     simulation: &Simulation,
@@ -163,8 +165,8 @@ fn may_stop(simulation: &Simulation, step: &Step, covariance: &CovarianceFactor)
     exceeds || settles
 }
 
-/// Whether neighbours may turn round just before a limit that the run still reaches: as for a graze, where
-/// they lag by more than the rate over twice the slowing-down.
+/// Whether neighbours may turn round just before a limit that the run still reaches: as for a
+/// graze, where they lag by more than the rate over twice the slowing-down.
 #[inline(always)]
 fn may_fall_short(
     simulation: &Simulation,

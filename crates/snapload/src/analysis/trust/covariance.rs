@@ -7,12 +7,12 @@ const PARTS: usize = 7;
 /// So many columns: one more stays zero, as eight fill a processor's registers.
 pub(super) const COLUMNS: usize = PARTS + 1;
 
-/// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one standard
-/// deviation long.
+/// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one
+/// standard deviation long.
 ///
-/// The start and rounding have seven of them, whose squares make up a covariance. The covariance itself is not
-/// carried: a slow impact divides by v_n, and the squares of what it leaves cancel to nothing, or to less, where
-/// the parts still have their digits.
+/// The start and rounding have seven of them, whose squares make up a covariance. The covariance
+/// itself is not carried: a slow impact divides by v_n, and the squares of what it leaves cancel to
+/// nothing, or to less, where the parts still have their digits.
 #[derive(Clone, Debug)]
 pub(super) struct CovarianceFactor {
     /// For the start and for rounding: a row for each component, a column for each part.
@@ -21,7 +21,8 @@ pub(super) struct CovarianceFactor {
     pub(super) columns: Vec<Deviation>,
 }
 
-/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range of doubles.
+/// A spread beyond this is no longer followed: nothing is known, and squares would leave the range
+/// of doubles.
 const LOST: f64 = 1e30;
 
 impl CovarianceFactor {
@@ -53,9 +54,9 @@ impl CovarianceFactor {
         if self.is_lost() {
             return;
         }
-        // Fourteen parts, made seven again by turning them into each other (Householder's reflections), which
-        // leaves the covariance as it is: component by component, all but one are rid of it. Noise of a later
-        // component can not have it.
+        // Fourteen parts, made seven again by turning them into each other (Householder's
+        // reflections), which leaves the covariance as it is: component by component, all but one
+        // are rid of it. Noise of a later component can not have it.
         let mut all = [[0.0; 2 * PARTS]; 7];
         for (i, (row, part)) in all.iter_mut().zip(&self.parts).enumerate() {
             row[..PARTS].copy_from_slice(&part[..PARTS]);
@@ -111,13 +112,15 @@ impl CovarianceFactor {
         (dot(&parts, &parts) + columns).sqrt()
     }
 
-    /// A bound on the standard deviation of a linear function of the position with coefficients of these sizes.
+    /// A bound on the standard deviation of a linear function of the position with coefficients of
+    /// these sizes.
     pub(super) fn at_most(&self, coefficients: [f64; 3]) -> f64 {
         (0..3).map(|i| coefficients[i] * self.of_component(i)).sum()
     }
 }
 
-/// Turns the eight parts from the i-th on into each other, so that only the first of them has anything in row i.
+/// Turns the eight parts from the i-th on into each other, so that only the first of them has
+/// anything in row i.
 fn reflect(i: usize, pivot: &mut [f64; 2 * PARTS], below: &mut [[f64; 2 * PARTS]]) {
     let Some(pivot) = pivot[i..].first_chunk_mut::<COLUMNS>() else {
         return;
@@ -203,7 +206,8 @@ mod tests {
         }
     }
 
-    /// A direction that is known 1e12 times better than the others stays so, where a covariance has no digit left of it.
+    /// A direction that is known 1e12 times better than the others stays so, where a covariance has
+    /// no digit left of it.
     #[test]
     fn what_is_known_well_is_not_lost_among_the_rest() {
         let nearly_one = each(|part| {

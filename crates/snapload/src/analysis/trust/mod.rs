@@ -1,10 +1,11 @@
 //! How far a run can be trusted.
 //!
-//! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is carried along
-//! the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the spread of (w, τ), the deviation of state and
-//! time told at the events. The *horizon* is the first event where the standard deviation passes a
-//! tolerance, or where neighbours within three standard deviations may have another event than the run:
-//! there the linearisation ends, and with it the knowledge of what follows.
+//! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is
+//! carried along the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the
+//! spread of (w, τ), the deviation of state and time told at the events. The *horizon* is the first
+//! event where the standard deviation passes a tolerance, or where neighbours within three standard
+//! deviations may have another event than the run: there the linearisation ends, and with it the
+//! knowledge of what follows.
 
 mod causes;
 mod certainty;
@@ -23,8 +24,8 @@ use crate::case::parameters::Parameters;
 use crate::case::value::Value;
 use crate::motion::trajectory::Trajectory;
 
-/// What of a run is uncertain. The motion is computed from the values given; each may be off by up to its
-/// uncertainty, either way, all values in between being equally likely.
+/// What of a run is uncertain. The motion is computed from the values given; each may be off by up
+/// to its uncertainty, either way, all values in between being equally likely.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
     /// Of each component of the start: x, y, θ, ẋ, ẏ, θ̇.
@@ -58,7 +59,8 @@ impl Uncertainty {
         }
     }
 
-    /// Sets the uncertainty of one key of a case, or of every start value where no key is named; 0 takes it back.
+    /// Sets the uncertainty of one key of a case, or of every start value where no key is named; 0
+    /// takes it back.
     ///
     /// # Errors
     /// As for [`Uncertainty::set`], and if the case has no such start value.
@@ -81,8 +83,8 @@ impl Uncertainty {
     /// Sets the uncertainty of one key; 0 takes it back.
     ///
     /// # Errors
-    /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is negative or
-    /// not finite.
+    /// A [`CaseError`] if the key is unknown or holds no number of the motion, or if `size` is
+    /// negative or not finite.
     pub fn set(&mut self, key: &str, size: f64) -> Result<(), CaseError> {
         let key: &'static Key = key_named(key)?;
         if !(size >= 0.0 && size.is_finite()) {
@@ -162,8 +164,8 @@ pub struct Horizon {
     pub cause: HorizonCause,
 }
 
-/// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred: the
-/// linearisation diverges there like 1/v_n.
+/// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred:
+/// the linearisation diverges there like 1/v_n.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Graze {
     /// The number of the impact, from 1.
@@ -177,8 +179,9 @@ pub struct Graze {
 /// How far a run can be trusted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trust {
-    /// Standard deviation at each impact: the largest of its time and of its states' components, each relative
-    /// to its value where that is above 1; infinite once neighbours may have other events.
+    /// Standard deviation at each impact: the largest of its time and of its states' components,
+    /// each relative to its value where that is above 1; infinite once neighbours may have other
+    /// events.
     pub errors: Vec<f64>,
     /// Where trust ends; none if the whole run can be trusted, its end included.
     pub horizon: Option<Horizon>,
@@ -186,7 +189,8 @@ pub struct Trust {
     pub end_error: f64,
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,
-    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that sticking closes.
+    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that sticking
+    /// closes.
     pub exponents: [f64; 6],
 }
 
@@ -201,7 +205,8 @@ impl Trust {
             .map(|error| (-libm::log10(*error)).clamp(0.0, MOST_DIGITS))
     }
 
-    /// Whether the way in which the run ends is certain: neighbours within the uncertainty end alike.
+    /// Whether the way in which the run ends is certain: neighbours within the uncertainty end
+    /// alike.
     pub fn decides_the_end(&self) -> bool {
         self.horizon.is_none()
     }
@@ -220,7 +225,8 @@ impl Trust {
 /// ```
 ///
 /// # Errors
-/// A [`CaseError`] if a key that is in doubt can not be varied about this start, and [`Unfinished::Cancelled`].
+/// A [`CaseError`] if a key that is in doubt can not be varied about this start, and
+/// [`Unfinished::Cancelled`].
 pub fn trusted_run(
     case: &Case,
     uncertainty: &Uncertainty,
@@ -264,8 +270,8 @@ mod tests {
         }
     }
 
-    /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt does what it does to
-    /// a case whose inertia is another.
+    /// An inertia that equals the one of the size is in doubt by itself all the same: its doubt
+    /// does what it does to a case whose inertia is another.
     #[test]
     fn an_inertia_can_be_in_doubt() {
         let mut uncertainty = Uncertainty::default();

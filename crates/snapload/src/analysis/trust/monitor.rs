@@ -17,8 +17,9 @@ use crate::motion::tangent::Tangent;
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;
 
-/// What rounding adds in one step to a component of size 1, as standard deviation: a few operations, each
-/// off by up to ε/2, most of them on increments smaller than what they are added to.
+/// What rounding adds in one step to a component of size 1, as standard deviation: a few
+/// operations, each off by up to ε/2, most of them on increments smaller than what they are added
+/// to.
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 /// A component is taken to be no smaller than this: it is computed from others that are not.
 const LEAST: f64 = 0.25;
@@ -257,8 +258,8 @@ impl UncertainKey {
         })
     }
 
-    /// The deviation just before the event told at the time of the last one, just before it at its own time,
-    /// and after it.
+    /// The deviation just before the event told at the time of the last one, just before it at its
+    /// own time, and after it.
     fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
         let Some(step) = self.simulation.step() else {
             return [self.deviation; 3];
@@ -275,7 +276,8 @@ impl UncertainKey {
     }
 }
 
-/// The largest standard deviation of time and state, of each relative to its value where that is above 1.
+/// The largest standard deviation of time and state, of each relative to its value where that is
+/// above 1.
 fn relative(covariance: &CovarianceFactor, state: &State, t: f64) -> f64 {
     let [x, y, theta, vx, vy, vtheta] = state.components();
     let mut largest = 0.0_f64;

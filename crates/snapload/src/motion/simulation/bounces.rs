@@ -13,8 +13,8 @@ use crate::motion::simulation::{Event, Progress, Simulation};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 impl<T: Real> Simulation<T> {
-    /// The bounce that the motion makes next, if it is one. The same number that comes here by itself comes to
-    /// [`bounce`] in a lane, so it is one in both or in neither.
+    /// The bounce that the motion makes next, if it is one. The same number that comes here by
+    /// itself comes to [`bounce`] in a lane, so it is one in both or in neither.
     #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
         self.bounce_start = None;
@@ -148,8 +148,8 @@ mod tests {
     use crate::case::Case;
     use crate::case::parameters::Parameters;
 
-    /// The general loop, which knows no bounces, finds the same impacts. It locates them by other steps,
-    /// so they differ by roundings, which are compared until they have grown.
+    /// The general loop, which knows no bounces, finds the same impacts. It locates them by other
+    /// steps, so they differ by roundings, which are compared until they have grown.
     #[test]
     fn bounces_are_what_the_general_search_finds() {
         let mut compared = 0;

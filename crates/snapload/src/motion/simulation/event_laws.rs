@@ -1,4 +1,5 @@
-//! What happens at the end of a step: the law that is applied, the next taut set, and the rules that stop a run.
+//! What happens at the end of a step: the law that is applied, the next taut set, and the rules
+//! that stop a run.
 
 use crate::arithmetic::real::Real;
 use crate::model::rules::Stop;
@@ -13,7 +14,8 @@ use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
 /// A tension below this is one that pushes, far beyond what counts as the same \[F\].
 const PUSHES: f64 = -1e-7;
-/// So many halvings of a step from its middle to the first instant that is looked at after a tension was lost.
+/// So many halvings of a step from its middle to the first instant that is looked at after a
+/// tension was lost.
 const LATER: i32 = 28;
 
 impl<T: Real> Simulation<T> {
@@ -82,8 +84,9 @@ impl<T: Real> Simulation<T> {
         result
     }
 
-    /// Where several cables have snapped slowly in turn, each throwing the others off by less than `v_stick`, the closed
-    /// ones that leave by less: those snaps accumulate, and all of them come to rest at once.
+    /// Where several cables have snapped slowly in turn, each throwing the others off by less than
+    /// `v_stick`, the closed ones that leave by less: those snaps accumulate, and all of them come
+    /// to rest at once.
     #[inline(always)]
     fn caught(&self, result: &ImpactResult<T>, closed: TautSet) -> TautSet {
         if self.slow_snaps < CONVERGING || self.slow_cables.len() < 2 {
@@ -99,8 +102,8 @@ impl<T: Real> Simulation<T> {
         self.slow_cables = TautSet::SLACK;
     }
 
-    /// Whether a closed cable has no normal velocity after the result. A struck one was closing; if its
-    /// normal velocity is not positive all the same, it is zero but for rounding.
+    /// Whether a closed cable has no normal velocity after the result. A struck one was closing; if
+    /// its normal velocity is not positive all the same, it is zero but for rounding.
     #[inline(always)]
     fn unmoved(&self, result: &ImpactResult<T>, cable: usize, struck: TautSet) -> bool {
         if struck.contains(cable) && result.v_before[cable] <= T::ZERO {
@@ -132,8 +135,8 @@ impl<T: Real> Simulation<T> {
         };
     }
 
-    /// Time need not move on from one bounce to the next where they accumulate; steps of no length count
-    /// like impacts, so that every run has an end.
+    /// Time need not move on from one bounce to the next where they accumulate; steps of no length
+    /// count like impacts, so that every run has an end.
     pub(super) fn check_progress(&mut self, t_start: T) {
         self.standstill = if self.t > t_start {
             0
@@ -147,9 +150,10 @@ impl<T: Real> Simulation<T> {
 
     /// Cables lose their tension: they leave, whatever rounding says of the sign of a zero.
     ///
-    /// Where others hold closed as well, a carrying cable without tension may hand its load over to one of them. Which,
-    /// the instant itself does not say, so it is decided a little later on the same motion, when the tension would be
-    /// negative: there the problem on accelerations tells who goes on carrying, and who leaves.
+    /// Where others hold closed as well, a carrying cable without tension may hand its load over to
+    /// one of them. Which, the instant itself does not say, so it is decided a little later on the
+    /// same motion, when the tension would be negative: there the problem on accelerations tells
+    /// who goes on carrying, and who leaves.
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
         let ActiveSet { taut, carrying } = self.active;
@@ -191,8 +195,8 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began with
-    /// the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
+    /// The instant t + 2 e v_n / ((1 − e) α) at which the geometric series of bounces that began
+    /// with the last impact converges, α = g̈/(2r) of the struck cable in the flights between.
     #[inline(always)]
     fn limit_of_impacts(&self, stuck: TautSet) -> Option<T> {
         let LastImpacts {

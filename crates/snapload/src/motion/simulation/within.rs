@@ -14,7 +14,8 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;
 
-/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be close.
+/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be
+/// close.
 const LOOKS: usize = 64;
 
 /// The motion along a stretch.
@@ -146,9 +147,9 @@ impl<T: Real> Simulation<T> {
         self.contacts[cable].gap
     }
 
-    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0 of a gap
-    /// of zero. Of a cable that was closed at the start all neighbours have zero there, too, and the margin
-    /// grows from nothing.
+    /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0
+    /// of a gap of zero. Of a cable that was closed at the start all neighbours have zero there,
+    /// too, and the margin grows from nothing.
     #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
@@ -192,8 +193,8 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
-    /// A bound on what a limit bounds along the latest step, close where it is above `floor`. The rotation is the
-    /// largest at an end of a flight.
+    /// A bound on what a limit bounds along the latest step, close where it is above `floor`. The
+    /// rotation is the largest at an end of a flight.
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
         match limit {
@@ -225,7 +226,8 @@ impl<T: Real> Simulation<T> {
             + bend * width * width * 0.125
     }
 
-    /// The largest tension of each cable along the latest step, as it is at seventeen instants evenly spaced \[F\].
+    /// The largest tension of each cable along the latest step, as it is at seventeen instants
+    /// evenly spaced \[F\].
     pub fn largest_tensions(&self, step: &Step<T>) -> [T; MAX_CABLES] {
         let s = step.t_end - step.t_start;
         let mut largest = [T::ZERO; MAX_CABLES];

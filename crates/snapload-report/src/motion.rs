@@ -1,0 +1,76 @@
+//! The motion at evenly spaced times: its columns, its rows and its times.
+
+use serde::{Serialize, Serializer};
+use snapload::Motion;
+
+/// The columns of the motion.
+pub const MOTION: [&str; 10] = [
+    "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
+];
+
+/// The times at which a motion is written down: every multiple of a step before the end, and the
+/// end itself once.
+#[derive(Clone, Copy)]
+pub struct Sampling {
+    dt: f64,
+    most: u64,
+    end: f64,
+}
+
+/// The most rows of a sampled motion.
+pub const MOST_ROWS: u64 = 10_000_000;
+
+impl Sampling {
+    /// Steps of `dt`; none if they would give too many rows.
+    pub fn every(dt: f64, end: f64) -> Option<Self> {
+        let most = MOST_ROWS - 1;
+        // Rounding may keep the last multiple below the end, so what is counted is the exact test.
+        ((most as f64) * dt >= end).then_some(Self { dt, most, end })
+    }
+
+    /// A thousand equal steps.
+    pub fn thousand(end: f64) -> Self {
+        Self {
+            dt: end / 1000.0,
+            most: 1000,
+            end,
+        }
+    }
+
+    /// The times.
+    pub fn times(self) -> impl Iterator<Item = f64> {
+        let multiples = (0..self.most).map(move |k| k as f64 * self.dt);
+        multiples
+            .take_while(move |t| *t < self.end)
+            .chain(std::iter::once(self.end))
+    }
+}
+
+/// One line of the sampled motion: the values of [`MOTION`], in that order.
+pub struct MotionRow(pub [f64; 10]);
+
+impl MotionRow {
+    /// Of a motion.
+    pub fn new(motion: &Motion) -> Self {
+        let [x, y, theta, vx, vy, vtheta] = motion.state.components();
+        let [tension_1, tension_2, ..] = motion.tensions;
+        Self([
+            motion.t,
+            x,
+            y,
+            theta,
+            vx,
+            vy,
+            vtheta,
+            tension_1,
+            tension_2,
+            motion.energy,
+        ])
+    }
+}
+
+impl Serialize for MotionRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(MOTION.iter().zip(&self.0))
+    }
+}
