@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -27,8 +26,7 @@ def attributes() -> dict[str, dict[str, str]]:
     """Long name, units and symbol of every key and result, in the words of CF, from the one schema."""
     described = {}
     for entry in (*_engine.keys(), *_engine.columns()):
-        meaning = entry["meaning"]
-        name = meaning if meaning.startswith("start:") else re.split("[:;]", meaning)[0]
+        name, meaning = entry["title"], entry["meaning"]
         words = {"long_name": name, "units": entry["unit"], "comment": "" if name == meaning else meaning}
         described[entry["name"]] = {key: word for key, word in words.items() if word}
     described["error"] = {"long_name": "why there was no run"}

@@ -5,7 +5,7 @@ use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snapload::{KEYS, Kind, Parameters};
-use snapload::{named_cases as all_named_cases, series_of};
+use snapload::{named_cases as all_named_cases, series_of, title_of};
 
 /// Every key of a case, in its order: name, symbol, unit, meaning, type, what is allowed, default.
 #[pyfunction]
@@ -16,6 +16,11 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("symbol", key.symbol)?;
         entry.set_item("unit", key.unit)?;
         entry.set_item("meaning", key.meaning)?;
+        let title = match key.group {
+            "start" => format!("start: {}", key.title()),
+            _ => key.title().to_owned(),
+        };
+        entry.set_item("title", title)?;
         let (kind, words): (_, &[&str]) = match key.kind {
             Kind::Number { .. } => ("float", &[]),
             Kind::Count { .. } => ("int", &[]),
@@ -45,6 +50,7 @@ pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("symbol", column.symbol)?;
         entry.set_item("unit", column.unit)?;
         entry.set_item("meaning", column.meaning)?;
+        entry.set_item("title", title_of(column.meaning))?;
         entry.set_item("words", column.words())?;
         Ok(entry)
     });

@@ -61,7 +61,7 @@ export class Controls {
     if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
     else name.innerHTML = symbolHtml(key.symbol);
     const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
-    meaning.textContent = shortMeaning(key);
+    meaning.textContent = prose(key.kind.type === "choice" ? key.meaning : key.title);
     label.title = prose(key.meaning) + (key.default_in_words ? `. Default: ${prose(key.default_in_words)}` : "");
     label.append(name, meaning);
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
@@ -208,12 +208,6 @@ function sliderStep(low, high) {
   const rough = (high - low) / 300;
   const power = 10 ** Math.floor(Math.log10(rough));
   return Number(([1, 2, 5, 10].find((m) => m * power >= rough * 0.6) * power).toPrecision(3));
-}
-
-function shortMeaning(key) {
-  const text = prose(key.meaning);
-  if (key.kind.type === "choice") return text;
-  return text.replace(/^start: /, "").split(/[:;,]/)[0];
 }
 
 function element(tag, properties) {

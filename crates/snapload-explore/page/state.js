@@ -20,7 +20,7 @@ export class State {
   constructor(schema) {
     this.schema = schema;
     this.defaults = Object.fromEntries(schema.keys.map((key) => [key.name, key.default]));
-    this.derived = new Set(schema.keys.filter(isDerived).map((key) => key.name));
+    this.derived = new Set(schema.keys.filter((key) => key.derived).map((key) => key.name));
     this.values = { ...schema.start.values };
     Object.assign(this, BEGINNING);
     this.listeners = [];
@@ -98,9 +98,6 @@ export class State {
     return broken;
   }
 }
-
-/** Whether the default of a key is a rule rather than a number. */
-const isDerived = (key) => key.default === null || Number.isNaN(parseFloat(key.default_in_words || "0"));
 
 const same = (one, other) => JSON.stringify(sorted(one)) === JSON.stringify(sorted(other));
 

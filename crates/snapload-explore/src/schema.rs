@@ -56,6 +56,7 @@ fn key(key: &Key) -> JsonValue {
         "symbol": key.symbol,
         "unit": key.unit,
         "meaning": key.meaning,
+        "title": key.title(),
         "group": key.group,
         "kind": kind,
         "allowed": key.allowed(),
@@ -64,6 +65,8 @@ fn key(key: &Key) -> JsonValue {
             DefaultValue::Derived(words) => words,
             _ => "",
         },
+        // The one key whose default is a formula in other keys.
+        "derived": key.name == "inertia",
         "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
     })
 }

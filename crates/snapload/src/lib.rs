@@ -47,7 +47,7 @@ pub use model::body::{Body, Outline, Shape};
 pub use model::cable::{Cable, Normal};
 pub use model::drag::Drag;
 pub use model::forcing::{Forcing, Harmonic};
-pub use model::quantity::{QUANTITIES, Quantity, quantity};
+pub use model::quantity::{QUANTITIES, Quantity, quantity, title_of};
 pub use model::rules::{Rules, Stop};
 pub use model::state::State;
 pub use model::system::{System, anchor_height};

@@ -3,6 +3,7 @@
 
 use crate::case::error::CaseError;
 use crate::case::value::Value;
+use crate::model::quantity::title_of;
 use std::fmt::Display;
 
 /// The type of a key and the range of its values.
@@ -127,6 +128,12 @@ impl Key {
             usual,
             also,
         }
+    }
+
+    /// Its meaning in short, without what its group says already.
+    pub fn title(&self) -> &'static str {
+        let meaning = self.meaning;
+        title_of(meaning.strip_prefix("start: ").unwrap_or(meaning))
     }
 
     /// The same with the range in which one looks first.

@@ -51,6 +51,11 @@ pub const QUANTITIES: [Quantity; 18] = [
     of("theta_max", "|*θ*|ₘₐₓ", "rad", "largest rotation"),
 ];
 
+/// A meaning in short: what stands before it goes on after a colon, a semicolon or a comma.
+pub fn title_of(meaning: &str) -> &str {
+    meaning.split([':', ';', ',']).next().unwrap_or(meaning)
+}
+
 /// The quantity of this name.
 pub const fn quantity(name: &str) -> Option<&'static Quantity> {
     let mut k = 0;
