@@ -206,10 +206,12 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
     if values.contains(':') {
         return Ok((key.to_owned(), Varied::Range(values.to_owned())));
     }
-    let values = values.split(',').map(|value| {
-        let known = key_named(key)?;
-        parse_value(value.trim()).map_err(|shown| known.refuse(key, shown))
-    });
+    let refuse = |shown| match key_named(key) {
+        Ok(known) => known.refuse(key, shown),
+        Err(unknown) => unknown,
+    };
+    let values = values.split(',');
+    let values = values.map(|value| parse_value(value.trim()).map_err(refuse));
     let values = values.collect::<Result<_, CaseError>>();
     Ok((
         key.to_owned(),

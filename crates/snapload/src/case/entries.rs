@@ -165,7 +165,13 @@ impl Entries {
         let tables = self.tables(0).map(|fields| {
             let keys = fields.table.keys.iter();
             let given = keys.filter_map(|key| Some((key.name, fields.given(key.name)?)));
-            let lines = given.map(|(key, value)| format!("{key} = {value}\n"));
+            let lines = given.map(|(key, value)| match value {
+                // Large whole numbers with all their digits, as one writes newtons.
+                Value::Number(n) if n.fract() == 0.0 && n.abs() < 1e15 => {
+                    format!("{key} = {}\n", *n as i64)
+                }
+                value => format!("{key} = {value}\n"),
+            });
             format!("{}\n{}", fields.table.header(), lines.collect::<String>())
         });
         tables.collect::<Vec<_>>().join("\n")
