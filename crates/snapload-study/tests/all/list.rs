@@ -62,7 +62,7 @@ fn parquet(rows: usize) -> tempfile::NamedTempFile {
         required int32 max_impacts (INTEGER(16,false));
         optional int64 e (DECIMAL(6,3));
         required fixed_len_byte_array(2) omega (DECIMAL(4,1));
-        required fixed_len_byte_array(2) c (FLOAT16);
+        required fixed_len_byte_array(2) nu (FLOAT16);
         optional int32 a (UNKNOWN);
     }";
     let schema = Arc::new(parse_message_type(columns).unwrap());
@@ -122,7 +122,7 @@ fn a_parquet_file_is_read_from_anywhere() {
                 ("body", "point".into()),
                 ("max_impacts", Value::Integer(k as i64)),
                 ("omega", Value::Number(-(k as f64) / 10.0)),
-                ("c", Value::Number(0.25)),
+                ("nu", Value::Number(0.25)),
             ];
             if k % 3 > 0 {
                 wanted.insert(0, ("f_o", Value::Number(k as f64)));
