@@ -13,11 +13,11 @@ pub(crate) const SHARED: f64 = 1e-9;
 /// Of all impulses z ≥ 0 that act like `z` on the body, those of the least norm.
 ///
 /// Where more cables close at once than the body has freedoms for, W is singular: the motion after
-/// the impact is unique, who carries how much of it is not. [`complementary`] finds a solution with
-/// as few cables as will do; here the load is spread over all `held` cables that the solution
-/// leaves without a normal velocity of their own. For each set S of them the least norm is z = W y
-/// with W W y = W z over S, since the rows of G that z may use are those of W's range; of the sets
-/// without a negative impulse the one of least norm is the answer.
+/// the impact is unique, who carries how much of it is not. [`crate::motion::complementarity`]
+/// finds a solution with as few cables as will do; here the load is spread over all `held` cables
+/// that the solution leaves without a normal velocity of their own. For each set S of them the
+/// least norm is z = W y with W W y = W z over S, since the rows of G that z may use are those of
+/// W's range; of the sets without a negative impulse the one of least norm is the answer.
 ///
 /// Sets without dependent cables are returned as they are. Where one of more than [`MOST_TRIED`]
 /// would have to push, not every set is tried, and the norm may be more than the least.
