@@ -4,7 +4,7 @@
 //! ([`RunPlots`]) that tells it where they are. Five functions ([`trajectory`], [`rotation`],
 //! [`snap_velocities`], [`tensions`], [`energy`]) turn them into a [`Plot`]; [`draw()`] puts one
 //! plot, or several over one another, on a [`Picture`] that gives itself as SVG and, from that very
-//! SVG, as PNG. A [`Map`], drawn by [`draw_map()`], shows a number or a class over two axes.
+//! SVG, as PNG. A [`Map`] shows a number or a class over two axes.
 //!
 //! ```
 //! use snapload_figures::{Plot, Width, draw, rotation};
