@@ -46,7 +46,7 @@ fn main() -> Result<(), StartError> {
             cable + 1
         );
     }
-    // The disc falls at first, and the outer cables, the longest, are not the first to hold it.
+    // The disc begins in free fall, so that something has to catch it.
     assert!(snaps.iter().sum::<i32>() > 0);
     let gaps = simulation
         .system()
