@@ -126,20 +126,23 @@ impl<T: Real> Limits<T> {
         }
     }
 
-    /// Their event functions in taut motion, as power series of y, θ, and cos θ and sin θ; `each`
-    /// is given them one after the other.
+    /// Their event functions in taut motion, as power series of y, θ, and cos θ and sin θ, added to
+    /// those that are watched; the ones that provably are not reached within `step` are left out.
     #[inline(always)]
-    pub(crate) fn in_series(
+    pub(crate) fn watch_series(
         &self,
         y: &Polynomial<T>,
         theta: &Polynomial<T>,
         circle: &VectorSeries<T, 2>,
-        mut each: impl FnMut(EventFunction, &Polynomial<T>),
+        step: T,
+        watched: &mut Vec<(EventFunction, Polynomial<T>, usize)>,
     ) {
         if let Some(limit) = self.rotation {
             for mut side in [*theta, theta.negated()] {
                 side[0] -= limit;
-                each(EventFunction::Limit(Limit::Rotation), &side);
+                if !side.stays_negative(step, ORDER) {
+                    watched.push((EventFunction::Limit(Limit::Rotation), side, ORDER));
+                }
             }
         }
         let Some(level) = self.upper_bound else {
@@ -152,7 +155,9 @@ impl<T: Real> Limits<T> {
                 top[k] = y[k] + px * sine + py * cosine;
             }
             top[0] = top[0] + self.radius - level;
-            each(EventFunction::Limit(Limit::UpperBound), &top);
+            if !top.stays_negative(step, ORDER) {
+                watched.push((EventFunction::Limit(Limit::UpperBound), top, ORDER));
+            }
         }
     }
 }

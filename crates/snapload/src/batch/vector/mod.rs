@@ -6,7 +6,6 @@
 use crate::arithmetic::elementary;
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
-use std::array::from_fn;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// The operators with a double on the right.
@@ -34,7 +33,8 @@ pub(crate) mod x86;
 ///
 /// Of plain doubles it is the vector for every processor. Of two registers it is faster than one:
 /// the arithmetic of a bounce is a chain in which each result waits for the one before, and with
-/// two chains a processor has something to do meanwhile.
+/// two chains a processor has something to do meanwhile. Loops stand where closures would: a
+/// closure that is not inlined is compiled without the processor's own instructions.
 #[derive(Clone, Copy)]
 pub(crate) struct Several<V, const N: usize>([V; N]);
 
@@ -44,8 +44,11 @@ macro_rules! operator {
         impl<V: $bound, const N: usize> $trait for Several<V, N> {
             type Output = Self;
             #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self(from_fn(|k| self.0[k].$method(other.0[k])))
+            fn $method(mut self, other: Self) -> Self {
+                for k in 0..N {
+                    self.0[k] = self.0[k].$method(other.0[k]);
+                }
+                self
             }
         }
     };
@@ -61,16 +64,22 @@ with_doubles!([V: Doubles, const N: usize] Several<V, N>);
 impl<M: Mask, const N: usize> Not for Several<M, N> {
     type Output = Self;
     #[inline(always)]
-    fn not(self) -> Self {
-        Self(from_fn(|k| !self.0[k]))
+    fn not(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = !self.0[k];
+        }
+        self
     }
 }
 
 impl<V: Doubles, const N: usize> Neg for Several<V, N> {
     type Output = Self;
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self(from_fn(|k| -self.0[k]))
+    fn neg(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = -self.0[k];
+        }
+        self
     }
 }
 
@@ -93,16 +102,25 @@ impl<V: Doubles, const N: usize> Lane for Several<V, N> {
         Self([V::from_f64(value); N])
     }
     #[inline(always)]
-    fn mul_add(self, by: Self, plus: Self) -> Self {
-        Self(from_fn(|k| self.0[k].mul_add(by.0[k], plus.0[k])))
+    fn mul_add(mut self, by: Self, plus: Self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].mul_add(by.0[k], plus.0[k]);
+        }
+        self
     }
     #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(from_fn(|k| self.0[k].sqrt()))
+    fn sqrt(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].sqrt();
+        }
+        self
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        Self(from_fn(|k| self.0[k].abs()))
+    fn abs(mut self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].abs();
+        }
+        self
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -114,23 +132,40 @@ impl<V: Doubles, const N: usize> Lane for Several<V, N> {
     }
     #[inline(always)]
     fn below(self, other: Self) -> Self::Mask {
-        Several(from_fn(|k| self.0[k].below(other.0[k])))
+        let mut answers = [self.0[0].below(other.0[0]); N];
+        for k in 1..N {
+            answers[k] = self.0[k].below(other.0[k]);
+        }
+        Several(answers)
     }
     #[inline(always)]
     fn at_most(self, other: Self) -> Self::Mask {
-        Several(from_fn(|k| self.0[k].at_most(other.0[k])))
+        let mut answers = [self.0[0].at_most(other.0[0]); N];
+        for k in 1..N {
+            answers[k] = self.0[k].at_most(other.0[k]);
+        }
+        Several(answers)
     }
     #[inline(always)]
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        Self(from_fn(|k| V::select(mask.0[k], yes.0[k], no.0[k])))
+    fn select(mask: Self::Mask, mut yes: Self, no: Self) -> Self {
+        for k in 0..N {
+            yes.0[k] = V::select(mask.0[k], yes.0[k], no.0[k]);
+        }
+        yes
     }
     #[inline(always)]
-    fn larger(self, other: Self) -> Self {
-        Self(from_fn(|k| self.0[k].larger(other.0[k])))
+    fn larger(mut self, other: Self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].larger(other.0[k]);
+        }
+        self
     }
     #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
-        Self(from_fn(|k| self.0[k].smaller(other.0[k])))
+    fn smaller(mut self, other: Self) -> Self {
+        for k in 0..N {
+            self.0[k] = self.0[k].smaller(other.0[k]);
+        }
+        self
     }
 }
 

@@ -47,13 +47,8 @@ impl<T: Real> Series<T> {
                 self.watched.push((function, series, order));
             }
         }
-        let watched = &mut self.watched;
         self.limits
-            .in_series(&self.y, &self.theta, &self.circle, |function, series| {
-                if !series.stays_negative(step, ORDER) {
-                    watched.push((function, *series, ORDER));
-                }
-            });
+            .watch_series(&self.y, &self.theta, &self.circle, step, &mut self.watched);
     }
 
     #[inline(always)]
