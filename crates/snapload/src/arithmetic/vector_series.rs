@@ -51,61 +51,44 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
     factors: [(&VectorSeries<T, W>, &VectorSeries<T, W>); N],
     k: usize,
 ) -> [[T; W]; N] {
-    let mut products = factors.map(|(a, b)| Products::begin(a, b, k));
-    let length = (k + 1).next_multiple_of(BLOCK);
+    let mut sums = [[[T::ZERO; W]; 2]; N];
     // The newest coefficients, at either end, are added last: a processor can add up the rest
     // before they are known.
     let mut from = BLOCK;
-    while from < length {
-        for product in &mut products {
-            product.add(from);
+    while from <= k {
+        for (sums, factors) in sums.iter_mut().zip(&factors) {
+            add_block(sums, *factors, k, from);
         }
         from += BLOCK;
     }
-    for product in &mut products {
-        product.add(0);
+    let mut products = [[T::ZERO; W]; N];
+    for n in 0..N {
+        add_block(&mut sums[n], factors[n], k, 0);
+        let [even, odd] = &sums[n];
+        for w in 0..W {
+            products[n][w] = even[w] + odd[w];
+        }
     }
     // A compiler that sees what becomes of the sums makes them across the lanes, with more
     // shuffling than arithmetic.
-    std::hint::black_box(products.map(|product| product.sum()))
+    std::hint::black_box(products)
 }
 
-/// A convolution that is being summed: the coefficients of one factor, those of the other, to be
-/// taken in reverse, and two sums that take turns, as a processor can do several at once.
-struct Products<'a, T, const W: usize> {
-    a: &'a [[T; W]],
-    b: &'a [[T; W]],
-    sums: [[T; W]; 2],
-}
-
-impl<'a, T: Real, const W: usize> Products<'a, T, W> {
-    #[inline(always)]
-    fn begin(a: &'a VectorSeries<T, W>, b: &'a VectorSeries<T, W>, k: usize) -> Self {
-        let length = (k + 1).next_multiple_of(BLOCK);
-        Self {
-            a: &a.0[MARGIN..][..length],
-            b: &b.0[..MARGIN + k + 1][MARGIN + k + 1 - length..],
-            sums: [[T::ZERO; W]; 2],
-        }
-    }
-
-    /// Takes in the block that begins there.
-    #[inline(always)]
-    fn add(&mut self, from: usize) {
-        let a = &self.a[from..][..BLOCK];
-        let b = &self.b[self.b.len() - from - BLOCK..][..BLOCK];
-        let [even, odd] = &mut self.sums;
-        add_products(even, &a[3], &b[0]);
-        add_products(odd, &a[2], &b[1]);
-        add_products(even, &a[1], &b[2]);
-        add_products(odd, &a[0], &b[3]);
-    }
-
-    #[inline(always)]
-    fn sum(&self) -> [T; W] {
-        let [even, odd] = &self.sums;
-        std::array::from_fn(|w| even[w] + odd[w])
-    }
+/// Adds the block of products of the k-th coefficient that begins there, the other factor's
+/// coefficients in reverse, to two sums that take turns: a processor can do several at once.
+#[inline(always)]
+fn add_block<T: Real, const W: usize>(
+    [even, odd]: &mut [[T; W]; 2],
+    (a, b): (&VectorSeries<T, W>, &VectorSeries<T, W>),
+    k: usize,
+    from: usize,
+) {
+    let a = &a.0[MARGIN + from..][..BLOCK];
+    let b = &b.0[MARGIN + k + 1 - from - BLOCK..][..BLOCK];
+    add_products(even, &a[3], &b[0]);
+    add_products(odd, &a[2], &b[1]);
+    add_products(even, &a[1], &b[2]);
+    add_products(odd, &a[0], &b[3]);
 }
 
 #[inline(always)]

@@ -26,10 +26,9 @@ type Tell<'a> = &'a mut dyn FnMut(usize, Outcome);
 pub enum Lanes {
     /// One.
     One,
-    /// Four, in plain Rust.
-    Four,
-    /// Eight, in plain Rust.
-    Eight,
+    /// Four, in plain Rust: what the registers have to agree with, on every processor. It is not made
+    /// to be fast.
+    Plain,
     /// Eight, in pairs of the registers of a processor with AVX2 and FMA.
     Avx2,
     /// Eight, in the registers of a processor with AVX-512.
@@ -43,7 +42,7 @@ impl Lanes {
             not(target_arch = "x86_64"),
             expect(unused_mut, reason = "other processors have no more")
         )]
-        let mut all = vec![Self::One, Self::Four, Self::Eight];
+        let mut all = vec![Self::One, Self::Plain];
         #[cfg(target_arch = "x86_64")]
         {
             if crate::arithmetic::processor::has_fma() {
@@ -99,9 +98,8 @@ impl Lanes {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
             Self::One => dispatch(LaneScheduler::<f64>::new(runs, tell)),
-            Self::Four => dispatch(LaneScheduler::<Several<f64, 4>>::new(runs, tell)),
-            Self::Eight | Self::Avx2 | Self::Avx512 => {
-                dispatch(LaneScheduler::<Several<f64, 8>>::new(runs, tell))
+            Self::Plain | Self::Avx2 | Self::Avx512 => {
+                LaneScheduler::<Several<f64, 4>>::new(runs, tell).run_all()
             }
         }
     }

@@ -11,6 +11,19 @@ use crate::motion::complementarity::Factored;
 /// x and y of one cable, x and y of the next.
 type Quad<T> = [T; 4];
 
+/// The four numbers that an expression makes of their places. It is no closure: one that the
+/// compiler does not inline has no multiplication and addition in one instruction, see
+/// [`crate::arithmetic::processor`].
+macro_rules! quad {
+    (|$place:ident| $number:expr) => {{
+        let mut quad = [T::ZERO; 4];
+        for $place in 0..4 {
+            quad[$place] = $number;
+        }
+        quad
+    }};
+}
+
 /// Two cables; where their number is odd, the last is alone.
 #[derive(Clone, Copy, Debug, Default)]
 struct CablePair<T: Real> {
@@ -72,7 +85,7 @@ impl<T: Real> CableSeries<T> {
         for pair in &mut self.pairs {
             let lever = pair.turned(sine, cosine);
             pair.lever[k] = lever;
-            pair.span[k] = std::array::from_fn(|w| centre[w] + lever[w]);
+            pair.span[k] = quad!(|w| centre[w] + lever[w]);
         }
     }
 
@@ -119,10 +132,10 @@ impl<T: Real> CableSeries<T> {
                 ],
                 k,
             );
-            let pull: Quad<T> = std::array::from_fn(|w| stretched[w] * pair.per_length[w]);
+            let pull = quad!(|w| stretched[w] * pair.per_length[w]);
             let turned = turned_back(&pull);
             let lever = pair.lever[0];
-            let moment: Quad<T> = std::array::from_fn(|w| lever[w].mul_add(turned[w], known[w]));
+            let moment = quad!(|w| lever[w].mul_add(turned[w], known[w]));
             pair.turned_pull[k] = turned;
             add(
                 &mut sums,
@@ -157,7 +170,9 @@ impl<T: Real> CableSeries<T> {
         let mut sums = [T::ZERO; 3];
         for (pair, tension) in self.pairs.iter_mut().zip(tensions.chunks_exact(2)) {
             let more = pair.take(k, [tension[0], tension[1]]);
-            sums = std::array::from_fn(|i| sums[i] + more[i]);
+            for (sum, more) in sums.iter_mut().zip(more) {
+                *sum += more;
+            }
         }
         sums
     }
@@ -174,7 +189,7 @@ impl<T: Real> CableSeries<T> {
     pub(crate) fn gaps(&self, pair: usize, k: usize) -> [T; 2] {
         let CablePair { span, bend, .. } = &self.pairs[pair];
         let (first, last) = (span[0], span[k]);
-        let twice: Quad<T> = std::array::from_fn(|w| first[w] * last[w] * 2.0);
+        let twice = quad!(|w| first[w] * last[w] * 2.0);
         [
             bend[0] + (twice[0] + twice[1]),
             bend[1] + (twice[2] + twice[3]),
@@ -192,23 +207,24 @@ impl<T: Real> CablePair<T> {
         self.bend = [square[0] + square[1], square[2] + square[3]];
         let lever = self.turned(sine, cosine);
         let centre = [accel[0], accel[1], accel[0], accel[1]];
-        let along: Quad<T> =
-            std::array::from_fn(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
-        std::array::from_fn(|place| {
+        let along = quad!(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
+        let mut load = [along[0] + along[1], along[2] + along[3]];
+        for (place, load) in load.iter_mut().enumerate() {
             let bend = self.bend[place] * self.half_per_length[place];
             let turning = self.arm[place] * accel[2];
-            bend.mul_add(orders, (along[2 * place] + along[2 * place + 1]) + turning)
-        })
+            *load = bend.mul_add(orders, *load + turning);
+        }
+        load
     }
 
     /// Takes in the k-th coefficients of the tensions; returns Σ T n and Σ s T of them.
     #[inline(always)]
     fn take(&mut self, k: usize, tension: [T; 2]) -> [T; 3] {
         let quad = [tension[0], tension[0], tension[1], tension[1]];
-        let pull: Quad<T> = std::array::from_fn(|w| quad[w] * self.normal[w]);
+        let pull = quad!(|w| quad[w] * self.normal[w]);
         let (known, turned) = (self.turned_pull[k], turned_back(&pull));
         self.tension[k] = quad;
-        self.turned_pull[k] = std::array::from_fn(|w| known[w] + turned[w]);
+        self.turned_pull[k] = quad!(|w| known[w] + turned[w]);
         let moment = self.arm[0] * tension[0] + self.arm[1] * tension[1];
         [pull[0] + pull[2], pull[1] + pull[3], moment]
     }
@@ -217,7 +233,7 @@ impl<T: Real> CablePair<T> {
     #[inline(always)]
     fn turned(&self, sine: T, cosine: T) -> Quad<T> {
         let [along, across] = &self.fairleads;
-        std::array::from_fn(|w| along[w].mul_add(cosine, across[w] * sine))
+        quad!(|w| along[w].mul_add(cosine, across[w] * sine))
     }
 }
 

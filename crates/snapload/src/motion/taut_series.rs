@@ -179,7 +179,8 @@ impl<T: Real> Series<T> {
     #[inline(always)]
     fn extend_drag(&mut self, system: &System<T>, k: usize) {
         let Some(drag) = &system.drag else { return };
-        let velocity = [&self.x, &self.y].map(|p| p[k + 1] * (k + 1) as f64);
+        let order = (k + 1) as f64;
+        let velocity = [self.x[k + 1] * order, self.y[k + 1] * order];
         let found = self.drag.extend(drag, velocity, k);
         for (force, drag) in self.force.iter_mut().zip(found) {
             force[k] += drag;

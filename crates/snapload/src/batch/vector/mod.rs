@@ -132,19 +132,19 @@ impl<V: Doubles, const N: usize> Lane for Several<V, N> {
     }
     #[inline(always)]
     fn below(self, other: Self) -> Self::Mask {
-        let mut answers = [self.0[0].below(other.0[0]); N];
-        for k in 1..N {
-            answers[k] = self.0[k].below(other.0[k]);
+        let mut answers = Several([self.0[0].below(other.0[0]); N]);
+        for k in 0..N {
+            answers.0[k] = self.0[k].below(other.0[k]);
         }
-        Several(answers)
+        answers
     }
     #[inline(always)]
     fn at_most(self, other: Self) -> Self::Mask {
-        let mut answers = [self.0[0].at_most(other.0[0]); N];
-        for k in 1..N {
-            answers[k] = self.0[k].at_most(other.0[k]);
+        let mut answers = Several([self.0[0].at_most(other.0[0]); N]);
+        for k in 0..N {
+            answers.0[k] = self.0[k].at_most(other.0[k]);
         }
-        Several(answers)
+        answers
     }
     #[inline(always)]
     fn select(mask: Self::Mask, mut yes: Self, no: Self) -> Self {
