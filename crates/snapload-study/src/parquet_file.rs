@@ -260,12 +260,9 @@ fn is_whole(kind: ConvertedType) -> bool {
 fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> {
     use ConvertedType as As;
     let kind = field.get_basic_info().converted_type();
-    let scale = 10_f64.powi(if kind == As::DECIMAL {
-        field.get_scale()
-    } else {
-        0
-    });
-    let decimal = |bytes: &[u8]| Ok(whole(bytes)? as f64 / scale);
+    if kind == As::DECIMAL {
+        return decimals(reader, rows, 10_f64.powi(field.get_scale())).map(Values::Numbers);
+    }
     Ok(match reader {
         ColumnReader::BoolColumnReader(_) => {
             Values::Flags(list::<BoolType, _>(reader, rows, |flag| Ok(*flag))?)
@@ -276,30 +273,19 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
         ColumnReader::DoubleColumnReader(_) => {
             Values::Numbers(list::<DoubleType, _>(reader, rows, |n| Ok(*n))?)
         }
-        ColumnReader::Int32ColumnReader(_) => match kind {
-            As::DECIMAL => Values::Numbers(list::<Int32Type, _>(reader, rows, |n| {
-                Ok(f64::from(*n) / scale)
-            })?),
-            As::UINT_8 | As::UINT_16 | As::UINT_32 => {
-                Values::Counts(list::<Int32Type, _>(reader, rows, |n| {
-                    Ok(i64::from(*n as u32))
-                })?)
-            }
-            _ => Values::Counts(list::<Int32Type, _>(reader, rows, |n| Ok(i64::from(*n)))?),
-        },
-        ColumnReader::Int64ColumnReader(_) => match kind {
-            As::DECIMAL => Values::Numbers(list::<Int64Type, _>(reader, rows, |n| {
-                Ok(*n as f64 / scale)
-            })?),
-            As::UINT_64 => Values::Counts(list::<Int64Type, _>(reader, rows, |n| {
-                let n = *n as u64;
-                i64::try_from(n).map_err(|_| too_large(n))
-            })?),
-            _ => Values::Counts(list::<Int64Type, _>(reader, rows, |n| Ok(*n))?),
-        },
-        ColumnReader::ByteArrayColumnReader(_) if kind == As::DECIMAL => {
-            Values::Numbers(list::<ByteArrayType, _>(reader, rows, |n| {
-                decimal(n.data())
+        ColumnReader::Int32ColumnReader(_) => {
+            let unsigned = matches!(kind, As::UINT_8 | As::UINT_16 | As::UINT_32);
+            let whole = |n: i32| match unsigned {
+                true => i64::from(n as u32),
+                false => i64::from(n),
+            };
+            Values::Counts(list::<Int32Type, _>(reader, rows, |n| Ok(whole(*n)))?)
+        }
+        ColumnReader::Int64ColumnReader(_) => {
+            let unsigned = kind == As::UINT_64;
+            Values::Counts(list::<Int64Type, _>(reader, rows, |n| match unsigned {
+                true => i64::try_from(*n as u64).map_err(|_| too_large(*n as u64)),
+                false => Ok(*n),
             })?)
         }
         ColumnReader::ByteArrayColumnReader(_) => {
@@ -307,26 +293,41 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
                 Ok(word.as_utf8()?.to_owned())
             })?)
         }
-        ColumnReader::FixedLenByteArrayColumnReader(_) if kind == As::DECIMAL => {
-            Values::Numbers(list::<FixedLenByteArrayType, _>(reader, rows, |n| {
-                decimal(n.data())
-            })?)
-        }
         ColumnReader::FixedLenByteArrayColumnReader(_) => {
             Values::Numbers(list::<FixedLenByteArrayType, _>(reader, rows, |n| {
                 let bytes = n.data().try_into();
-                let bytes = bytes.map_err(|_| {
-                    ParquetError::General("half a double takes two bytes".to_owned())
-                })?;
+                let bytes = bytes.map_err(|_| refused("half a double takes two bytes"))?;
                 Ok(f16::from_le_bytes(bytes).to_f64())
             })?)
         }
         ColumnReader::Int96ColumnReader(_) => {
-            return Err(ParquetError::General(
-                "a point in time is no number".to_owned(),
-            ));
+            return Err(refused("a point in time is no number"));
         }
     })
+}
+
+/// Whole numbers of any width, divided by the scale of their column.
+fn decimals(reader: ColumnReader, rows: &Range<u64>, scale: f64) -> Result<Vec<Option<f64>>> {
+    let of_bytes = |bytes: &[u8]| Ok(whole(bytes)? as f64 / scale);
+    match reader {
+        ColumnReader::Int32ColumnReader(_) => {
+            list::<Int32Type, _>(reader, rows, |n| Ok(f64::from(*n) / scale))
+        }
+        ColumnReader::Int64ColumnReader(_) => {
+            list::<Int64Type, _>(reader, rows, |n| Ok(*n as f64 / scale))
+        }
+        ColumnReader::ByteArrayColumnReader(_) => {
+            list::<ByteArrayType, _>(reader, rows, |n| of_bytes(n.data()))
+        }
+        ColumnReader::FixedLenByteArrayColumnReader(_) => {
+            list::<FixedLenByteArrayType, _>(reader, rows, |n| of_bytes(n.data()))
+        }
+        _ => Err(refused("a decimal is a whole number or bytes")),
+    }
+}
+
+fn refused(why: &str) -> ParquetError {
+    ParquetError::General(why.to_owned())
 }
 
 /// The whole number of bytes in two's complement, the highest first.

@@ -1,5 +1,6 @@
 //! All tests of pictures from outside, as one program: it is linked once, and the tests of all
 //! files run side by side.
 
+mod maps;
 mod paper;
 mod pictures;

@@ -23,7 +23,7 @@
 use crate::arithmetic::lane::{Lane, select_each};
 use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::real::Real;
-use crate::model::cable::Cable;
+use crate::model::cable::{Cable, Normal};
 use crate::model::contact_law::{ContactLaw, Snap};
 use crate::model::forcing::Push;
 use crate::model::state::State;
@@ -183,10 +183,28 @@ fn rises_above<L: Lane>(
     from.y_max.below(height) & !falls & !climbs
 }
 
+/// Puts the body back onto the cable that it has come to the end of, from which it is a rounding
+/// away: by a translation, as the metric does not matter for so little, so that its rotation is
+/// known already. Returns the cable's normal and the state.
+#[inline(always)]
+fn put_back<L: Lane>(
+    struck: &Cable<L>,
+    state: &State<L>,
+    rotation: &Rotation<L>,
+) -> (Normal<L>, State<L>) {
+    let moved = struck.moved(state, rotation);
+    let lever = struck.lever(rotation.sine, rotation.cosine);
+    let normal = struck.normal_along(struck.span_moved(moved), lever);
+    let off = struck.gap_moved(moved) * struck.per_length() * -0.5;
+    let before = State {
+        x: off.mul_add(normal.n.x, state.x),
+        y: off.mul_add(normal.n.y, state.y),
+        ..*state
+    };
+    (normal, before)
+}
+
 /// The impact at the end of a flight, docs/model.md section 5: p = (1 + e) v_n/w.
-///
-/// Before it the body is put back onto the cable, from which it is a rounding away: by a
-/// translation, as the metric does not matter for so little, so that its rotation is known already.
 #[inline(always)]
 fn land<L: Lane>(
     two_cables: &TwoCableSystem<L>,
@@ -199,15 +217,7 @@ fn land<L: Lane>(
     let rotation = Rotation::by(state.theta);
     let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
     let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
-    let moved = struck.moved(state, &rotation);
-    let lever = struck.lever(rotation.sine, rotation.cosine);
-    let normal = struck.normal_along(struck.span_moved(moved), lever);
-    let off = struck.gap_moved(moved) * struck.per_length() * -0.5;
-    let before = State {
-        x: off.mul_add(normal.n.x, state.x),
-        y: off.mul_add(normal.n.y, state.y),
-        ..*state
-    };
+    let (normal, before) = put_back(&struck, state, &rotation);
     let contact = ContactLaw {
         restitution: two_cables.restitution,
     };

@@ -68,25 +68,30 @@ pub(crate) fn least_norm<T: Real>(
         let sets = tight.subsets().filter(|set| !set.is_empty());
         return sets.filter_map(share).fold(z, shorter);
     }
-    // Of more cables the one that would have to push hardest leaves, one after the other.
-    let mut set = tight;
+    match without_pushing(tight, |set| spread(set, &w, &z, &product)) {
+        Some(shared) if does_the_same(&shared) => shorter(z, shared),
+        _ => z,
+    }
+}
+
+/// What a set shares once the cables that would have to push have left it, the one that would push
+/// hardest first; none where one cable or none is left.
+fn without_pushing<T: Real>(
+    mut set: TautSet,
+    share: impl Fn(TautSet) -> PerCable<T>,
+) -> Option<PerCable<T>> {
     while set.len() > 1 {
-        let shared = spread(set, &w, &z, &product);
-        let pushes_hardest = set
+        let shared = share(set);
+        let hardest = set
             .iter()
-            .reduce(|a, b| if shared[b] < shared[a] { b } else { a });
-        match pushes_hardest {
-            Some(cable) if shared[cable] < T::ZERO => set = set.without(cable),
-            _ => {
-                return if does_the_same(&shared) {
-                    shorter(z, shared)
-                } else {
-                    z
-                };
-            }
+            .reduce(|a, b| if shared[b] < shared[a] { b } else { a })?;
+        if shared[hardest] < T::ZERO {
+            set = set.without(hardest);
+        } else {
+            return Some(shared);
         }
     }
-    z
+    None
 }
 
 /// The z = W y over a set that acts on it like `z`, with one step of refinement.

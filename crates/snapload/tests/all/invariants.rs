@@ -428,32 +428,3 @@ fn extreme_cases_end() {
     }
     assert!(ended > 100, "{ended}");
 }
-
-/// The same case gives the same bits, whether or not anything is asked of it on the way.
-#[test]
-fn nothing_depends_on_sampling() {
-    for f_o in [0.1, 0.27, 0.3, 0.5] {
-        let p = Parameters {
-            f_o,
-            stop_when_settled: false,
-            t_end: 15.0,
-            ..Parameters::STANDARD
-        };
-        let case = Case::new(p).expect("legal");
-        let first = case.run();
-        for k in 0..1000 {
-            first.at(f64::from(k) * 0.015);
-        }
-        let second = case.run();
-        assert_eq!(first.impacts(), second.impacts());
-        assert_eq!(first.end(), second.end());
-        assert_eq!(first.norms(), second.norms());
-        let mut stepped = case.simulation();
-        while stepped.step().is_some() {}
-        assert_eq!(*stepped.state(), first.end().state);
-        assert_eq!(
-            stepped.taut() == TautSet::SLACK,
-            first.modes().last().is_some_and(|m| m.taut.is_empty())
-        );
-    }
-}

@@ -4,7 +4,9 @@ use snapload::analysis::{
     Cancelled, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress, Progress,
     Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched, verify,
 };
-use snapload::{Case, Lanes, Outcome, Parameters, Simulation, Trajectory, Value, named_case};
+use snapload::{
+    Case, Lanes, Outcome, Parameters, Simulation, TautSet, Trajectory, Value, named_case,
+};
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -308,4 +310,33 @@ fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         );
     }
     Ok(())
+}
+
+/// The same case gives the same bits, whether or not anything is asked of it on the way.
+#[test]
+fn nothing_depends_on_sampling() {
+    for f_o in [0.1, 0.27, 0.3, 0.5] {
+        let p = Parameters {
+            f_o,
+            stop_when_settled: false,
+            t_end: 15.0,
+            ..Parameters::STANDARD
+        };
+        let case = Case::new(p).expect("legal");
+        let first = case.run();
+        for k in 0..1000 {
+            first.at(f64::from(k) * 0.015);
+        }
+        let second = case.run();
+        assert_eq!(first.impacts(), second.impacts());
+        assert_eq!(first.end(), second.end());
+        assert_eq!(first.norms(), second.norms());
+        let mut stepped = case.simulation();
+        while stepped.step().is_some() {}
+        assert_eq!(*stepped.state(), first.end().state);
+        assert_eq!(
+            stepped.taut() == TautSet::SLACK,
+            first.modes().last().is_some_and(|m| m.taut.is_empty())
+        );
+    }
 }

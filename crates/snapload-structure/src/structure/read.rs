@@ -1,0 +1,287 @@
+//! How a structure comes out of the keys of a case.
+
+use crate::catalogue::{Section, section};
+use crate::schema::STRUCTURE;
+use crate::structure::{
+    BodySi, IrregularSea, LineSi, Outline, Site, SpectrumShape, Structure, THREE_HOURS_S, Water,
+    Wave,
+};
+use snapload::{CaseError, Entries, Fields, MAX_CABLES};
+
+/// So many periods of a regular wave are computed by default.
+const PERIODS: f64 = 100.0;
+/// So many periods the motion is given to forget its start.
+const TRANSIENT: f64 = 10.0;
+/// Time that is computed in still water by default \[s\].
+const STILL_S: f64 = 60.0;
+
+impl Structure {
+    /// Reads a case file; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the line, the key, its value and what is allowed.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        Self::from_entries(&Entries::parse(&STRUCTURE, name, text)?)
+    }
+
+    /// From the keys that a case gives.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key, its value and what is allowed.
+    pub fn from_entries(entries: &Entries) -> Result<Self, CaseError> {
+        read(entries).map_err(|error| entries.locate(error))
+    }
+}
+
+/// Reads and checks a structure.
+fn read(entries: &Entries) -> Result<Structure, CaseError> {
+    let site = read_site(entries.table("site", 0))?;
+    let body = read_body(entries.table("body", 0), &site)?;
+    let count = entries.count("line");
+    if !(1..=MAX_CABLES).contains(&count) {
+        let allowed = format!("1 to {MAX_CABLES} of them");
+        let hint = "write [[line]] once for each line, and below it anchor, fairlead and length";
+        return Err(
+            CaseError::value("[[line]]", format!("({count} given)"), allowed).with_hint(hint),
+        );
+    }
+    let lines = (0..count)
+        .map(|index| read_line(entries.table("line", index)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (water, heading) = read_water(entries)?;
+    let run = entries.table("run", 0);
+    let (duration, transient) = match water {
+        Water::Still => (STILL_S, 0.0),
+        Water::Wave(wave) => (PERIODS * wave.period_s, TRANSIENT * wave.period_s),
+        Water::Sea(sea) => (THREE_HOURS_S, TRANSIENT * sea.peak_period_s),
+    };
+    let duration_s = run.get("duration")?.unwrap_or(duration);
+    let given: Option<f64> = run.get("transient")?;
+    if let Some(transient) = given.filter(|transient| *transient >= duration_s) {
+        let allowed = format!("less than the {duration_s} s that are computed");
+        return Err(run
+            .refuse("transient", transient, allowed)
+            .with_hint("make run.duration longer, or transient shorter"));
+    }
+    let structure = Structure {
+        body,
+        lines,
+        site,
+        water,
+        heading,
+        restitution: run.need("restitution")?,
+        duration_s,
+        transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
+        start_m: run.get("start")?,
+        max_snaps: run.need("max_snaps")?,
+    };
+    check(&structure)?;
+    Ok(structure)
+}
+
+fn read_site(fields: Fields<'_>) -> Result<Site, CaseError> {
+    Ok(Site {
+        depth_m: fields.need("depth")?,
+        water_density_kg_m3: fields.need("water_density")?,
+        gravity_m_s2: fields.need("gravity")?,
+    })
+}
+
+fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
+    let mass: f64 = fields.need("mass")?;
+    let volume: f64 = fields.need("displaced_volume")?;
+    let width: f64 = fields.need("width")?;
+    let outline = match fields.get::<String>("shape")?.as_deref() {
+        Some("rectangle") => Outline::Rectangle,
+        _ => Outline::Circle,
+    };
+    let given_height: Option<f64> = fields.get("height")?;
+    let needed = |key: &str, found: Option<f64>| {
+        let allowed = "a value, which a rectangle needs";
+        found.ok_or_else(|| fields.refuse(key, "(left out)", allowed))
+    };
+    let added = fields.get("added_mass")?;
+    let (height, added, inertia) = match outline {
+        Outline::Circle => {
+            if let Some(height) = given_height.filter(|height| *height != width) {
+                let allowed = format!("the width, {width}, for a circle");
+                return Err(fields
+                    .refuse("height", height, allowed)
+                    .with_hint("leave height out, or set shape = \"rectangle\""));
+            }
+            let displaced = site.water_density_kg_m3 * volume;
+            (
+                width,
+                added.unwrap_or(displaced),
+                mass * width * width / 8.0,
+            )
+        }
+        Outline::Rectangle => {
+            let height = needed("height", given_height)?;
+            let inertia = mass * (width * width + height * height) / 12.0;
+            (height, needed("added_mass", added)?, inertia)
+        }
+    };
+    Ok(BodySi {
+        mass_kg: mass,
+        added_mass_kg: added,
+        outline,
+        width_m: width,
+        height_m: height,
+        displaced_volume_m3: volume,
+        moment_of_inertia_kg_m2: fields.get("moment_of_inertia")?.unwrap_or(inertia),
+        drag_area_m2: fields.need("drag_area")?,
+        linear_damping_n_s_m: fields.need("linear_damping")?,
+        turning_damping_n_m_s: fields.need("turning_damping")?,
+        position_m: fields.need("position")?,
+    })
+}
+
+fn read_line(fields: Fields<'_>) -> Result<LineSi, CaseError> {
+    let length: f64 = fields.need("length")?;
+    let (name, catalogued) = read_section(fields)?.unwrap_or_default();
+    let stiffness = fields.get::<f64>("stiffness")?;
+    let rate = fields.get::<f64>("spring_rate")?;
+    if stiffness.is_some() && rate.is_some() {
+        return Err(fields.refuse("spring_rate", "(given)", "one of stiffness and spring_rate"));
+    }
+    let own = stiffness.or(rate.map(|rate| rate * length));
+    Ok(LineSi {
+        anchor_m: fields.need("anchor")?,
+        fairlead_m: fields.need("fairlead")?,
+        length_m: length,
+        name,
+        stiffness_n: own.or(catalogued.map(|section| section.stiffness_n)),
+        mass_per_length_kg_m: fields
+            .get("mass_per_length")?
+            .or(catalogued.map(|section| section.mass_per_length_kg_m)),
+        breaking_load_n: fields
+            .get("breaking_load")?
+            .or(catalogued.map(|section| section.breaking_load_n)),
+    })
+}
+
+/// The name of a line of a type and a diameter, and what such lines are like; none where neither is
+/// given.
+fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>, CaseError> {
+    let kind = fields.get::<String>("type")?;
+    let diameter = fields.get::<f64>("diameter")?;
+    let grade = fields.get::<String>("grade")?;
+    let left_out = |key, allowed: &str| Err(fields.refuse(key, "(left out)", allowed));
+    let (kind, diameter) = match (kind, diameter) {
+        (None, None) => return Ok(None),
+        (None, Some(_)) => return left_out("type", "a type, as diameter is given"),
+        (Some(_), None) => {
+            return left_out("diameter", "the diameter of the line, as its type is given");
+        }
+        (Some(kind), Some(diameter)) => (kind, diameter),
+    };
+    let is_chain = kind.ends_with("chain");
+    if grade.is_some() && !is_chain {
+        return Err(fields.refuse("grade", "(given)", "no grade, as the line is not a chain"));
+    }
+    let section = section(&kind, diameter, grade.as_deref());
+    let grade = match is_chain {
+        true => format!(" {}", grade.as_deref().unwrap_or("R3")),
+        false => String::new(),
+    };
+    Ok(Some((
+        format!("{kind}{grade}, {} mm", millimetres(diameter)),
+        section,
+    )))
+}
+
+/// Rounded to a tenth.
+fn millimetres(metres: f64) -> f64 {
+    (metres * 1e4).round() / 10.0
+}
+
+fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
+    let heading = |fields: Fields<'_>| -> Result<f64, CaseError> {
+        let against = fields.get::<String>("direction")?.as_deref() == Some("-x");
+        Ok(if against { -1.0 } else { 1.0 })
+    };
+    match (entries.count("wave") > 0, entries.count("sea") > 0) {
+        (true, true) => {
+            let allowed = "one of [wave] and [sea]";
+            Err(CaseError::value("[sea]", "(beside [wave])", allowed)
+                .with_hint("take one of them out"))
+        }
+        (false, false) => Ok((Water::Still, 1.0)),
+        (true, false) => {
+            let fields = entries.table("wave", 0);
+            let wave = Wave {
+                height_m: fields.need("height")?,
+                period_s: fields.need("period")?,
+            };
+            Ok((Water::Wave(wave), heading(fields)?))
+        }
+        (false, true) => {
+            let fields = entries.table("sea", 0);
+            let shape = match fields.get::<String>("spectrum")?.as_deref() {
+                Some("pierson-moskowitz") => SpectrumShape::PiersonMoskowitz,
+                _ => SpectrumShape::Jonswap(fields.need("gamma")?),
+            };
+            let sea = IrregularSea {
+                shape,
+                significant_height_m: fields.need("hs")?,
+                peak_period_s: fields.need("tp")?,
+                seed: fields.need("seed")?,
+                components: usize::try_from(fields.need::<u64>("components")?)
+                    .unwrap_or(usize::MAX),
+            };
+            Ok((Water::Sea(sea), heading(fields)?))
+        }
+    }
+}
+
+/// A line may fall short of the drawn fairlead by this part of its length, as drawings are rounded;
+/// the body then rests a little lower.
+const ROUNDED: f64 = 0.02;
+
+/// Refuses what can not be.
+fn check(structure: &Structure) -> Result<(), CaseError> {
+    let body = &structure.body;
+    let depth = structure.site.depth_m;
+    let place = |[x, z]: [f64; 2]| format!("[{x}, {z}]");
+    if structure.net_buoyancy_n() <= 0.0 {
+        let allowed = format!(
+            "less than the {:.0} kg of water that the body displaces, so that its net buoyancy \
+             pulls on the lines",
+            structure.displaced_mass_kg()
+        );
+        return Err(CaseError::value("body.mass", body.mass_kg, allowed)
+            .with_hint("a body that sinks needs no mooring; check mass and displaced_volume"));
+    }
+    let [_, z] = body.position_m;
+    let shown = place(body.position_m);
+    let lowest = z - body.height_m / 2.0;
+    if lowest <= -depth {
+        let allowed = format!(
+            "a body above the floor; its lowest point would be at z = {lowest:.3}, the floor is at \
+             {:.3}",
+            -depth
+        );
+        return Err(CaseError::value("body.position", shown, allowed));
+    }
+    if z >= 0.0 {
+        let allowed = "a centre below the still water, z < 0";
+        return Err(CaseError::value("body.position", shown, allowed)
+            .with_hint("z is up from the still water, so depths are negative"));
+    }
+    for (index, line) in structure.lines.iter().enumerate() {
+        let path = |key: &str| format!("line.{}.{key}", index + 1);
+        let (anchor, fairlead) = (line.anchor_m, line.fairlead_m);
+        if anchor[1] < -depth {
+            let allowed = format!("an anchor on the floor or above it, z >= {}", -depth);
+            return Err(CaseError::value(&path("anchor"), place(anchor), allowed));
+        }
+        let reach = (fairlead[0] - anchor[0]).hypot(fairlead[1] - anchor[1]);
+        if reach > line.length_m * (1.0 + ROUNDED) {
+            let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");
+            return Err(CaseError::value(&path("length"), line.length_m, allowed)
+                .with_hint("make the line longer, or put the body or the anchor elsewhere"));
+        }
+    }
+    Ok(())
+}
