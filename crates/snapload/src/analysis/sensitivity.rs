@@ -4,9 +4,6 @@ use crate::analysis::trust::{START_KEYS, UNCERTAIN_KEYS};
 use crate::arithmetic::dual::Dual;
 use crate::case::Case;
 
-/// The quantities that an impact is told to depend on: the start and the parameters.
-pub const SENSITIVE_KEYS: usize = START_KEYS.len() + UNCERTAIN_KEYS.len();
-
 /// Derivatives of one impact by one key, all else held; the inertia follows the size where it is
 /// the natural one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,36 +28,43 @@ pub struct Sensitivity {
 }
 
 /// The derivatives of the first `count` impacts of a case, exact to rounding: the motion is run
-/// over dual numbers. Empty where the start, on the very edge of what is legal, has no neighbours.
+/// over dual numbers, once for each key. Empty where the start, on the very edge of what is legal,
+/// has no neighbours.
 pub fn sensitivity(case: &Case, count: usize) -> Vec<Sensitivity> {
-    let keys = || START_KEYS.into_iter().chain(UNCERTAIN_KEYS);
-    let lift = |key, number| {
-        let place = keys().position(|name| name == key && case.parameters().moves_by(key));
-        place.map_or(Dual::<f64, SENSITIVE_KEYS>::constant(number), |i| {
-            Dual::variable(number, i)
-        })
-    };
-    let Ok(mut simulation) = case.simulation_over(lift) else {
-        return Vec::new();
-    };
+    let keys = START_KEYS.into_iter().chain(UNCERTAIN_KEYS);
     let mut found = Vec::new();
-    while found.len() < count {
-        let Some(step) = simulation.step() else { break };
-        for impact in step.impacts().take(count - found.len()) {
-            let slope = |(i, key)| Slope {
-                key,
-                t: impact.t.slope[i],
-                v_n: impact.v_n.slope[i],
-                impulse: impact.impulse.slope[i],
-            };
-            let slopes = keys()
-                .enumerate()
-                .filter(|(_, key)| case.parameters().moves_by(key));
-            found.push(Sensitivity {
-                impact: found.len() + 1,
-                slopes: slopes.map(slope).collect(),
-            });
+    for key in keys.filter(|key| case.parameters().moves_by(key)) {
+        let Some(slopes) = slopes_by(case, key, count) else {
+            return Vec::new();
+        };
+        found.resize_with(slopes.len(), Vec::new);
+        for (impact, slope) in found.iter_mut().zip(slopes) {
+            impact.push(slope);
         }
     }
-    found
+    let numbered = found.into_iter().zip(1..);
+    numbered
+        .map(|(slopes, impact)| Sensitivity { impact, slopes })
+        .collect()
+}
+
+/// The derivatives of the first impacts by one key; none where the start has no neighbours.
+fn slopes_by(case: &Case, key: &'static str, count: usize) -> Option<Vec<Slope>> {
+    let lift = |name, number| match name == key {
+        true => Dual::<f64, 1>::variable(number, 0),
+        false => Dual::constant(number),
+    };
+    let mut simulation = case.simulation_over(lift).ok()?;
+    let mut slopes = Vec::new();
+    while slopes.len() < count {
+        let Some(step) = simulation.step() else { break };
+        slopes.extend(step.impacts().map(|impact| Slope {
+            key,
+            t: impact.t.slope[0],
+            v_n: impact.v_n.slope[0],
+            impulse: impact.impulse.slope[0],
+        }));
+    }
+    slopes.truncate(count);
+    Some(slopes)
 }

@@ -18,6 +18,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// under the same licences as this, and rounds its sines and cosines correctly.
 ///
 /// What has no value, such as 0/0 or a number past the exponents, is like a NaN.
+///
+/// No operation is inlined: each takes far longer than the call, and a motion has thousands of them,
+/// which would be most of the time that this library takes to compile.
 #[derive(Clone, Copy, Debug)]
 pub struct Precise<const WORDS: usize> {
     /// The significand, an integer, least significant byte first.
@@ -144,6 +147,7 @@ impl<const WORDS: usize> PartialEq for Precise<WORDS> {
 }
 
 impl<const WORDS: usize> PartialOrd for Precise<WORDS> {
+    #[inline(never)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         (self.valid && other.valid).then(|| self.repr().cmp(&other.repr()))
     }
@@ -151,6 +155,7 @@ impl<const WORDS: usize> PartialOrd for Precise<WORDS> {
 
 impl<const WORDS: usize> Add for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         self.binary(other, |context, a, b| {
             context.add(a, b).map(|sum| sum.value())
@@ -160,6 +165,7 @@ impl<const WORDS: usize> Add for Precise<WORDS> {
 
 impl<const WORDS: usize> Sub for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, other: Self) -> Self {
         self.binary(other, |context, a, b| {
             context.sub(a, b).map(|difference| difference.value())
@@ -169,6 +175,7 @@ impl<const WORDS: usize> Sub for Precise<WORDS> {
 
 impl<const WORDS: usize> Mul for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         self.binary(other, |context, a, b| {
             context.mul(a, b).map(|product| product.value())
@@ -178,6 +185,7 @@ impl<const WORDS: usize> Mul for Precise<WORDS> {
 
 impl<const WORDS: usize> Div for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         self.binary(other, |context, a, b| {
             context.div(a, b).map(|quotient| quotient.value())
@@ -187,6 +195,7 @@ impl<const WORDS: usize> Div for Precise<WORDS> {
 
 impl<const WORDS: usize> Neg for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn neg(mut self) -> Self {
         self.negative = !self.negative && !self.is_zero();
         self
@@ -195,6 +204,7 @@ impl<const WORDS: usize> Neg for Precise<WORDS> {
 
 impl<const WORDS: usize> Add<f64> for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn add(self, other: f64) -> Self {
         self + Self::from_f64(other)
     }
@@ -202,6 +212,7 @@ impl<const WORDS: usize> Add<f64> for Precise<WORDS> {
 
 impl<const WORDS: usize> Sub<f64> for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, other: f64) -> Self {
         self - Self::from_f64(other)
     }
@@ -209,6 +220,7 @@ impl<const WORDS: usize> Sub<f64> for Precise<WORDS> {
 
 impl<const WORDS: usize> Mul<f64> for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, other: f64) -> Self {
         self * Self::from_f64(other)
     }
@@ -216,6 +228,7 @@ impl<const WORDS: usize> Mul<f64> for Precise<WORDS> {
 
 impl<const WORDS: usize> Div<f64> for Precise<WORDS> {
     type Output = Self;
+    #[inline(never)]
     fn div(self, other: f64) -> Self {
         self / Self::from_f64(other)
     }
@@ -243,10 +256,12 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
     // Each doubles the 30 bits that 1e-9 leaves.
     const NEWTON_STEPS: usize = (Self::BITS / 30).ilog2() as usize + 1;
 
+    #[inline(never)]
     fn from_f64(value: f64) -> Self {
         Self::from_number(Number::try_from(value))
     }
 
+    #[inline(never)]
     fn from_decimal(value: f64) -> Self {
         // Rust writes a double as the shortest decimal that is read back as the same double.
         let written = format!("{value:e}");
@@ -271,10 +286,12 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
         }
     }
 
+    #[inline(never)]
     fn half_pi() -> Self {
         Self::from_repr(Self::context().pi::<2>(None).value().repr()) * 0.5
     }
 
+    #[inline(never)]
     fn to_f64(self) -> f64 {
         if self.valid {
             Number::from_repr(self.repr(), Self::context())
@@ -285,10 +302,12 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
         }
     }
 
+    #[inline(never)]
     fn sqrt(self) -> Self {
         self.unary(|context, x| context.sqrt(x).map(|root| root.value()))
     }
 
+    #[inline(never)]
     fn sin_cos(self) -> (Self, Self) {
         if !self.valid {
             return (Self::NO_VALUE, Self::NO_VALUE);
@@ -300,6 +319,7 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
         )
     }
 
+    #[inline(never)]
     fn versines(self) -> (Self, Self) {
         let square = self * self;
         if square <= Self::ONE {
@@ -317,6 +337,14 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
                 half_sine * half_sine * 2.0 / square,
                 (self - self.sin_cos().0) / square,
             )
+        }
+    }
+
+    #[inline(never)]
+    fn abs(self) -> Self {
+        Self {
+            negative: false,
+            ..self
         }
     }
 

@@ -115,8 +115,14 @@ mod x86 {
     use crate::batch::vector::x86::{Avx2, Avx512};
 
     pub(super) fn avx2(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {
+        #[target_feature(enable = "avx2,fma")]
+        fn run_all(scheduler: LaneScheduler<'_, Several<Avx2, 2>>) -> Usage {
+            scheduler.run_all()
+        }
         assert!(processor::has_fma());
-        processor::dispatch(LaneScheduler::<Several<Avx2, 2>>::new(runs, tell))
+        let scheduler = LaneScheduler::new(runs, tell);
+        // SAFETY: the processor has AVX2 and FMA, as was just asked.
+        unsafe { run_all(scheduler) }
     }
 
     pub(super) fn avx512(runs: &mut dyn Iterator<Item = Simulation>, tell: Tell) -> Usage {

@@ -272,17 +272,23 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let (t_start, start, mut active) = (self.t, self.state, self.active);
-        let (event, result) = match self.next_bounce() {
+        let (event, bounced) = match self.next_bounce() {
             Some(bounce) => self.take(&bounce),
             None => {
                 let crossing = self.next_crossing();
                 active = self.active;
                 self.advance(&crossing);
                 self.before = self.state;
-                let event = self.event(crossing.reached);
-                (event, self.apply_law(&event))
+                (self.event(crossing.reached), None)
             }
         };
+        let result = match bounced {
+            Some(result) => Some(result),
+            None => self.apply_law(&event),
+        };
+        if self.stop.is_none() && event.reached != Reached::default() {
+            self.check_rules(event.reached.gaps.intersection(self.active.taut));
+        }
         self.check_progress(t_start);
         Some(Step {
             t_start,

@@ -93,7 +93,8 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Makes a bounce: moves to its end, and applies the law there if that is not done yet.
+    /// Makes a bounce: moves to its end. The result is none where the law is still to be applied,
+    /// as what follows is more than one cable's impulse.
     #[inline(always)]
     pub(super) fn take(&mut self, bounce: &Bounce<T>) -> (Event, Option<ImpactResult<T>>) {
         let next = &bounce.next;
@@ -114,7 +115,7 @@ impl<T: Real> Simulation<T> {
         };
         if !bounce.plain {
             self.state = bounce.before;
-            return (event, Some(self.snap(&event)));
+            return (event, None);
         }
         self.state = next.state;
         self.end_slow_row();
@@ -125,7 +126,6 @@ impl<T: Real> Simulation<T> {
             next.state,
         );
         self.count(&result, closed);
-        self.check_rules(TautSet::SLACK);
         (event, Some(result))
     }
 

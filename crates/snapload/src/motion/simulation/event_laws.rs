@@ -37,7 +37,7 @@ impl<T: Real> Simulation<T> {
 
     /// Cables snap taut: impact, then sticking, then the choice of the taut set.
     #[inline(always)]
-    pub(super) fn snap(&mut self, event: &Event) -> ImpactResult<T> {
+    fn snap(&mut self, event: &Event) -> ImpactResult<T> {
         let Event { closed, still, .. } = *event;
         let struck = event.reached.gaps;
         let result = impact(&self.system, &self.state, closed, still);
@@ -80,7 +80,6 @@ impl<T: Real> Simulation<T> {
                 Contact::CLOSED
             };
         }
-        self.check_rules(struck.intersection(self.active.taut));
         result
     }
 
@@ -174,7 +173,6 @@ impl<T: Real> Simulation<T> {
             let kept = released.iter().fold(taut, TautSet::without);
             taut_next(&self.system, self.t, &self.state, kept)
         };
-        self.check_rules(TautSet::SLACK);
     }
 
     /// The rules that are looked at at events; `stuck` are the cables that just stuck.
