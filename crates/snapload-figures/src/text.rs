@@ -1,8 +1,6 @@
 //! The letters of a picture: embedded fonts, their widths, and italics between asterisks.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::metrics::GlyphMetrics;
-use skrifa::{FontRef, MetadataProvider};
+use ttf_parser::Face;
 
 /// DejaVu Sans, the letters that a figure may need.
 pub(crate) const UPRIGHT: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
@@ -49,19 +47,17 @@ pub(crate) fn width(text: &str) -> f64 {
 
 fn run_width(text: &str, italic: bool) -> f64 {
     /// Of a letter that the font does not have.
-    const UNKNOWN: f32 = 0.6;
-    let Ok(font) = FontRef::new(if italic { ITALIC } else { UPRIGHT }) else {
-        return f64::from(UNKNOWN) * text.len() as f64;
+    const UNKNOWN: f64 = 0.6;
+    let Ok(font) = Face::parse(if italic { ITALIC } else { UPRIGHT }, 0) else {
+        return UNKNOWN * text.len() as f64;
     };
-    let metrics = GlyphMetrics::new(&font, Size::new(1.0), LocationRef::default());
-    let charmap = font.charmap();
+    let unit = f64::from(font.units_per_em());
     let advance = |c| {
-        charmap
-            .map(c)
-            .and_then(|glyph| metrics.advance_width(glyph))
+        font.glyph_index(c)
+            .and_then(|glyph| font.glyph_hor_advance(glyph))
     };
     text.chars()
-        .map(|c| f64::from(advance(c).unwrap_or(UNKNOWN)))
+        .map(|c| advance(c).map_or(UNKNOWN, |advance| f64::from(advance) / unit))
         .sum()
 }
 
