@@ -4,10 +4,9 @@ use crate::refusal::Refusal;
 use crate::request::{Values, entries};
 use crate::work::Allowance;
 use axum::body::Bytes;
-use rayon::prelude::*;
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
-use snapload::analysis::{Progress, outcome, outcomes};
+use snapload::analysis::{Progress, in_parallel, outcome, outcomes};
 use snapload::{Case, CaseError, Kind, Outcome, Parameters, Stop, Value, key_named};
 use snapload_report::tables::Cell;
 use snapload_study::{Column, Grid, Take};
@@ -246,13 +245,14 @@ fn all_outcomes(
             Ok((case, whole))
         })
         .collect();
-    tried
-        .into_par_iter()
-        .map(|tried| match tried? {
-            (_, Some(outcome)) => Ok(outcome),
-            (case, None) => alone(&case, allowance),
+    let whole = in_parallel(tried.len(), |index| {
+        Ok::<_, Infallible>(match &tried[index] {
+            Ok((_, Some(outcome))) => Ok(*outcome),
+            Ok((case, None)) => alone(case, allowance),
+            Err(error) => Err(error.clone().into()),
         })
-        .collect()
+    });
+    whole.unwrap_or_else(|never| match never {})
 }
 
 /// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many

@@ -1,9 +1,8 @@
 //! Every run that the report needs, each computed once.
 
-use rayon::prelude::*;
 use snapload::analysis::{
     CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, Uncertainty, Unfinished,
-    unwatched,
+    in_parallel, unwatched,
 };
 use snapload::{
     Case, CaseError, Outcome, Parameters, Stop, Trajectory, named_case, natural_inertia, table_6_1,
@@ -272,7 +271,7 @@ fn cases() -> Result<Vec<CaseRuns>, Unfinished> {
             runs: Both::try_new(|reading| Ok(Case::new(reading.apply(parameters))?.run()))?,
         })
     };
-    codes.into_par_iter().map(case).collect()
+    in_parallel(codes.len(), |k| case(codes[k]))
 }
 
 fn critical_row(
@@ -313,10 +312,7 @@ fn curve(
         let first = first_exceeding(&reading.apply(parameters), ForceScan::default())?;
         Ok((value, first.map(|(f_o, _)| f_o)))
     };
-    let points = |reading| {
-        let all = (0..count).into_par_iter();
-        all.map(|k| point(k, reading)).collect()
-    };
+    let points = |reading| in_parallel(count, |k| point(k, reading));
     Ok(CriticalCurve {
         r,
         key,

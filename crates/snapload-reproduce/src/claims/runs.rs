@@ -3,8 +3,7 @@
 use super::verdict::{Finding, Verdict};
 use crate::ReportError;
 use crate::study::{CaseRuns, CriticalRow, Reading, Study, first_exceeding};
-use rayon::prelude::*;
-use snapload::analysis::ForceScan;
+use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{
     Case, CaseError, Impact, Outcome, Parameters, Playback, State, Stop, System, TautSet,
     Trajectory, table_6_1,
@@ -75,7 +74,7 @@ pub(super) fn each<T: Send>(
     cases: &[Parameters],
     what: impl Fn(&Parameters) -> Result<T, CaseError> + Sync,
 ) -> Result<Vec<T>, CaseError> {
-    cases.par_iter().map(&what).collect()
+    in_parallel(cases.len(), |k| what(&cases[k]))
 }
 
 /// What becomes of a case and of its neighbours.
@@ -95,10 +94,9 @@ pub(super) fn from_starts<T: Send>(
 ) -> Result<Vec<Vec<T>>, CaseError> {
     let ensembles = cases.iter().map(|case| ensemble(case, neighbours));
     let ensembles: Vec<Vec<Parameters>> = ensembles.collect();
-    (0..=neighbours)
-        .into_par_iter()
-        .map(|start| ensembles.par_iter().map(|all| what(&all[start])).collect())
-        .collect()
+    in_parallel(neighbours + 1, |start| {
+        in_parallel(ensembles.len(), |case| what(&ensembles[case][start]))
+    })
 }
 
 /// The run of a case.

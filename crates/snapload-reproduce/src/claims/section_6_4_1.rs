@@ -13,8 +13,7 @@ use super::runs::{
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::study::first_exceeding;
-use rayon::prelude::*;
-use snapload::analysis::ForceScan;
+use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Playback, Stop, Trajectory};
 use std::f64::consts::TAU;
 
@@ -28,7 +27,8 @@ pub(super) fn claims(tabled: &Tabled) -> Result<Vec<Claim>, ReportError> {
 const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-15", |tabled| {
         let members = tabled.of(RESTITUTIONS)?;
-        let measured: Vec<_> = members.par_iter().map(|runs| runs.map(activity)).collect();
+        let of_member = |k: usize| Ok::<_, ReportError>(members[k].map(activity));
+        let measured = in_parallel(members.len(), of_member)?;
         let column = |of: &[[f64; 3]; 4], k: usize| of.map(|activity| activity[k]);
         let finding = Finding::robust(&measured, |of| (0..3).all(|k| falling(&column(of, k))));
         Ok(finding

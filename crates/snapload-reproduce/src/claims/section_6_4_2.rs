@@ -9,7 +9,7 @@ use super::runs::{FEW, NEVER, SAME, chapter, critical_force, from_starts, shown,
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::study::Study;
-use rayon::prelude::*;
+use snapload::analysis::in_parallel;
 use snapload::{Parameters, Stop, anchor_height, natural_inertia};
 use table::{Column, Entry, Table};
 
@@ -175,11 +175,8 @@ fn crossed(table: &Table, r: f64, a: f64) -> Result<[[f64; 2]; 2], ReportError> 
 
 fn connection_points(table: &Table) -> Judged {
     let bodies = [1.5, 2.5].map(|r| [0.1, 0.2, 0.3].map(|a| (r, a)));
-    let found: Vec<[[f64; 2]; 2]> = bodies
-        .par_iter()
-        .flatten()
-        .map(|(r, a)| crossed(table, *r, *a))
-        .collect::<Result<_, _>>()?;
+    let bodies = bodies.as_flattened();
+    let found = in_parallel(bodies.len(), |k| crossed(table, bodies[k].0, bodies[k].1))?;
     // Of the pairs that differ in one thing only: in which the circle's has the lower force.
     let count = |lower: fn(&[[f64; 2]; 2], usize) -> bool| {
         let pairs = found.iter().flat_map(|all| [0, 1].map(|k| lower(all, k)));

@@ -11,14 +11,12 @@ use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::study::{CaseRuns, CriticalRow, Study};
 use example::Example;
-use rayon::prelude::*;
-use snapload::analysis::ForceScan;
+use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{Case, CaseError, Parameters, Stop, named_case};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
-    let shapes = study.critical.par_iter().map(Shape::of);
-    let shapes: Vec<Shape> = shapes.collect::<Result<_, _>>()?;
+    let shapes = in_parallel(study.critical.len(), |k| Shape::of(&study.critical[k]))?;
     let mut all = ask(&[JUDGES], &(study, shapes))?;
     let runs = near(&named_case("sliding-example")?.parameters, MANY, run)?;
     all.extend(ask(&[example::JUDGES], &Example::of(&runs))?);

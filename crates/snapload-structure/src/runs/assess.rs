@@ -9,8 +9,9 @@ use crate::physics::warnings::{Warning, phase_warning, warnings};
 use crate::structure::{Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use rayon::prelude::*;
-use snapload::analysis::{Counter, OnProgress, Trust, TrustMonitor, Unfinished, record};
+use snapload::analysis::{
+    Counter, OnProgress, Trust, TrustMonitor, Unfinished, in_parallel, record,
+};
 use snapload::{Playback, Trajectory};
 
 /// A state is known while its standard deviation is below this, in the engine's units.
@@ -62,12 +63,11 @@ pub fn assess(
     let still = matches!(prepared.structure.water, Water::Still);
     let count = if still { 0 } else { neighbours };
     let counter = Counter::new("neighbours", 0, count.into(), on_progress);
-    let neighbours = (0..count).into_par_iter().map(|index| {
-        let outcome = Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index))?;
+    let neighbours = in_parallel(count as usize, |index| {
+        let outcome = Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index as u32))?;
         counter.add(1)?;
-        Ok(outcome)
-    });
-    let neighbours = neighbours.collect::<Result<_, Unfinished>>()?;
+        Ok::<_, Unfinished>(outcome)
+    })?;
     let mut assessment = Assessment {
         warnings: warnings(&prepared.structure, &prepared.rest),
         run,

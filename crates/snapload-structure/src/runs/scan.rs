@@ -3,8 +3,7 @@
 use super::outcome::Outcome;
 use crate::physics::prepared::Prepared;
 use crate::structure::{Structure, Water, Wave};
-use rayon::prelude::*;
-use snapload::analysis::{Cancelled, Counter, OnProgress};
+use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
 
 /// Heights and periods that are tried, in parts of the case's.
 const HEIGHTS: [f64; 2] = [0.5, 1.25];
@@ -48,13 +47,13 @@ pub fn scan(structure: &Structure, on_progress: OnProgress) -> Result<Option<Sca
     };
     let waves: Vec<Wave> = periods_s.iter().flat_map(of_period).collect();
     let counter = Counter::new("scanning", 0, waves.len() as u64, on_progress);
-    let cells = waves.par_iter().map(|wave| {
-        let cell = one(structure, *wave);
+    let cells = in_parallel(waves.len(), |index| {
+        let cell = one(structure, waves[index]);
         counter.add(1)?;
-        Ok(cell)
-    });
+        Ok::<_, Cancelled>(cell)
+    })?;
     Ok(Some(Scan {
-        cells: cells.collect::<Result<_, Cancelled>>()?,
+        cells,
         periods_s,
         heights_m,
     }))

@@ -5,8 +5,7 @@ use super::outcome::Outcome;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
-use rayon::prelude::*;
-use snapload::analysis::{Counter, OnProgress, Share, Unfinished};
+use snapload::analysis::{Counter, OnProgress, Share, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
 
 /// What one record comes to.
@@ -43,18 +42,13 @@ pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result
     };
     let prepared = Prepared::new(structure)?;
     let counter = Counter::new("records", 0, count.into(), on_progress);
-    let record = |index: u64| {
-        let seed = sea.seed + index;
+    let records = in_parallel(count as usize, |index| {
+        let seed = sea.seed + index as u64;
         let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea }), 1.0)?;
         counter.add(1)?;
-        Ok(SeaOutcome { seed, outcome })
-    };
-    let records = (0..u64::from(count)).into_par_iter().map(record);
-    let records: Result<_, Unfinished> = records.collect();
-    Ok(Seas {
-        records: records?,
-        prepared,
-    })
+        Ok::<_, Unfinished>(SeaOutcome { seed, outcome })
+    })?;
+    Ok(Seas { records, prepared })
 }
 
 impl Seas {

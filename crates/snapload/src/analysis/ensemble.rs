@@ -1,6 +1,7 @@
 //! Neighbours of a case: what comes of it where one run can not tell.
 
 use crate::analysis::progress::{Counter, OnProgress, Unfinished};
+use crate::analysis::threads::in_parallel;
 use crate::analysis::trust::{START_KEYS, Uncertainty};
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -10,7 +11,6 @@ use crate::model::rules::Stop;
 use crate::motion::outcome::Outcome;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use rayon::prelude::*;
 
 /// A cloud of cases about one, drawn evenly from what its uncertainty allows.
 ///
@@ -119,12 +119,11 @@ impl Ensemble {
     /// A [`CaseError`] if a member could not be drawn, and [`Unfinished::Cancelled`].
     pub fn tally(&self, on_progress: OnProgress) -> Result<Tally, Unfinished> {
         let counter = Counter::new("neighbours", 0, self.count.into(), on_progress);
-        let ends = (0..self.count).into_par_iter().map(|index| {
-            let outcome = Outcome::of(&self.member(index)?);
+        let ends = in_parallel(self.count as usize, |index| {
+            let outcome = Outcome::of(&self.member(index as u32)?);
             counter.add(1)?;
-            Ok(outcome.end.reason)
-        });
-        let ends = ends.collect::<Result<_, Unfinished>>()?;
+            Ok::<_, Unfinished>(outcome.end.reason)
+        })?;
         Ok(Tally { ends })
     }
 }

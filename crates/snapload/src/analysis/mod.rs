@@ -7,6 +7,7 @@ mod lyapunov;
 mod outcomes;
 mod progress;
 mod sensitivity;
+mod threads;
 mod trust;
 mod verify;
 
@@ -19,6 +20,7 @@ pub use progress::{
     Cancelled, Counter, OnProgress, Progress, Unfinished, outcome, record, unwatched,
 };
 pub use sensitivity::{Sensitivity, Slope, sensitivity};
+pub use threads::in_parallel;
 pub use trust::{
     Certainty, Graze, Horizon, HorizonCause, START_KEYS, Trust, TrustMonitor, UNCERTAIN_KEYS,
     Uncertainty, trusted_run,

@@ -1,10 +1,10 @@
 //! What many runs come to, side by side and on all threads.
 
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
+use crate::analysis::threads::in_parallel;
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
-use rayon::prelude::*;
 
 /// Items that a thread takes at a time at most.
 const MOST_AT_ONCE: usize = 512;
@@ -28,15 +28,12 @@ pub fn on_all_threads<I: Sync, R: Send, E: Send>(
     let (count, threads) = (items.len(), rayon::current_num_threads());
     let fewest = count.div_ceil(MOST_AT_ONCE).max(count.min(threads));
     let parts = count.div_ceil(FULL).min(TURNS * threads).max(fewest);
-    let done: Vec<Vec<R>> = (0..parts)
-        .into_par_iter()
-        .map(|part| {
-            let mine: Vec<&I> = items.iter().skip(part).step_by(parts).collect();
-            let made = work(&mine)?;
-            assert_eq!(made.len(), mine.len(), "every item has one result");
-            Ok(made)
-        })
-        .collect::<Result<_, E>>()?;
+    let done = in_parallel(parts, |part| {
+        let mine: Vec<&I> = items.iter().skip(part).step_by(parts).collect();
+        let made = work(&mine)?;
+        assert_eq!(made.len(), mine.len(), "every item has one result");
+        Ok(made)
+    })?;
     let mut lists: Vec<_> = done.into_iter().map(Vec::into_iter).collect();
     let all = (0..count).filter_map(|k| lists[k % parts].next());
     Ok(all.collect())

@@ -7,7 +7,7 @@ use crate::claims::runs::{
     outcome, past_settling, places, run, shapes_under, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use rayon::prelude::*;
+use snapload::analysis::in_parallel;
 use snapload::{Case, CaseError, Outcome, Parameters, State, Stop, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
@@ -111,11 +111,11 @@ fn little_energy(tabled: &Tabled) -> Judged {
     let settled: Vec<_> = own
         .filter(|(_, run)| run.end().reason == Stop::Settled)
         .collect();
-    let on = settled.par_iter().map(|(code, run)| {
+    let on = in_parallel(settled.len(), |k| {
+        let (code, run) = settled[k];
         let (low, words) = gone_on(code, case(tabled.study, code)?.parameters, run)?;
-        Ok((low, words, run.system().energy(&run.end().state)))
-    });
-    let on: Vec<(Verdict, String, f64)> = on.collect::<Result<_, ReportError>>()?;
+        Ok::<_, ReportError>((low, words, run.system().energy(&run.end().state)))
+    })?;
     let with = |verdict| on.iter().filter(move |case| case.0 == verdict);
     let high = || with(Verdict::NotReproduced);
     let words: Vec<&str> = high().map(|case| &*case.1).collect();

@@ -5,8 +5,7 @@ use crate::claims::numbers::{max, min, spearman};
 use crate::claims::runs::{NEVER, SAME, chapter, each, ensemble, outcome, shown};
 use crate::claims::verdict::Verdict;
 use crate::study::{CriticalRow, Study, first_exceeding};
-use rayon::prelude::*;
-use snapload::analysis::ForceScan;
+use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Stop, natural_inertia};
 
 /// Neighbours of an entry.
@@ -105,8 +104,7 @@ pub(super) struct Table<'a> {
 
 impl<'a> Table<'a> {
     pub(super) fn new(study: &'a Study) -> Result<Self, CaseError> {
-        let entries = study.critical.par_iter().map(Entry::new);
-        let entries: Vec<Entry> = entries.collect::<Result<_, _>>()?;
+        let entries = in_parallel(study.critical.len(), |k| Entry::new(&study.critical[k]))?;
         let of_start = |k| entries.iter().filter_map(|e| e.critical().nth(k)).collect();
         Ok(Self {
             columns: (0..=NEIGHBOURS).map(of_start).collect(),
