@@ -4,7 +4,7 @@ use crate::common::distance;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
-    Case, Forcing, Harmonic, Parameters, Playback, Rules, Simulation, State, Stop, System, TautSet,
+    Case, Forcing, Harmonic, Parameters, Playback, Rules, Simulation, State, Stop, System,
     Trajectory, natural_inertia,
 };
 
