@@ -1,5 +1,6 @@
 //! Where the areas of a map come to lie on paper, and in which shades.
 
+use crate::paper::Paper;
 use snapload_figures::{Axis, Cell, Layer, Map, Plot, Range, Width, draw};
 
 /// The colours and places of the areas of a map of values, in the order in which they are drawn.

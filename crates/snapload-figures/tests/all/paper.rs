@@ -13,7 +13,7 @@ const ROUNDING: f64 = 0.01;
 const RANGES: [f64; 2] = [200.0, 100.0];
 
 /// What is read from a picture.
-struct Paper {
+pub(crate) struct Paper {
     /// Left, top, width and height of the frame.
     frame: [f64; 4],
     /// The pieces of the lines of the data.
@@ -22,11 +22,11 @@ struct Paper {
     ticks: Vec<Vec<Point>>,
     /// The words at the ends of y ticks, from low to high, and other small words.
     numbers: Vec<String>,
-    words: Vec<String>,
+    pub(crate) words: Vec<String>,
 }
 
 impl Paper {
-    fn of(plot: Plot) -> Self {
+    pub(crate) fn of(plot: Plot) -> Self {
         let picture = draw("test", Width::Column, &[plot]).expect("one panel can be drawn");
         let document = roxmltree::Document::parse(picture.svg()).expect("the picture is XML");
         let nodes = |name: &'static str| {

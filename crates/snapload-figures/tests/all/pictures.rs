@@ -370,7 +370,7 @@ fn letters_reach_the_pixels() {
         let mut reader = png::Decoder::new(std::io::Cursor::new(png))
             .read_info()
             .expect("a PNG");
-        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        let mut pixels = vec![0; reader.output_buffer_size()];
         reader.next_frame(&mut pixels).expect("pixels");
         pixels
             .chunks(3)
