@@ -18,8 +18,8 @@ use snapload::analysis::{
 use snapload::{CaseError, ModeInterval, Playback, Value};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, MOST_ROWS, MOTION, MotionRow, NormsRow, OutcomeRow, Report, Sampling,
-    ShareRow, TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
+    CaseEcho, EndRow, MOTION, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
+    TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -129,13 +129,8 @@ impl Run {
 impl Run {
     fn sampling(&self, dt: f64) -> PyResult<Sampling> {
         let end = self.trusted.run.end().t;
-        let right = dt > 0.0 && dt.is_finite();
-        right.then(|| Sampling::every(dt, end)).flatten().ok_or_else(|| {
-            let least = end / (MOST_ROWS - 1) as f64 * 1.05;
-            PyValueError::new_err(format!(
-                "dt = {dt:?} is not allowed; allowed: a number above 0 that gives no more than 10,000,000 rows \
-                 for this run, which ends at t = {end}: {least:.1e} or above"
-            ))
+        Sampling::every(dt, end).map_err(|allowed| {
+            PyValueError::new_err(format!("dt = {dt:?} is not allowed; allowed: {allowed}"))
         })
     }
 

@@ -5,7 +5,7 @@ use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use snapload::{KEYS, Kind, Parameters};
-use snapload::{named_cases as all_named_cases, series_of, title_of};
+use snapload::{named_cases as all_named_cases, title_of};
 
 /// Every key of a case, in its order: name, symbol, unit, meaning, type, what is allowed, default.
 #[pyfunction]
@@ -69,14 +69,8 @@ pub(crate) fn named_case(code: &str) -> PyResult<Case> {
 #[pyfunction]
 pub(crate) fn named_cases() -> PyResult<Vec<(&'static str, String, Case)>> {
     let cases = all_named_cases().map(|named| {
-        let series: Vec<&str> = series_of(named.code).collect();
-        let about = if series.is_empty() {
-            named.about.to_owned()
-        } else {
-            series.join(", ")
-        };
         let case = Case::new(named.code.to_owned(), named.entries()).map_err(of_case)?;
-        Ok((named.code, about, case))
+        Ok((named.code, named.origin(), case))
     });
     cases.collect()
 }

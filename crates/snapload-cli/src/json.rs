@@ -3,6 +3,7 @@ use crate::failure::Failure;
 use crate::stage::{Room, Stage};
 use serde::Serialize;
 use snapload_report::write_json;
+use snapload_study::parent_of;
 use std::fs::OpenOptions;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -34,10 +35,7 @@ impl Json {
         if path.exists() && !path.is_file() {
             return Ok(Self::Device(path));
         }
-        let parent = path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        let room = stage.open(parent.unwrap_or(Path::new(".")))?;
+        let room = stage.open(parent_of(&path))?;
         Ok(Self::File(room, path))
     }
 
@@ -79,10 +77,7 @@ impl Json {
 #[cfg(feature = "structure")]
 pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
     refuse_directory(path)?;
-    let parent = path
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty());
-    stage.create_and_open(parent.unwrap_or(Path::new(".")))
+    stage.create_and_open(parent_of(path))
 }
 
 /// Says so where a file is to be written and a directory stands.

@@ -4,8 +4,8 @@ use crate::failure::print;
 use crate::stage::Stage;
 use crate::study_picture::PictureArgs;
 use crate::sweep::summary;
-use snapload_study::{identity_of, merge};
-use std::path::{Path, PathBuf};
+use snapload_study::{identity_of, merge, parent_of};
+use std::path::PathBuf;
 
 /// Which parts, and where the whole goes.
 #[derive(clap::Args)]
@@ -36,11 +36,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         args.picture.check(&identity.study)?;
     }
     let mut stage = Stage::default();
-    let parent = args
-        .out
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty());
-    let room = stage.open(parent.unwrap_or(Path::new(".")))?;
+    let room = stage.open(parent_of(&args.out))?;
     stage.place(room, args.out.clone(), |scratch| {
         Ok(merge(&args.parts, scratch)?)
     })?;

@@ -8,9 +8,7 @@ use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
 use snapload::analysis::{DEFAULT_MEMBERS, Progress};
 use snapload::{Case, Trajectory};
-use snapload_report::{
-    MOST_ROWS, Report, Sampling, Trusted, case_in_words, summary, tables, write_json,
-};
+use snapload_report::{Report, Sampling, Trusted, case_in_words, summary, tables, write_json};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -102,13 +100,9 @@ fn step(text: &str) -> Result<f64, &'static str> {
 }
 
 fn sampling(dt: f64, trajectory: &Trajectory) -> Result<Sampling, Failure> {
-    let end = trajectory.end().t;
-    Sampling::every(dt, end).ok_or_else(|| {
-        let least = end / (MOST_ROWS - 1) as f64;
+    Sampling::every(dt, trajectory.end().t).map_err(|allowed| {
         Failure::BadInput(format!(
-            "--sample {dt:e} gives more than 10,000,000 rows for this run, which ends at t = {end}; \
-             allowed is {least:.1e} or above",
-            least = least * 1.05,
+            "--sample {dt:e} is not allowed; allowed: {allowed}"
         ))
     })
 }

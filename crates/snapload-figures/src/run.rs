@@ -139,11 +139,11 @@ impl<'a> RunPlots<'a> {
     fn trajectory(&self) -> Plot {
         let mode_of = |stretch: &Stretch| {
             let begins = stretch.motion.first().map_or(0.0, |motion| motion.t);
-            match stretch.taut.len() {
+            match stretch.taut.mode() {
                 _ if self.horizon.is_some_and(|horizon| begins >= horizon) => Mode::BeyondHorizon,
-                0 => Mode::Slack,
-                1 => Mode::Sliding,
-                _ => Mode::Rocking,
+                snapload::Mode::Slack => Mode::Slack,
+                snapload::Mode::Sliding => Mode::Sliding,
+                snapload::Mode::Rocking => Mode::Rocking,
             }
         };
         let same = |a: &Stretch, b: &Stretch| mode_of(a) == mode_of(b);

@@ -15,7 +15,7 @@ mod verified;
 pub use case_file::{case_file, python_lines, shell_line};
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
-pub use motion::{MOST_ROWS, MOTION, MotionRow, Sampling};
+pub use motion::{MOTION, MotionRow, Sampling};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use summary::{case_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};

@@ -18,14 +18,24 @@ pub struct Sampling {
 }
 
 /// The most rows of a sampled motion.
-pub const MOST_ROWS: u64 = 10_000_000;
+const MOST_ROWS: u64 = 10_000_000;
 
 impl Sampling {
-    /// Steps of `dt`; none if they would give too many rows.
-    pub fn every(dt: f64, end: f64) -> Option<Self> {
+    /// Steps of `dt`.
+    ///
+    /// # Errors
+    /// What is allowed, if they are none or would give too many rows.
+    pub fn every(dt: f64, end: f64) -> Result<Self, String> {
         let most = MOST_ROWS - 1;
         // Rounding may keep the last multiple below the end, so what is counted is the exact test.
-        ((most as f64) * dt >= end).then_some(Self { dt, most, end })
+        if dt > 0.0 && dt.is_finite() && most as f64 * dt >= end {
+            return Ok(Self { dt, most, end });
+        }
+        let least = end / most as f64 * 1.05;
+        Err(format!(
+            "a number above 0 that gives no more than {MOST_ROWS} rows for this run, which ends at \
+             t = {end}: {least:.1e} or above"
+        ))
     }
 
     /// A thousand equal steps.

@@ -26,6 +26,13 @@ pub(crate) const TYPES: &[&str] =
 /// The grades of chain.
 pub(crate) const GRADES: &[&str] = &[CHAINS[0].0, CHAINS[1].0, CHAINS[2].0];
 
+/// Whether a type of line is a chain, whose strength follows from a grade.
+pub(crate) fn is_chain(kind: &str) -> bool {
+    LINES
+        .iter()
+        .any(|(name, .., strength)| *name == kind && strength.is_none())
+}
+
 /// What one metre of a line is like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {

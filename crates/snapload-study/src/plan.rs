@@ -42,7 +42,7 @@ impl Axis {
     /// [`StudyError::Input`] if the text is no range, and as for [`Axis::even`].
     pub fn written(key: &str, text: &str) -> Result<Self, StudyError> {
         key_named(key)?;
-        let wrong = |what: &str| wrong_range(key, text, what);
+        let wrong = |what: &str| wrong_range(key, text, what, GRID);
         let parts: Vec<&str> = text.split(':').map(str::trim).collect();
         let [first, last, count] = parts[..] else {
             return Err(wrong("three numbers are needed"));
@@ -111,11 +111,13 @@ impl fmt::Display for Axis {
     }
 }
 
+/// How one writes a grid, and a side of a box.
+const GRID: &str = "first:last:n for n evenly spaced values, such as 0.01:0.6:60";
+const SIDE: &str = "low:high for the side of a box, such as 0.05:0.6";
+
 /// What a key may vary over, for whoever wrote something else.
-fn wrong_range(key: &str, text: &str, what: &str) -> StudyError {
-    StudyError::Input(format!(
-        "{key} = {text:?}: {what}; write first:last:n for n evenly spaced values, such as 0.01:0.6:60"
-    ))
+fn wrong_range(key: &str, text: &str, what: &str, form: &str) -> StudyError {
+    StudyError::Input(format!("{key} = {text:?}: {what}; write {form}"))
 }
 
 /// One side of a box of random points.
@@ -156,11 +158,11 @@ impl Side {
         let ends: Vec<&str> = text.split(':').map(str::trim).collect();
         let number = |end: &str| {
             let number = end.parse().ok().filter(|n: &f64| n.is_finite());
-            number.ok_or_else(|| wrong_range(key, end, "not a number"))
+            number.ok_or_else(|| wrong_range(key, end, "not a number", SIDE))
         };
         match ends[..] {
             [low, high] | [low, high, _] => Self::new(key, number(low)?, number(high)?),
-            _ => Err(wrong_range(key, text, "two numbers are needed, low:high")),
+            _ => Err(wrong_range(key, text, "two numbers are needed", SIDE)),
         }
     }
 
@@ -213,13 +215,10 @@ impl Plan {
     /// [`StudyError::Input`] for a key with two axes, and for too many cases.
     pub fn grid(axes: Vec<Axis>) -> Result<Self, StudyError> {
         once(axes.iter().map(Axis::key))?;
-        let count = axes
-            .iter()
-            .try_fold(1_u64, |product, axis| product.checked_mul(axis.count()));
-        match count {
-            Some(count) if count <= MOST_CASES => Ok(Self::Grid(axes)),
-            _ => Err(too_many()),
-        }
+        let counts = axes.iter().map(Axis::count);
+        let count = counts.fold(1_u64, u64::saturating_mul);
+        check_count(count)?;
+        Ok(Self::Grid(axes))
     }
 
     /// Random points.
@@ -235,9 +234,7 @@ impl Plan {
                 sides.len()
             ))
         })?;
-        if !(1..=MOST_CASES).contains(&count) {
-            return Err(too_many());
-        }
+        check_count(count)?;
         Ok(Self::Random {
             sides,
             points,
@@ -295,6 +292,13 @@ fn once(keys: impl Iterator<Item = &'static str>) -> Result<(), StudyError> {
     Ok(())
 }
 
-fn too_many() -> StudyError {
-    StudyError::Input(format!("a study has from 1 to {MOST_CASES:e} cases"))
+/// That a study has a case, and not too many.
+fn check_count(count: u64) -> Result<(), StudyError> {
+    if (1..=MOST_CASES).contains(&count) {
+        return Ok(());
+    }
+    Err(StudyError::Input(format!(
+        "{count} cases were asked for; allowed: from 1 to {MOST_CASES:e}; vary fewer values of a \
+         key, or another number of points"
+    )))
 }

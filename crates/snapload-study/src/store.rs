@@ -272,15 +272,19 @@ fn describe(identity: &Identity) -> String {
     )
 }
 
+/// The folder that a file's path names, there or not: `.` where it names none.
+pub fn parent_of(file: &Path) -> &Path {
+    let parent = file.parent();
+    let named = parent.filter(|parent| !parent.as_os_str().is_empty());
+    named.unwrap_or(Path::new("."))
+}
+
 /// The folder in which a file is to be.
 ///
 /// # Errors
 /// [`StudyError::Input`] if there is none.
 pub fn folder_of(file: &Path) -> Result<&Path, StudyError> {
-    let parent = file
-        .parent()
-        .filter(|parent| !parent.as_os_str().is_empty());
-    let folder = parent.unwrap_or(Path::new("."));
+    let folder = parent_of(file);
     if folder.is_dir() {
         return Ok(folder);
     }
@@ -325,10 +329,7 @@ fn place(scratch: &Path, path: &Path) -> io::Result<()> {
     fs::rename(scratch, path)?;
     #[cfg(unix)]
     {
-        let parent = path
-            .parent()
-            .filter(|parent| !parent.as_os_str().is_empty());
-        File::open(parent.unwrap_or(Path::new(".")))?.sync_all()?;
+        File::open(parent_of(path))?.sync_all()?;
     }
     Ok(())
 }

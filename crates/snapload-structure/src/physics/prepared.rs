@@ -88,7 +88,7 @@ impl Prepared {
                 stop: Stop::UpperBound,
                 ..
             } => "a body above the floor".to_owned(),
-            _ => "a start that can be computed".to_owned(),
+            _ => error.to_string(),
         };
         CaseError::value("run.start", format!("[{x}, {z}]"), allowed)
             .with_hint("leave start out to begin at rest in still water")

@@ -71,6 +71,11 @@ impl Snap {
     pub fn counts(&self) -> bool {
         self.effective_speed_m_s >= SLOWEST_M_S
     }
+
+    /// Whether it is judged: a load that comes after the transient.
+    pub fn is_judged(&self, transient_s: f64) -> bool {
+        self.counts() && self.t_s >= transient_s
+    }
 }
 
 /// Lines are counted from 1 for readers, as in a case.
@@ -101,7 +106,7 @@ pub fn snaps(
     impacts: &[Impact],
     held: impl Fn(usize) -> Option<f64>,
 ) -> Vec<Snap> {
-    let stopping = |impact: &Impact| impact.impulse / (1.0 + prepared.model.system.restitution);
+    let stopping = |impact: &Impact| prepared.model.system.without_rebound(impact.impulse);
     let closing = impacts.iter().map(|i| 0.5 * stopping(i) * i.v_n).sum();
     let one = |impact: &Impact| {
         snap(

@@ -102,7 +102,7 @@ impl Assessment {
     pub fn judged(&self) -> impl Iterator<Item = &Snap> {
         let transient_s = self.prepared.structure.transient_s;
         let snaps = self.snaps.iter();
-        snaps.filter(move |snap| snap.counts() && snap.t_s >= transient_s)
+        snaps.filter(move |snap| snap.is_judged(transient_s))
     }
 
     /// The extremes of the place of the centre \[m\]: `[[x, x], [z, z]]`.

@@ -119,10 +119,7 @@ impl<'a> Tally<'a> {
             }
         }
         let snaps = snaps_of_step(self.prepared, simulation, step);
-        for snap in snaps
-            .iter()
-            .filter(|snap| snap.counts() && snap.t_s >= transient_s)
-        {
+        for snap in snaps.iter().filter(|snap| snap.is_judged(transient_s)) {
             self.count(snap);
         }
         snaps

@@ -1,6 +1,6 @@
 //! How a structure comes out of the keys of a case.
 
-use crate::catalogue::{Section, section};
+use crate::catalogue::{GRADES, Section, is_chain, section};
 use crate::schema::STRUCTURE;
 use crate::structure::{
     BodySi, IrregularSea, LineSi, Outline, Site, SpectrumShape, Structure, THREE_HOURS_S, Water,
@@ -176,13 +176,13 @@ fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>,
         }
         (Some(kind), Some(diameter)) => (kind, diameter),
     };
-    let is_chain = kind.ends_with("chain");
+    let is_chain = is_chain(&kind);
     if grade.is_some() && !is_chain {
         return Err(fields.refuse("grade", "(given)", "no grade, as the line is not a chain"));
     }
     let section = section(&kind, diameter, grade.as_deref());
     let grade = match is_chain {
-        true => format!(" {}", grade.as_deref().unwrap_or("R3")),
+        true => format!(" {}", grade.as_deref().unwrap_or(GRADES[0])),
         false => String::new(),
     };
     Ok(Some((

@@ -34,18 +34,14 @@ pub const DEFAULT_CLOUD: f64 = 1e-12;
 pub const DEFAULT_MEMBERS: u32 = 1000;
 
 /// A member outside what is legal, such as one whose cable would have to be longer, is drawn again
-/// so often.
+/// at most this often.
 const DRAWS: usize = 1000;
 
 impl Ensemble {
     /// About a case, within what is in doubt of it; where nothing is, within [`DEFAULT_CLOUD`].
     pub fn about(case: &Case, uncertainty: &Uncertainty, count: u32, seed: u64) -> Self {
         let mut uncertainty = uncertainty.clone();
-        for (size, key) in uncertainty.start.iter_mut().zip(START_KEYS) {
-            if !case.parameters().moves_by(key) {
-                *size = 0.0;
-            }
-        }
+        uncertainty.start = uncertainty.of_start_of(case.parameters());
         if uncertainty.start == [0.0; 6] && uncertainty.keys.is_empty() {
             uncertainty.start = [DEFAULT_CLOUD; 6];
         }
@@ -96,8 +92,7 @@ impl Ensemble {
             let side = (generator.next_u64() >> 11) as f64 * (2.0 / (1u64 << 53) as f64) - 1.0;
             value + size * side
         });
-        let follows = base.inertia.is_some() && base.inertia == natural_inertia(base.a, base.b);
-        if follows && self.size_of("inertia") == 0.0 {
+        if base.inertia_follows() && self.size_of("inertia") == 0.0 {
             let inertia = natural_inertia(drawn.a, drawn.b);
             Parameters { inertia, ..drawn }
         } else {

@@ -1,6 +1,6 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
-use crate::motion::step_map::{Block, StepMap};
+use crate::motion::step_map::{Block, StepMap, dot6};
 
 /// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani,
 /// Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their
@@ -49,12 +49,12 @@ impl Frame {
             let (done, rest) = columns.split_at_mut(i);
             let direction = &mut rest[0];
             for earlier in done {
-                let along = dot(earlier, direction);
+                let along = dot6(earlier, direction);
                 for (component, other) in direction.iter_mut().zip(earlier) {
                     *component -= along * *other;
                 }
             }
-            let length = dot(direction, direction).sqrt();
+            let length = dot6(direction, direction).sqrt();
             // A direction that the law has closed stays closed.
             let scale = if length > 0.0 { 1.0 / length } else { 0.0 };
             *direction = direction.map(|component| component * scale);
@@ -92,8 +92,4 @@ impl Default for Frame {
     fn default() -> Self {
         Self::new()
     }
-}
-
-fn dot(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

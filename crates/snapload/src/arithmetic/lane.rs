@@ -99,11 +99,6 @@ pub trait Lane:
     fn positive(self) -> Self {
         self.larger(Self::ZERO)
     }
-    /// Square.
-    #[inline(always)]
-    fn squared(self) -> Self {
-        self * self
-    }
 }
 
 /// A function of each pair of two lists.

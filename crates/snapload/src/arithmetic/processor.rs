@@ -58,7 +58,7 @@ pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
     }
 }
 
-/// Other families are compiled once: 64-bit Arm always fuses, elsewhere it is a function.
+/// Other processors need one compilation: 64-bit Arm always fuses, on the rest `mul_add` is a call.
 #[cfg(not(target_arch = "x86_64"))]
 #[inline]
 pub(crate) fn dispatch<W: Kernel>(kernel: W) -> W::Output {

@@ -78,7 +78,7 @@ impl Case {
         let p = &self.parameters;
         let mut numbers = p.map(number);
         if let (Some(inertia), Some(given)) = (p.inertia, numbers.inertia)
-            && p.inertia == natural_inertia(p.a, p.b)
+            && p.inertia_follows()
         {
             // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
             let beyond = given - T::from_decimal(inertia);
@@ -103,17 +103,9 @@ impl Outcome {
     /// none where it did not let it come to its end.
     pub fn of_while(
         case: &Case,
-        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+        watch: impl FnMut(&Simulation) -> ControlFlow<()>,
     ) -> Option<Self> {
-        let mut simulation = case.simulation();
-        let mut outcome = Self::begun(&simulation);
-        while let Some(step) = simulation.step() {
-            outcome.take(&step);
-            if watch(&simulation).is_break() {
-                return None;
-            }
-        }
-        Some(outcome.ended(&simulation))
+        Self::after_while(case.simulation(), watch)
     }
 }
 
@@ -181,7 +173,7 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
         }
         StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
-            CaseError::value("x, y, theta", place(p), "a finite start")
+            CaseError::value("x, y, theta", place(p), error.to_string())
         }
     }
 }

@@ -104,6 +104,11 @@ enum Place<'a> {
 }
 
 impl Parameters {
+    /// Whether the inertia is the natural one of the size, and so follows it.
+    pub(crate) fn inertia_follows(&self) -> bool {
+        self.inertia.is_some() && self.inertia == natural_inertia(self.a, self.b)
+    }
+
     /// The standard case of the chapter (1910001000-359), which also holds the defaults.
     pub const STANDARD: Self = Self {
         r: 1.5,

@@ -8,7 +8,7 @@ use crate::arithmetic::lane::Lane;
 use crate::arithmetic::real::Real;
 
 /// Newton's law of restitution, v⁺ = −e v⁻ of the normal velocity (docs/model.md section 5).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct ContactLaw<L> {
     /// Coefficient of restitution e, 0 ≤ e ≤ 1.
     pub(crate) restitution: L,
@@ -36,7 +36,26 @@ impl<L: Lane> ContactLaw<L> {
     }
 }
 
+impl<L: Copy> ContactLaw<L> {
+    /// What `number` makes of each number and the other law's.
+    #[inline(always)]
+    pub(crate) fn zip_with<M: Copy, U>(
+        self,
+        other: ContactLaw<M>,
+        number: impl Fn(L, M) -> U,
+    ) -> ContactLaw<U> {
+        ContactLaw {
+            restitution: number(self.restitution, other.restitution),
+        }
+    }
+}
+
 impl<T: Real> ContactLaw<T> {
+    /// The part of an impulse that takes away the closing velocity, p/(1 + e); the rest throws back.
+    pub(crate) fn without_rebound(self, impulse: T) -> T {
+        impulse / (T::ONE + self.restitution)
+    }
+
     /// The law for any normal velocity, as one of several cables: v⁺ = −e max(v⁻, 0).
     #[inline(always)]
     pub(crate) fn velocity_after(self, v_before: T) -> T {

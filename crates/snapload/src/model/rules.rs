@@ -112,6 +112,10 @@ impl Stop {
     }
 }
 
+/// Event functions that all limits together have at most: one for either side of the rotation, one
+/// for each corner below the upper bound.
+pub(crate) const LIMIT_FUNCTIONS: usize = 6;
+
 /// A limit of the motion, those first that count where several are reached at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Limit {

@@ -63,6 +63,12 @@ impl<T: Real> System<T> {
         }
     }
 
+    /// The part of an impulse that takes away the closing velocity of its cable; the rest throws the
+    /// cable back.
+    pub fn without_rebound(&self, impulse: T) -> T {
+        self.contact_law().without_rebound(impulse)
+    }
+
     /// The law of contact of its cables.
     #[inline(always)]
     pub(crate) fn contact_law(&self) -> ContactLaw<T> {

@@ -24,7 +24,7 @@ use crate::arithmetic::lane::{Lane, select_each};
 use crate::arithmetic::plane::Rotation;
 use crate::arithmetic::real::Real;
 use crate::model::cable::{Cable, Normal};
-use crate::model::contact_law::{ContactLaw, Snap};
+use crate::model::contact_law::Snap;
 use crate::model::forcing::Push;
 use crate::model::state::State;
 use crate::motion::attachment::GapJet;
@@ -218,12 +218,9 @@ fn land<L: Lane>(
     let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
     let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
     let (normal, before) = put_back(&struck, state, &rotation);
-    let contact = ContactLaw {
-        restitution: two_cables.restitution,
-    };
     let v_n = normal.velocity(&before);
     let w = normal.coupling(&normal, two_cables.inverse_inertia);
-    let Snap { impulse, v_after } = contact.snap(v_n, w);
+    let Snap { impulse, v_after } = two_cables.contact.snap(v_n, w);
     let mut after = before;
     normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
 

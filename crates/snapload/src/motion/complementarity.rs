@@ -6,8 +6,8 @@ use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 /// A pivot below this part of the largest diagonal entry marks constraints that depend on each
 /// other.
 const DEPENDENT: f64 = 1e-12;
-/// Of a body in the plane: more cables than that depend on each other, whatever rounding says of
-/// their pivots.
+/// Freedoms of a body in the plane: more cables than this always depend on each other, whatever
+/// rounding says of their pivots.
 const FREEDOMS: usize = 3;
 /// A determinant below this part of the product of the diagonal makes Cramer's rule lose digits.
 const SLANTED: f64 = 0.1;
@@ -146,13 +146,13 @@ fn eliminate_and_refine<T: Real>(
     w: impl Fn(usize, usize) -> T,
     q: &PerCable<T>,
 ) -> PerCable<T> {
-    let mut z = eliminate(set, &w, q);
+    let mut z = eliminate(set, &w, q).0;
     for _ in 0..2 {
         let mut left = [T::ZERO; MAX_CABLES];
         for i in set.iter() {
             left[i] = set.iter().fold(q[i], |sum, j| sum - w(i, j) * z[j]);
         }
-        let more = eliminate(set, &w, &left);
+        let more = eliminate(set, &w, &left).0;
         for i in set.iter() {
             z[i] += more[i];
         }
@@ -160,8 +160,13 @@ fn eliminate_and_refine<T: Real>(
     z
 }
 
-/// By elimination in the order of the cables.
-fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<T>) -> PerCable<T> {
+/// By elimination in the order of the cables; also those that do not depend on the ones before them,
+/// to which the solution is kept.
+fn eliminate<T: Real>(
+    set: TautSet,
+    w: impl Fn(usize, usize) -> T,
+    q: &PerCable<T>,
+) -> (PerCable<T>, TautSet) {
     let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
     let mut z = *q;
     let mut largest = T::ZERO;
@@ -193,7 +198,7 @@ fn eliminate<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T, q: &PerCable<
         }
         solution[k] = sum / rows[k][k];
     }
-    solution
+    (solution, kept)
 }
 
 /// Finds z ≥ 0 with W z − q ≥ 0 and z · (W z − q) = 0 over the cables of a set, by trying which of
@@ -245,27 +250,7 @@ pub(crate) fn independent<T: Real>(set: TautSet, w: impl Fn(usize, usize) -> T) 
         (.., count) if count > FREEDOMS => return false,
         _ => {}
     }
-    let mut rows = [[T::ZERO; MAX_CABLES]; MAX_CABLES];
-    for i in set.iter() {
-        for j in set.iter() {
-            rows[i][j] = w(i, j);
-        }
-    }
-    let largest = set
-        .iter()
-        .fold(T::ZERO, |largest, i| largest.max(rows[i][i]));
-    for k in set.iter() {
-        if rows[k][k] <= largest * DEPENDENT {
-            return false;
-        }
-        for i in set.iter().filter(|&i| i > k) {
-            let factor = rows[i][k] / rows[k][k];
-            for j in set.iter().filter(|&j| j >= k) {
-                rows[i][j] -= factor * rows[k][j];
-            }
-        }
-    }
-    true
+    eliminate(set, w, &[T::ZERO; MAX_CABLES]).1 == set
 }
 
 #[cfg(test)]

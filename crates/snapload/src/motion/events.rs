@@ -16,7 +16,7 @@
 //! again at once.
 
 use crate::arithmetic::real::Real;
-use crate::model::rules::{Limit, LimitSet};
+use crate::model::rules::{LIMIT_FUNCTIONS, Limit, LimitSet};
 use crate::model::taut_set::MAX_CABLES;
 
 /// An event function.
@@ -72,8 +72,11 @@ impl<T: Real> Jet<T> {
     }
 }
 
-/// Room for every function that a motion can watch.
-const MAX_WATCHES: usize = MAX_CABLES + 6;
+/// A crossing this far ahead is located by the tangent of its function: √ε of doubles.
+const NEAR: f64 = 1.5e-8;
+/// Room for every function that a motion can watch: a gap or a tension of each cable, and those of
+/// the limits.
+const MAX_WATCHES: usize = MAX_CABLES + LIMIT_FUNCTIONS;
 
 /// The jets of all watched functions at one instant.
 #[derive(Clone, Copy, Debug)]
@@ -93,11 +96,8 @@ impl<T: Real> Jets<T> {
         self.count = 0;
     }
     pub(crate) fn push(&mut self, jet: Jet<T>) {
-        debug_assert!(self.count < MAX_WATCHES);
-        if let Some(slot) = self.list.get_mut(self.count) {
-            *slot = Some(jet);
-            self.count += 1;
-        }
+        self.list[self.count] = Some(jet);
+        self.count += 1;
     }
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Jet<T>> {
         self.list[..self.count].iter().flatten()
@@ -176,9 +176,16 @@ pub(crate) fn first_crossing<T: Real>(
 }
 
 /// The crossing at hand, if a function has come within its rounding of zero, still rising.
+///
+/// It is where the tangent reaches zero, so it has to be near: within √ε of the unit of time a
+/// function bends by less than its rounding. One that rises so slowly that its tangent needs longer
+/// may turn back, or others may cross before; it counts as just below zero, and the search goes on.
 fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
+    let near = T::from_decimal(NEAR);
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
-    let touches = |jet: &&Jet<T>| jet.rate > T::ZERO && jet.value >= -jet.noise;
+    let touches = |jet: &&Jet<T>| {
+        jet.rate > T::ZERO && jet.value >= -jet.noise && -jet.value <= jet.rate * near
+    };
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
     let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
     let first = jets

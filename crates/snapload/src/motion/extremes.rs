@@ -22,9 +22,8 @@ impl<T: Real> Extremes<T> {
         }
     }
 
-    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`, |ÿ|
-    /// ≤ `y_bend` and
-    /// |θ̈| ≤ `theta_bend`. `state` tells the state within.
+    /// Takes in a stretch of motion of duration `s` from `first` to `last`, on which ÿ ≤ `up`,
+    /// |ÿ| ≤ `y_bend` and |θ̈| ≤ `theta_bend`. `state` tells the state within.
     #[inline(always)]
     pub(crate) fn cover(
         &mut self,

@@ -5,9 +5,9 @@ use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::complementarity::{independent, solve};
 
-/// Of so many cables at most every set is tried.
+/// Every subset is tried where at most this many cables are involved.
 const MOST_TRIED: usize = 6;
-/// A normal velocity below this part of the largest is the same.
+/// Normal velocities that differ by less than this part of the largest load count as equal.
 pub(crate) const SHARED: f64 = 1e-9;
 
 /// Of all impulses z ≥ 0 that act like `z` on the body, those of the least norm.
@@ -52,7 +52,7 @@ pub(crate) fn least_norm<T: Real>(
         let pulls = set.iter().all(|i| shared[i] >= T::ZERO);
         (pulls && does_the_same(&shared)).then_some(shared)
     };
-    // No set can do better than all of them, where none of all has to push.
+    // Where none of them would have to push, no part of them can do better than all.
     if let Some(shared) = share(tight) {
         return shared;
     }

@@ -1,8 +1,9 @@
 //! What a run comes to, without keeping the run.
 
-use crate::model::taut_set::{MAX_CABLES, PerCable};
+use crate::model::taut_set::{MAX_CABLES, Mode, PerCable};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::trajectory::{End, Norms};
+use std::ops::ControlFlow;
 
 /// A run in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,22 @@ impl Outcome {
         outcome.ended(&simulation)
     }
 
+    /// The same as long as `watch`, which is shown the motion after every step, lets it go on; none
+    /// where it did not let it come to its end.
+    pub(crate) fn after_while(
+        mut simulation: Simulation,
+        mut watch: impl FnMut(&Simulation) -> ControlFlow<()>,
+    ) -> Option<Self> {
+        let mut outcome = Self::begun(&simulation);
+        while let Some(step) = simulation.step() {
+            outcome.take(&step);
+            if watch(&simulation).is_break() {
+                return None;
+            }
+        }
+        Some(outcome.ended(&simulation))
+    }
+
     /// Of a motion that has just begun.
     pub(crate) fn begun(simulation: &Simulation) -> Self {
         Self {
@@ -56,10 +73,10 @@ impl Outcome {
     }
 
     pub(crate) fn take(&mut self, step: &Step) {
-        match step.taut.len() {
-            0 => {}
-            1 => self.sliding += step.t_end - step.t_start,
-            _ => self.rocking += step.t_end - step.t_start,
+        match step.taut.mode() {
+            Mode::Slack => {}
+            Mode::Sliding => self.sliding += step.t_end - step.t_start,
+            Mode::Rocking => self.rocking += step.t_end - step.t_start,
         }
         for impact in step.impacts() {
             self.norms.take(&impact);

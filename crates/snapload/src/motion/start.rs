@@ -9,6 +9,8 @@ use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, taut_next};
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::projection::{project_position, project_velocity};
+use std::cell::Cell;
+use std::fmt;
 
 /// A start's gap counts as closed within this of zero, and its normal velocity as zero
 /// (docs/model.md section 5).
@@ -33,13 +35,36 @@ pub enum StartError {
         /// Its bound.
         bound: f64,
     },
-    /// A number of the start, or of what decides the run, is not finite.
+    /// A number of the start, or of what decides the run, is not finite, or a length not positive.
     NotFinite,
     /// The coefficient of restitution is not between 0 and 1.
     Restitution,
     /// The system has more cables than [`MAX_CABLES`].
     TooManyCables,
 }
+
+impl fmt::Display for StartError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CableTooShort { cable, gap } => write!(
+                f,
+                "a start within reach of all cables; the gap of cable {} is {gap:.3e}, and at most \
+                 {START_TOLERANCE:e} is allowed",
+                cable + 1
+            ),
+            Self::BeyondLimit { stop, value, bound } => write!(
+                f,
+                "a start within the limits; {} is at {bound}, and the start is at {value}",
+                stop.name()
+            ),
+            Self::NotFinite => f.write_str("finite numbers, and lengths above 0"),
+            Self::Restitution => f.write_str("a coefficient of restitution from 0 to 1"),
+            Self::TooManyCables => write!(f, "at most {MAX_CABLES} cables"),
+        }
+    }
+}
+
+impl std::error::Error for StartError {}
 
 /// A legal start.
 pub(crate) struct Start<T> {
@@ -107,19 +132,25 @@ fn check_numbers<T: Real>(
     if system.cables.len() > MAX_CABLES {
         return Err(StartError::TooManyCables);
     }
-    let numbers = [
-        t,
-        rules.t_end,
-        system.restitution,
-        state.x,
-        state.y,
-        state.theta,
-        state.vx,
-        state.vy,
-        state.vtheta,
-    ];
-    let lengths = system.cables.iter().map(Cable::length);
-    if numbers.into_iter().chain(lengths).any(|n| !n.is_finite()) {
+    let Rules {
+        rotation_limit,
+        upper_bound,
+        settled_below,
+        sliding_above,
+        t_end,
+        max_impacts: _,
+        v_stick,
+    } = *rules;
+    let bounds = [rotation_limit, upper_bound, settled_below, sliding_above];
+    let given = bounds.into_iter().flatten();
+    let numbers = given.chain([t, t_end, v_stick]).chain(state.components());
+    let finite = Cell::new(numbers.into_iter().all(|number| number.is_finite()));
+    system.map(|number| {
+        finite.set(finite.get() && number.is_finite());
+        number
+    });
+    let positive = |cable: &Cable<T>| cable.length() > T::ZERO;
+    if !finite.get() || !system.cables.iter().all(positive) {
         return Err(StartError::NotFinite);
     }
     if !system.contact_law().is_passive() {

@@ -195,6 +195,6 @@ pub(super) fn join(w: &[f64; 6], tau: f64) -> Deviation {
     [w[0], w[1], w[2], w[3], w[4], w[5], tau]
 }
 
-pub(super) fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+pub(crate) fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

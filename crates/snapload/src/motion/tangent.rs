@@ -143,11 +143,7 @@ impl Tangent {
             return [0.0; 6];
         };
         let slope = limit.quantity(&self.system, &variables(before)).slope;
-        let climb: f64 = slope
-            .iter()
-            .zip(rate)
-            .map(|(slope, rate)| slope * rate)
-            .sum();
+        let climb = dot6(&slope, rate);
         slope.map(|slope| -slope / climb)
     }
 

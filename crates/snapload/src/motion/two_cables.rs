@@ -6,6 +6,7 @@ use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::real::Real;
 use crate::model::body::Body;
 use crate::model::cable::Cable;
+use crate::model::contact_law::ContactLaw;
 use crate::model::forcing::{Forcing, Harmonic};
 use crate::model::rules::Rules;
 use crate::model::state::State;
@@ -21,7 +22,7 @@ pub(crate) struct TwoCableSystem<L> {
     /// Length of the fairleads.
     pub(crate) reach: [L; 2],
     pub(crate) inverse_inertia: L,
-    pub(crate) restitution: L,
+    pub(crate) contact: ContactLaw<L>,
     pub(crate) constant: Vector2<L>,
     pub(crate) wave: Harmonic<L>,
     /// Bounds on the force and its derivatives.
@@ -86,7 +87,7 @@ impl<L: Copy> TwoCableSystem<L> {
             cables: zip(self.cables, other.cables, |a, b| a.zip_with(&b, number)),
             reach: zip(self.reach, other.reach, number),
             inverse_inertia: number(self.inverse_inertia, other.inverse_inertia),
-            restitution: number(self.restitution, other.restitution),
+            contact: self.contact.zip_with(other.contact, number),
             constant: self.constant.zip_with(other.constant, number),
             wave: self.wave.zip_with(&other.wave, number),
             force: zip(self.force, other.force, number),
@@ -119,7 +120,8 @@ impl<T: Real> TwoCableSystem<T> {
             cables,
             forcing,
             drag,
-            restitution,
+            // In the law of contact.
+            restitution: _,
         } = system;
         let Forcing {
             constant,
@@ -149,7 +151,7 @@ impl<T: Real> TwoCableSystem<T> {
             cables: [*first, *second],
             reach: [first.fairlead().length(), second.fairlead().length()],
             inverse_inertia: *inverse_inertia,
-            restitution: *restitution,
+            contact: system.contact_law(),
             constant: *constant,
             wave: *wave,
             force: forcing.bounds(),

@@ -31,6 +31,39 @@ fn run(system: System, t_end: f64, v_stick: f64, start: State) -> Trajectory {
     Trajectory::record(simulation.expect("a legal start"))
 }
 
+/// A mass let go below its anchor falls by g until the string is taut, also if at first it moves
+/// towards a limit so slowly that it would take years at that speed: from half of the length down
+/// in sqrt(L/g).
+#[test]
+fn a_limit_that_is_hardly_approached_hides_nothing() {
+    let start = State {
+        y: -0.5,
+        ..State::default()
+    };
+    let (length, g) = (1.0, 2.0);
+    for (rise, turn) in [(0.0, 0.0), (1e-17, 0.0), (1e-15, 0.0), (0.0, 1e-17)] {
+        let rules = Rules {
+            upper_bound: Some(-0.5 + 2e-16),
+            rotation_limit: Some(1.0),
+            ..Rules::until(3.0)
+        };
+        let start = State {
+            theta: 1.0 - 2e-16,
+            vy: rise,
+            vtheta: turn,
+            ..start
+        };
+        let system = string(length, g, 0.5);
+        let simulation = Simulation::new(system, rules, 0.0, start).expect("a legal start");
+        let run = Trajectory::record(simulation);
+        let snap = run.impacts().first().expect("it falls onto the string");
+        assert!(
+            (snap.t - (length / g).sqrt()).abs() < 1e-12,
+            "{rise:e} {turn:e}"
+        );
+    }
+}
+
 /// A mass that swings up on a string loses tension where v² = g L sin φ, φ above the horizontal.
 /// Its parabola meets the circle again at −3φ exactly, after 4 sqrt(sin φ) cos φ sqrt(L/g).
 #[test]

@@ -12,7 +12,7 @@ use crate::motion::step_map::StepMap;
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
 
-/// Whether, and why, neighbours may leave the run's sequence of events at this step. `spread` is
+/// Whether, and why, neighbours may leave the run's sequence of events at this step. `covariance` is
 /// told just before the event, at the time of the one before.
 #[inline(always)]
 pub(super) fn cause(

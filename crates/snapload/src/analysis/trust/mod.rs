@@ -59,6 +59,17 @@ impl Uncertainty {
         }
     }
 
+    /// The uncertainties of the start of a case: what it does not have can not be in doubt.
+    pub(crate) fn of_start_of(&self, parameters: &Parameters) -> [f64; 6] {
+        let mut start = self.start;
+        for (size, key) in start.iter_mut().zip(START_KEYS) {
+            if !parameters.moves_by(key) {
+                *size = 0.0;
+            }
+        }
+        start
+    }
+
     /// Sets the uncertainty of one key of a case, or of every start value where no key is named; 0
     /// takes it back.
     ///
@@ -73,7 +84,7 @@ impl Uncertainty {
         let Some(key) = key else {
             return START_KEYS.iter().try_for_each(|key| self.set(key, size));
         };
-        if START_KEYS.contains(&key) && !parameters.moves_by(key) {
+        if key_named(key).is_ok() && !parameters.moves_by(key) {
             let allowed = "no uncertainty, as this case has no such quantity";
             return Err(CaseError::value(key, Value::Number(size), allowed));
         }

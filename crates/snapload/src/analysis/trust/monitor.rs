@@ -3,7 +3,7 @@
 use crate::analysis::lyapunov::Frame;
 use crate::analysis::trust::causes::{Closing, cause, cause_at_start, may_run_out_of_time};
 use crate::analysis::trust::covariance::CovarianceFactor;
-use crate::analysis::trust::{Graze, Horizon, HorizonCause, START_KEYS, Trust, Uncertainty};
+use crate::analysis::trust::{Graze, Horizon, HorizonCause, Trust, Uncertainty};
 use crate::arithmetic::dual::Dual;
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
@@ -104,13 +104,7 @@ impl TrustMonitor {
     /// # Errors
     /// A [`CaseError`] if a key that is in doubt has no value in this case.
     pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
-        let mut start = uncertainty.start;
-        // What the case does not have can not be in doubt.
-        for (size, key) in start.iter_mut().zip(START_KEYS) {
-            if !case.parameters().moves_by(key) {
-                *size = 0.0;
-            }
-        }
+        let start = uncertainty.of_start_of(case.parameters());
         let mut monitor = Self::new(&case.simulation(), &start, uncertainty.tolerance);
         for (name, size) in &uncertainty.keys {
             monitor.keys.push(UncertainKey::new(case, name, *size)?);

@@ -12,10 +12,10 @@ use crate::motion::impact::{ImpactResult, impact};
 use crate::motion::projection::project_velocity;
 use crate::motion::simulation::{CONVERGING, Event, LastImpacts, Simulation};
 
-/// A tension below this is one that pushes, far beyond what counts as the same \[F\].
+/// A tension below this is negative beyond rounding: the cable would have to push \[F\].
 const PUSHES: f64 = -1e-7;
-/// So many halvings of a step from its middle to the first instant that is looked at after a
-/// tension was lost.
+/// After a tension is lost the motion is first looked at 2^−LATER of a step later, then at each
+/// doubling of that, up to half a step.
 const LATER: i32 = 28;
 
 impl<T: Real> Simulation<T> {

@@ -14,8 +14,8 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;
 
-/// So many equal parts a stretch is looked at in, where a bound on its highest point has to be
-/// close.
+/// Where the bound on the highest point has to be close, a stretch is looked at in this many equal
+/// parts.
 const LOOKS: usize = 64;
 
 /// The motion along a stretch.
