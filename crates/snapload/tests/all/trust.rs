@@ -328,6 +328,26 @@ fn neighbours_that_end_otherwise_leave_nothing_certain() {
     let (cause, ends) = in_doubt(&resting, "vy", 1e-2);
     assert_eq!((cause, ends), (Some(HorizonCause::Start { cable: 0 }), 2));
 
+    // One cable sticks as the other leaves, 7e-7 above the settling height.
+    let swap = [
+        ("a", 0.2),
+        ("b", 0.1),
+        ("r", 2.5),
+        ("e", 0.0),
+        ("f_o", 0.5313217643797395),
+        ("x", 0.150143),
+        ("y", 0.22384295060374992),
+        ("theta", 0.12471396914834898),
+        ("t_end", 0.9),
+    ];
+    let swap = case(swap.map(|(key, value)| number(key, value)));
+    let (cause, ends) = in_doubt(&swap, "x", 1e-5);
+    assert!(cause.is_some() && ends == 2, "{cause:?}, {ends} ends");
+
+    // The first impact comes just before the end, and for half of the neighbours after it.
+    let late = case([number("t_end", 0.4067036)]);
+    assert_eq!(in_doubt(&late, "y", 1e-6).0, Some(HorizonCause::StopRule));
+
     // Thrown up so that its highest point passes the bound by 1e-6.
     let rise = anchor_height(1.5, 0.1) - 0.1 - 0.3 + 1e-6;
     let speed = (2.0 * rise).sqrt();

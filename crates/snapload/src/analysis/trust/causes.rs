@@ -3,8 +3,9 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
-use crate::model::rules::{Limit, Stop};
+use crate::model::rules::Limit;
 use crate::motion::active_set::normal_acceleration;
+use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
 use crate::motion::step_map::StepMap;
@@ -67,7 +68,7 @@ pub(super) fn cause_at_start(
     Some(HorizonCause::Start { cable })
 }
 
-/// Whether the run stops so late that a neighbour, `met` just before the same event, may run out of
+/// Whether the event comes so late that a neighbour, `met` just before the same event, may run out of
 /// time first.
 pub(super) fn may_run_out_of_time(
     simulation: &Simulation,
@@ -75,7 +76,7 @@ pub(super) fn may_run_out_of_time(
     met: &CovarianceFactor,
 ) -> bool {
     let left = simulation.rules().t_end - step.t_end;
-    step.stop.is_some_and(|stop| stop != Stop::EndTime) && REACH * met.of_component(6) >= left
+    step.event.reached != Reached::default() && REACH * met.of_component(6) >= left
 }
 
 /// How a gap closes, just before the one impact of a step.
@@ -157,7 +158,9 @@ fn may_stop(simulation: &Simulation, step: &Step, covariance: &CovarianceFactor)
                 && simulation.largest_within(step, limit, bound - margin) + margin >= bound
         })
     });
-    let sticks = step.taut_after.len() > step.taut.len();
+    // One cable may stick as another leaves.
+    let stuck = step.event.reached.gaps.intersection(step.taut_after);
+    let sticks = step.taut_after.len() > step.taut.len() || !stuck.is_empty();
     let settles = [rules.settled_below, rules.sliding_above]
         .into_iter()
         .flatten()
