@@ -45,7 +45,7 @@ fn a_limit_that_is_hardly_approached_hides_nothing() {
         let rules = Rules {
             upper_bound: Some(-0.5 + 2e-16),
             rotation_limit: Some(1.0),
-            ..Rules::until(3.0)
+            ..Rules::until(0.75)
         };
         let start = State {
             theta: 1.0 - 2e-16,
