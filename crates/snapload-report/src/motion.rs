@@ -33,7 +33,7 @@ impl Sampling {
         }
         let least = end / most as f64 * 1.05;
         Err(format!(
-            "a number above 0 that gives no more than {MOST_ROWS} rows for this run, which ends at \
+            "a number above 0 that gives no more than {MOST_ROWS:e} rows for this run, which ends at \
              t = {end}: {least:.1e} or above"
         ))
     }

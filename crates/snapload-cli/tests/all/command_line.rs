@@ -340,7 +340,7 @@ fn bad_samples_and_places_are_refused() {
         "--sample",
         "1e-12",
     ];
-    refused(&tiny, &["--sample 1e-12", "10,000,000"]);
+    refused(&tiny, &["--sample 1e-12", "1e7 rows"]);
     refused(&["--json", "folder"], &["folder", "directory"]);
     refused(&["--json", "absent/run.json"], &["absent"]);
     refused(&["--json", ""], &["--json"]);

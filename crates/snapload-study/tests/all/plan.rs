@@ -50,7 +50,7 @@ fn slips_are_refused_in_words() {
     let twice = Plan::grid(vec![even("e", "0", "1", 2), even("e", "0", "1", 2)]);
     assert!(words(twice.unwrap_err()).contains("e varies twice"));
     let many = ["x", "y", "vx"].map(|key| even(key, "0", "1", 1_000_000));
-    assert!(words(Plan::grid(many.into()).unwrap_err()).contains("1e12 cases"));
+    assert!(words(Plan::grid(many.into()).unwrap_err()).contains("from 1 to 1e12"));
     let error = Side::new("max_impacts", 10.0, 20.0).unwrap_err();
     assert!(words(error).contains("max_impacts can not be drawn at random"));
     assert!(Plan::random(Vec::new(), 10, 0).is_err());
