@@ -113,6 +113,8 @@ mod tests {
             assert!((impulse - law.load(v) / w).abs() < 1e-15);
             assert_eq!(v_after, law.velocity_after(v));
             assert!((v - w * impulse - v_after).abs() < 1e-15);
+            // The energy lost, p (v⁻ + v⁺)/2.
+            assert!(impulse * (v + v_after) >= 0.0);
             assert_eq!((law.velocity_after(-v), law.load(-v)), (0.0, -v));
             let p = |dv: f64, dw: f64| law.snap(v + dv, w + dw).impulse;
             let difference = (p(0.4 * h, -0.9 * h) - p(-0.4 * h, 0.9 * h)) / (2.0 * h);
