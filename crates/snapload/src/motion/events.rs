@@ -183,9 +183,8 @@ pub(crate) fn first_crossing<T: Real>(
 fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
     let near = T::from_decimal(NEAR);
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
-    let touches = |jet: &&Jet<T>| {
-        jet.rate > T::ZERO && jet.value >= -jet.noise && -jet.value <= jet.rate * near
-    };
+    let rises = |jet: &&Jet<T>| jet.rate > T::ZERO && -jet.value <= jet.rate * near;
+    let touches = |jet: &&Jet<T>| rises(jet) && jet.value >= -jet.noise;
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
     let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
     let first = jets
@@ -194,7 +193,7 @@ fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
         .map(|jet| (root(jet), spread(jet)))
         .reduce(|a, b| if b.0 < a.0 { b } else { a })?;
     let mut reached = Reached::default();
-    for jet in jets.iter().filter(|jet| jet.rate > T::ZERO) {
+    for jet in jets.iter().filter(rises) {
         let same_time = t + root(jet) == t + first.0;
         if same_time || root(jet) - spread(jet) <= first.0 + first.1 {
             reached.add(jet.function);
