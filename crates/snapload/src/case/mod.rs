@@ -166,15 +166,20 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             let allowed = "-pi/2 <= theta <= pi/2, the rotation limit";
             CaseError::value("theta", Value::Number(p.theta), allowed)
         }
-        StartError::BeyondLimit { value, bound, .. } => {
+        StartError::BeyondLimit {
+            stop: Stop::UpperBound,
+            value,
+            bound,
+        } => {
             let allowed = format!(
                 "a body below the upper bound y = {bound:.6}; its highest point is at y = {value:.6}"
             );
             CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
         }
-        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
-            CaseError::value("x, y, theta", place(p), error.to_string())
-        }
+        StartError::BeyondLimit { .. }
+        | StartError::NotFinite
+        | StartError::Restitution
+        | StartError::TooManyCables => CaseError::value("x, y, theta", place(p), error.to_string()),
     }
 }
 

@@ -108,7 +108,10 @@ impl Stop {
     /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
     /// rotation limit or the upper bound (chapter 6.4.2).
     pub fn exceeds(self) -> bool {
-        matches!(self, Self::RotationLimit | Self::UpperBound)
+        match self {
+            Self::RotationLimit | Self::UpperBound => true,
+            Self::Settled | Self::SlidingStart | Self::EndTime | Self::ImpactLimit => false,
+        }
     }
 }
 
@@ -175,5 +178,29 @@ impl LimitSet {
         Limit::ALL
             .into_iter()
             .filter(move |limit| self.contains(*limit))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A variant that is added does not compile here before it has a place, and fails without one.
+    #[test]
+    fn the_lists_are_complete() {
+        let stop = |stop| match stop {
+            Stop::Settled => 0,
+            Stop::RotationLimit => 1,
+            Stop::UpperBound => 2,
+            Stop::SlidingStart => 3,
+            Stop::EndTime => 4,
+            Stop::ImpactLimit => 5,
+        };
+        assert!(Stop::ALL.into_iter().map(stop).eq(0..6));
+        let limit = |limit| match limit {
+            Limit::Rotation => 0,
+            Limit::UpperBound => 1,
+        };
+        assert!(Limit::ALL.into_iter().map(limit).eq(0..2));
     }
 }

@@ -71,6 +71,12 @@ pub(crate) struct Flying<'a, T> {
     pub(crate) force_rate: T,
 }
 
+/// Every limit has its event functions in [`Limits::in_flight`] and in [`Limits::watch_series`], which
+/// ask for each in turn. Whoever adds a limit is stopped here until it has them.
+const _: fn(Limit) = |limit| match limit {
+    Limit::Rotation | Limit::UpperBound => {}
+};
+
 impl<T: Real> Limits<T> {
     /// Those of a system under the rules of a run.
     pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Self {
