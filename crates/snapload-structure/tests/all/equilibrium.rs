@@ -1,6 +1,7 @@
 //! Where bodies rest: known places, and the conditions of a minimum for random moorings.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use snapload_structure::{Structure, equilibrium};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -94,7 +95,10 @@ fn lines_too_long_to_hold_the_body_down_are_refused_in_words() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig {
+        rng_seed: RngSeed::Fixed(1974),
+        ..ProptestConfig::with_cases(60)
+    })]
 
     /// For random moorings of two to four lines: the forces balance, slack lines carry nothing and
     /// taut ones pull, and no place near by that all lines reach lies higher.
