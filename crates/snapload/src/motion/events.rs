@@ -72,8 +72,6 @@ impl<T: Real> Jet<T> {
     }
 }
 
-/// A crossing this far ahead is located by the tangent of its function: √ε of doubles.
-const NEAR: f64 = 1.5e-8;
 /// Room for every function that a motion can watch: a gap or a tension of each cable, and those of
 /// the limits.
 const MAX_WATCHES: usize = MAX_CABLES + LIMIT_FUNCTIONS;
@@ -181,26 +179,29 @@ pub(crate) fn first_crossing<T: Real>(
 /// function bends by less than its rounding. One that rises so slowly that its tangent needs longer
 /// may turn back, or others may cross before; it counts as just below zero, and the search goes on.
 fn located<T: Real>(jets: &Jets<T>, t: T, s: T) -> Option<Crossing<T>> {
-    let near = T::from_decimal(NEAR);
+    let rises_soon = |jet: &&Jet<T>| {
+        let near = |jet: &Jet<T>| jet.value.squared() <= jet.rate.squared() * T::EPSILON;
+        jet.rate > T::ZERO && (jet.value >= T::ZERO || near(jet))
+    };
     // A contact known at the start (value and noise 0) that rises at once is located there, too.
-    let rises = |jet: &&Jet<T>| jet.rate > T::ZERO && -jet.value <= jet.rate * near;
-    let touches = |jet: &&Jet<T>| rises(jet) && jet.value >= -jet.noise;
+    let touches = |jet: &&Jet<T>| jet.value >= -jet.noise && rises_soon(jet);
     let root = |jet: &Jet<T>| s - jet.value / jet.rate;
     let spread = |jet: &Jet<T>| (jet.noise + jet.blur) / jet.rate + s * T::EPSILON;
     let first = jets
         .iter()
         .filter(touches)
-        .map(|jet| (root(jet), spread(jet)))
-        .reduce(|a, b| if b.0 < a.0 { b } else { a })?;
+        .reduce(|a, b| if root(b) < root(a) { b } else { a })?;
+    // A slow one's interval is as wide as its tangent is unsure, unless the first is as slow.
+    let comparable = |jet: &&Jet<T>| rises_soon(jet) || jet.rate * 2.0 >= first.rate;
     let mut reached = Reached::default();
-    for jet in jets.iter().filter(rises) {
-        let same_time = t + root(jet) == t + first.0;
-        if same_time || root(jet) - spread(jet) <= first.0 + first.1 {
+    for jet in jets.iter().filter(comparable) {
+        let same_time = t + root(jet) == t + root(first);
+        if same_time || root(jet) - spread(jet) <= root(first) + spread(first) {
             reached.add(jet.function);
         }
     }
     Some(Crossing {
-        s: first.0.max(T::ZERO),
+        s: root(first).max(T::ZERO),
         reached,
     })
 }
