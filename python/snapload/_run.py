@@ -94,13 +94,14 @@ class Trust:
     impact : int or None
         The number of the impact there, from 1.
     because : str or None
-        ``tolerance``, ``graze``, ``near_miss``, ``simultaneous``, ``start`` or ``stop_rule``.
+        ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``simultaneous``, ``start`` or
+        ``stop_rule``.
     tolerance : float
-        Standard deviation of time or state above which a result counts as not known.
+        Error of time or state, two standard deviations, above which a result counts as not known.
     uncertainty : dict of str to float
         What was taken to be in doubt, beside rounding.
     end_error : float or None
-        Standard deviation of the time of the end [T]; None past the horizon.
+        Error of the time of the end [T], two standard deviations; 0 at the end time; None past the horizon.
     exponents : tuple of float or None
         Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
     grazes : tuple of dict

@@ -20,8 +20,7 @@ impl Followed {
     /// [`Cancelled`] if it is to end before.
     pub fn run(case: &Case, on_progress: OnProgress) -> Result<Self, Cancelled> {
         let simulation = case.simulation();
-        let tolerance = Uncertainty::default().tolerance;
-        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], tolerance);
+        let mut monitor = TrustMonitor::of_exact_case(case);
         let run = record(simulation, on_progress, |simulation, step| {
             // Past it the run goes on by itself, three times as fast.
             if monitor.horizon().is_none() {

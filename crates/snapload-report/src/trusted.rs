@@ -156,6 +156,10 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
         HorizonCause::NearMiss { cable } => {
             format!("cable {} all but snaps there, and may in truth", cable + 1)
         }
+        HorizonCause::Sticking { cable } => format!(
+            "cable {} snaps there about as slowly as v_stick, and may stick or bounce once more",
+            cable + 1
+        ),
         HorizonCause::Simultaneous => {
             "there cables snap at one instant, in an order that decides".to_owned()
         }

@@ -110,6 +110,11 @@ impl Verified {
         );
         let tolerance = self.trusted.uncertainty.tolerance;
         let _ = match found.first_wrong {
+            Some(impact) if impact > found.impacts => writeln!(
+                text,
+                "Proven    right to {tolerance:e} at all {} impacts, and wrong at the end",
+                found.impacts
+            ),
             Some(impact) => writeln!(
                 text,
                 "Proven    wrong by more than {tolerance:e} from impact {impact} on"

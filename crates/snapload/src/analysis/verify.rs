@@ -31,7 +31,7 @@ pub struct Verification {
     /// relative to its value where that is above 1.
     pub differences: Vec<f64>,
     /// The first impact, numbered from 1, that differs by more than the tolerance, or that only one
-    /// of them has.
+    /// of them has. The end counts as the one after the last.
     pub first_wrong: Option<usize>,
     /// How the run with many digits ends; none if a cable stuck first, as the proof covers slack
     /// flight, impacts and the stop rules.
@@ -111,8 +111,12 @@ fn with_words<const WORDS: usize>(
         .into_iter()
         .flatten()
         .min();
-    if simulation.stop().is_some() && run.impacts().len() > impacts {
-        first_wrong = first_wrong.or(Some(impacts + 1));
+    if let Some(stop) = simulation.stop() {
+        let ours = run.end();
+        let alike = stop == ours.reason && relative(ours.t, simulation.time()) <= tolerance;
+        if run.impacts().len() != impacts || !alike {
+            first_wrong = first_wrong.or(Some(impacts + 1));
+        }
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,

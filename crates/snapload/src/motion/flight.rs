@@ -115,9 +115,14 @@ impl<T: Real> Flight<T> {
         (jet.value, jet.rate)
     }
 
-    /// The gap of a cable at the flight's start.
-    pub(crate) fn gap_at_start(&self, cable: usize) -> T {
-        self.attachments[cable].gap
+    /// What is known of the gap of a cable at the flight's start.
+    pub(crate) fn contact_at_start(&self, cable: usize) -> Contact<T> {
+        let attachment = &self.attachments[cable];
+        Contact {
+            gap: attachment.gap,
+            error: attachment.gap_error,
+            resting: false,
+        }
     }
 
     /// g, ġ, g̈ of a cable, with |g⃛| ≤ 2 (3 |Ṗ||P̈| + r |P⃛|) from there on.

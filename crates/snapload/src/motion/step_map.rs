@@ -142,6 +142,11 @@ impl StepMap {
         (dot6(&jump, &jump) * dot6(&self.delay, &self.delay)).sqrt()
     }
 
+    /// The derivatives of the velocities after an impact by the state before it.
+    pub(crate) fn slopes_of_law(&self) -> Option<&[[f64; 6]; 3]> {
+        self.law.as_ref()
+    }
+
     /// ż just before the event.
     pub fn rate(&self) -> &[f64; 6] {
         &self.rate

@@ -34,6 +34,9 @@ type Number = Dual<f64, 6>;
 /// length goes with the motion's own time scale; with the rule of Runge and Kutta this leaves about
 /// 1e-4 of Φ.
 const SUBSTEPS: f64 = 3.0;
+/// Near rest the motion has no time scale, but its deviations swing all the same: a step is no
+/// longer than this part of a radian of the fastest of them.
+const RADIANS: f64 = 0.25;
 
 /// The linearised motion along a run.
 #[derive(Clone, Debug)]
@@ -102,8 +105,6 @@ impl Tangent {
     #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
-        let count = (SUBSTEPS * s / simulation.expansion()).ceil().max(1.0);
-        let h = s / count;
         let jacobian = |s: f64| {
             let state = variables(&simulation.within(step, s));
             let t = Number::constant(step.t_start + s);
@@ -111,6 +112,10 @@ impl Tangent {
         };
         let mut phi = identity();
         let mut left = jacobian(0.0);
+        let pace = pace_of_deviations(&left, simulation.system().body.inertia());
+        let pace = (SUBSTEPS / simulation.expansion()).max(pace / RADIANS);
+        let count = (pace * s).ceil().max(1.0);
+        let h = s / count;
         for k in 0..count as u32 {
             let at = f64::from(k) * h;
             let (middle, right) = (jacobian(at + 0.5 * h), jacobian(at + h));
@@ -185,6 +190,21 @@ fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
 fn change(lower: &[[f64; 6]; 3], w: &[f64; 6]) -> [f64; 6] {
     let [x, y, theta] = lower.map(|row| dot6(&row, w));
     [w[3], w[4], w[5], x, y, theta]
+}
+
+/// A bound on how fast deviations swing or decay \[1/T\]: the accelerations of a unit of position and
+/// of a unit of velocity, with θ in units in which the inertia is 1.
+fn pace_of_deviations(lower: &[[f64; 6]; 3], inertia: f64) -> f64 {
+    let turn = if inertia > 0.0 { inertia.sqrt() } else { 1.0 };
+    let units = [1.0, 1.0, turn];
+    let [mut by_position, mut by_velocity] = [0.0; 2];
+    for (row, unit) in lower.iter().zip(units) {
+        for j in 0..3 {
+            by_position += (row[j] * unit / units[j]).powi(2);
+            by_velocity += (row[j + 3] * unit / units[j]).powi(2);
+        }
+    }
+    by_position.sqrt().sqrt() + by_velocity.sqrt()
 }
 
 fn identity() -> Matrix {

@@ -10,6 +10,7 @@ mod architecture;
 mod arithmetics;
 mod billiards;
 mod bouncing_ball;
+mod calibration;
 mod case_border;
 mod common;
 mod derivatives;

@@ -13,14 +13,30 @@ use crate::motion::step_map::StepMap;
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
 
-/// Whether, and why, neighbours may leave the run's sequence of events at this step. `covariance` is
-/// told just before the event, at the time of the one before.
+/// Where the neighbours of a step are just before its event.
+pub(super) struct Neighbours<'a> {
+    /// At the time of the event before.
+    pub(super) along: &'a CovarianceFactor,
+    /// Each at its own event.
+    pub(super) met: &'a CovarianceFactor,
+    /// Standard deviation of the time at which rounding lets the event be located.
+    pub(super) late: f64,
+}
+
+impl Neighbours<'_> {
+    /// Standard deviation of the time by which they have the event later or earlier.
+    fn delay(&self, map: &StepMap) -> f64 {
+        libm::hypot(self.along.along(map.delay()), self.late)
+    }
+}
+
+/// Whether, and why, neighbours may leave the run's sequence of events at this step.
 #[inline(always)]
 pub(super) fn cause(
     simulation: &Simulation,
     step: &Step,
     map: &StepMap,
-    covariance: &CovarianceFactor,
+    neighbours: &Neighbours,
     closing: Option<Closing>,
 ) -> Option<HorizonCause> {
     let struck = step.event.reached.gaps;
@@ -28,18 +44,24 @@ pub(super) fn cause(
         return Some(HorizonCause::Simultaneous);
     }
     if let Some(Closing { cable, .. }) =
-        closing.filter(|closing| may_miss(map, covariance, closing))
+        closing.filter(|closing| may_miss(map, neighbours, closing))
     {
         return Some(HorizonCause::Graze { cable });
     }
+    if let Some(Closing { cable, .. }) =
+        closing.filter(|closing| may_or_may_not_stick(simulation, step, neighbours, closing))
+    {
+        return Some(HorizonCause::Sticking { cable });
+    }
     for cable in 0..simulation.system().cables.len() {
         let known = step.event.closed.contains(cable) || step.taut.contains(cable);
-        if !known && may_snap(simulation, step, covariance, cable) {
+        if !known && may_snap(simulation, step, neighbours, cable) {
             return Some(HorizonCause::NearMiss { cable });
         }
     }
-    let may =
-        may_stop(simulation, step, covariance) || may_fall_short(simulation, step, map, covariance);
+    let may = may_stop(simulation, step, neighbours)
+        || may_fall_short(simulation, step, map, neighbours)
+        || may_run_out_of_time(simulation, step, neighbours.met);
     may.then_some(HorizonCause::StopRule)
 }
 
@@ -68,13 +90,36 @@ pub(super) fn cause_at_start(
     Some(HorizonCause::Start { cable })
 }
 
+/// Whether a run that begins at a limit, or on its cables at the settling height, may stop there
+/// and a neighbour not.
+pub(super) fn may_stop_at_start(simulation: &Simulation, covariance: &CovarianceFactor) -> bool {
+    let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
+    let near = |place: f64, margin: f64| place.abs() <= margin;
+    let limits = Limit::ALL.into_iter().any(|limit| {
+        let above = |bound: f64| limit.quantity(system, state) - bound;
+        let margin = margin(&limit.slope_bounds(system), covariance);
+        limit
+            .bound(rules)
+            .is_some_and(|bound| near(above(bound), margin))
+    });
+    let heights = [rules.settled_below, rules.sliding_above];
+    let margin = REACH * covariance.of_component(1);
+    let settles = heights
+        .into_iter()
+        .flatten()
+        .any(|height| near(state.y - height, margin));
+    limits || settles && !simulation.closed().is_empty()
+}
+
+/// How far neighbours reach in a quantity with derivatives of at most these sizes.
+fn margin(slopes: &[f64; 6], covariance: &CovarianceFactor) -> f64 {
+    let by = |i: usize| slopes[i] * REACH * covariance.of_component(i);
+    (0..6).filter(|&i| slopes[i] > 0.0).map(by).sum()
+}
+
 /// Whether the event comes so late that a neighbour, `met` just before the same event, may run out of
 /// time first.
-pub(super) fn may_run_out_of_time(
-    simulation: &Simulation,
-    step: &Step,
-    met: &CovarianceFactor,
-) -> bool {
+fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &CovarianceFactor) -> bool {
     let left = simulation.rules().t_end - step.t_end;
     step.event.reached != Reached::default() && REACH * met.of_component(6) >= left
 }
@@ -114,48 +159,79 @@ impl Closing {
 /// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in
 /// time, which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
 #[inline(always)]
-fn may_miss(map: &StepMap, covariance: &CovarianceFactor, closing: &Closing) -> bool {
+fn may_miss(map: &StepMap, neighbours: &Neighbours, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
-    alpha < 0.0 && REACH * covariance.along(map.delay()) * 2.0 * -alpha >= v_n
+    alpha < 0.0 && REACH * neighbours.delay(map) * 2.0 * -alpha >= v_n
+}
+
+/// Whether some neighbours snap slowly enough to stick and others do not: from there on their
+/// impacts have other numbers. Where the cable is not pulled on, none sticks; where nothing
+/// rebounds, all do.
+#[inline(always)]
+fn may_or_may_not_stick(
+    simulation: &Simulation,
+    step: &Step,
+    neighbours: &Neighbours,
+    closing: &Closing,
+) -> bool {
+    let (system, before) = (simulation.system(), &step.before);
+    let Closing { cable, v_n, alpha } = *closing;
+    if alpha <= 0.0 || system.restitution == 0.0 {
+        return false;
+    }
+    let off = (v_n - simulation.rules().v_stick).abs();
+    // A bound first: n has length 1 and turns by at most 1/r, and by the lever over r.
+    let tether = &system.cables[cable];
+    let reach = tether.fairlead().length();
+    let speed = before.velocity().length() + before.vtheta.abs() * reach;
+    let turns = speed * (1.0 + reach) / tether.length();
+    let sum = |i: [usize; 3]| -> f64 { i.map(|i| neighbours.met.of_component(i)).iter().sum() };
+    if off > REACH * (1.0 + reach) * (sum([3, 4, 5]) + turns * sum([0, 1, 2])) {
+        return false;
+    }
+    let (Normal { n, arm }, slopes) = tether.normal_and_slopes(before);
+    let [x, y, theta] = slopes
+        .map(|slopes| slopes[0] * before.vx + slopes[1] * before.vy + slopes[2] * before.vtheta);
+    off <= REACH * neighbours.met.along(&[x, y, theta, n.x, n.y, arm])
 }
 
 /// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its
-/// end.
+/// end, which is another instant for each neighbour.
 #[inline(always)]
-fn may_snap(
-    simulation: &Simulation,
-    step: &Step,
-    covariance: &CovarianceFactor,
-    cable: usize,
-) -> bool {
+fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable: usize) -> bool {
+    let Neighbours { along, met, .. } = neighbours;
     let tether = &simulation.system().cables[cable];
+    let reach = 2.0 * tether.length() * REACH;
     // A bound first: |n| = 1, and the arm is no longer than the lever.
     let [a, b] = tether.fairlead().components();
-    let most = 2.0 * tether.length() * REACH * covariance.at_most([1.0, 1.0, a.abs() + b.abs()]);
-    if simulation.gap(cable) <= -most && !simulation.comes_near(step, cable, most) {
+    let sizes = [1.0, 1.0, a.abs() + b.abs()];
+    let most = reach * along.at_most(sizes).max(met.at_most(sizes));
+    if simulation.contact(cable).gap <= -most && !simulation.comes_near(step, cable, most) {
         return false;
     }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
-    let margin = 2.0 * tether.length() * REACH * covariance.along(&direction);
-    simulation.gap(cable) > -margin || simulation.comes_near(step, cable, margin)
+    let margin = reach * along.along(&direction);
+    let at_end = reach * met.along(&direction);
+    simulation.contact(cable).gap > -margin.max(at_end)
+        || simulation.comes_near(step, cable, margin)
 }
 
 /// Whether neighbours may meet, or fail to meet, a stop rule where the run does not.
 #[inline(always)]
-fn may_stop(simulation: &Simulation, step: &Step, covariance: &CovarianceFactor) -> bool {
-    let rules = simulation.rules();
+fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bool {
+    let (system, rules) = (simulation.system(), simulation.rules());
     let (before, reached) = (&step.before, step.event.reached);
-    let reach = |i: usize| REACH * covariance.of_component(i);
     let exceeds = Limit::ALL.into_iter().any(|limit| {
         limit.bound(rules).is_some_and(|bound| {
-            let slopes = limit.slope_bounds(simulation.system());
-            let margin: f64 = (0..6)
-                .filter(|&i| slopes[i] > 0.0)
-                .map(|i| slopes[i] * reach(i))
-                .sum();
+            let slopes = limit.slope_bounds(system);
+            let (margin, at_end) = (
+                margin(&slopes, neighbours.along),
+                margin(&slopes, neighbours.met),
+            );
             !reached.limits.contains(limit)
-                && simulation.largest_within(step, limit, bound - margin) + margin >= bound
+                && (limit.quantity(system, before) + at_end >= bound
+                    || simulation.largest_within(step, limit, bound - margin) + margin >= bound)
         })
     });
     // One cable may stick as another leaves.
@@ -164,7 +240,11 @@ fn may_stop(simulation: &Simulation, step: &Step, covariance: &CovarianceFactor)
     let settles = [rules.settled_below, rules.sliding_above]
         .into_iter()
         .flatten()
-        .any(|height| sticks && (before.y - height).abs() <= reach(1));
+        .any(|height| {
+            let spread = |covariance: &CovarianceFactor| covariance.of_component(1);
+            let spread = spread(neighbours.along).max(spread(neighbours.met));
+            sticks && (before.y - height).abs() <= REACH * spread
+        });
     exceeds || settles
 }
 
@@ -175,7 +255,7 @@ fn may_fall_short(
     simulation: &Simulation,
     step: &Step,
     map: &StepMap,
-    covariance: &CovarianceFactor,
+    neighbours: &Neighbours,
 ) -> bool {
     let (before, reached) = (&step.before, step.event.reached);
     let Some(limit) = reached.limits.iter().next() else {
@@ -185,5 +265,5 @@ fn may_fall_short(
     let [.., x, y, theta] = *map.rate();
     let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
     slowing += delay[1] * limit.centripetal(simulation.system(), before);
-    REACH * covariance.along(delay) * 2.0 * slowing >= 1.0
+    REACH * neighbours.delay(map) * 2.0 * slowing >= 1.0
 }

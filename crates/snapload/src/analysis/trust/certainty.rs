@@ -1,7 +1,7 @@
 //! How far a run can be trusted if its values are exact, and nothing more.
 
+use crate::analysis::trust::Horizon;
 use crate::analysis::trust::monitor::TrustMonitor;
-use crate::analysis::trust::{Horizon, Uncertainty};
 use crate::case::Case;
 
 /// What rounding leaves of a run.
@@ -15,8 +15,7 @@ impl Certainty {
     /// Of a case; the run is followed as far as its horizon.
     pub fn of(case: &Case) -> Self {
         let mut simulation = case.simulation();
-        let mut monitor =
-            TrustMonitor::new(&simulation, &[0.0; 6], Uncertainty::default().tolerance);
+        let mut monitor = TrustMonitor::of_exact_case(case);
         while monitor.horizon().is_none()
             && let Some(step) = simulation.step()
         {
@@ -37,7 +36,7 @@ impl Certainty {
 mod tests {
     use super::*;
     use crate::analysis::progress::{Unfinished, unwatched};
-    use crate::analysis::trust::trusted_run;
+    use crate::analysis::trust::{Uncertainty, trusted_run};
     use crate::case::named::named_case;
 
     #[test]

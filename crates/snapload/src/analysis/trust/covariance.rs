@@ -3,7 +3,7 @@
 use crate::motion::step_map::{Block, Deviation, combined};
 
 /// How many parts the start and rounding have: as many as a deviation has components.
-const PARTS: usize = 7;
+pub(super) const PARTS: usize = 7;
 /// So many columns: one more stays zero, as eight fill a processor's registers.
 pub(super) const COLUMNS: usize = PARTS + 1;
 
@@ -49,27 +49,36 @@ impl CovarianceFactor {
         Self { parts, columns }
     }
 
-    /// Adds independent noise to the components.
-    pub(super) fn add_noise(&mut self, noise: &Deviation) {
+    /// The same with one more part, in the column that is left free for it.
+    pub(super) fn with_part(mut self, part: &Deviation) -> Self {
+        for (row, entry) in self.parts.iter_mut().zip(part) {
+            row[PARTS] = *entry;
+        }
+        self
+    }
+
+    /// Adds independent parts.
+    pub(super) fn add_parts(&mut self, more: &Block<COLUMNS>) {
         if self.is_lost() {
             return;
         }
-        // Fourteen parts, made seven again by turning them into each other (Householder's
+        // Sixteen parts, made seven again by turning them into each other (Householder's
         // reflections), which leaves the covariance as it is: component by component, all but one
-        // are rid of it. Noise of a later component can not have it.
-        let mut all = [[0.0; 2 * PARTS]; 7];
-        for (i, (row, part)) in all.iter_mut().zip(&self.parts).enumerate() {
-            row[..PARTS].copy_from_slice(&part[..PARTS]);
-            row[PARTS + i] = noise[i];
+        // are rid of it.
+        let mut all = [[0.0; 2 * COLUMNS]; 7];
+        for (row, (parts, more)) in all.iter_mut().zip(self.parts.iter().zip(more)) {
+            row[..COLUMNS].copy_from_slice(parts);
+            row[COLUMNS..].copy_from_slice(more);
         }
-        for i in 0..7 {
+        for i in 0..PARTS {
             let [pivot, below @ ..] = &mut all[i..] else {
                 break;
             };
             reflect(i, pivot, below);
         }
-        for (part, row) in self.parts.iter_mut().zip(&all) {
-            part[..PARTS].copy_from_slice(&row[..PARTS]);
+        for (parts, row) in self.parts.iter_mut().zip(&all) {
+            parts[..PARTS].copy_from_slice(&row[..PARTS]);
+            parts[PARTS] = 0.0;
         }
     }
 
@@ -119,25 +128,23 @@ impl CovarianceFactor {
     }
 }
 
-/// Turns the eight parts from the i-th on into each other, so that only the first of them has
-/// anything in row i.
-fn reflect(i: usize, pivot: &mut [f64; 2 * PARTS], below: &mut [[f64; 2 * PARTS]]) {
-    let Some(pivot) = pivot[i..].first_chunk_mut::<COLUMNS>() else {
-        return;
-    };
-    let length = dot(pivot, pivot).sqrt().copysign(-pivot[0]);
+/// Turns the parts from the i-th on into each other, so that only the first of them has anything in
+/// row i.
+fn reflect(i: usize, pivot: &mut [f64; 2 * COLUMNS], below: &mut [[f64; 2 * COLUMNS]]) {
+    let mut mirror = *pivot;
+    mirror[..i].fill(0.0);
+    let length = dot(&mirror, &mirror).sqrt().copysign(-mirror[i]);
     if length == 0.0 {
         return;
     }
-    let mut mirror = pivot.map(|component| component / length);
-    mirror[0] -= 1.0;
-    let scale = 1.0 / mirror[0];
-    *pivot = [0.0; COLUMNS];
-    pivot[0] = length;
+    for component in &mut mirror {
+        *component /= length;
+    }
+    mirror[i] -= 1.0;
+    let scale = 1.0 / mirror[i];
+    pivot[i..].fill(0.0);
+    pivot[i] = length;
     for row in below {
-        let Some(row) = row[i..].first_chunk_mut::<COLUMNS>() else {
-            return;
-        };
         let along = dot(&mirror, row) * scale;
         for (entry, m) in row.iter_mut().zip(mirror) {
             *entry += m * along;
@@ -145,13 +152,16 @@ fn reflect(i: usize, pivot: &mut [f64; 2 * PARTS], below: &mut [[f64; 2 * PARTS]
     }
 }
 
-/// Σ a_k b_k, as four sums that a processor can do at once.
-fn dot(a: &[f64; COLUMNS], b: &[f64; COLUMNS]) -> f64 {
-    let mut sums = [0.0; 4];
-    for k in 0..4 {
-        sums[k] = a[k] * b[k] + a[k + 4] * b[k + 4];
+/// Σ a_k b_k, as eight sums that a processor can do at once.
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    let mut sums = [0.0; 8];
+    for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
     }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
+    let fours = [0, 1, 2, 3].map(|k| sums[k] + sums[k + 4]);
+    (fours[0] + fours[1]) + (fours[2] + fours[3])
 }
 
 #[cfg(test)]
@@ -174,6 +184,10 @@ mod tests {
         }
     }
 
+    fn diagonal(sizes: &Deviation) -> Block<COLUMNS> {
+        CovarianceFactor::along_components(sizes).parts
+    }
+
     #[test]
     fn noise_adds_its_squares_and_nothing_else() {
         let mut covariance =
@@ -189,7 +203,7 @@ mod tests {
         });
         covariance = covariance.carried(mix, Vec::new());
         let before = squares(&covariance.parts);
-        covariance.add_noise(&noise);
+        covariance.add_parts(&diagonal(&noise));
         let after = squares(&covariance.parts);
         for (i, (before, after)) in before.iter().zip(&after).enumerate() {
             for (j, (before, after)) in before.iter().zip(after).enumerate() {
@@ -197,11 +211,11 @@ mod tests {
                 assert!((after - before - added).abs() < 1e-13, "{i} {j}");
             }
         }
-        covariance.add_noise(&[0.0; 7]);
+        covariance.add_parts(&diagonal(&[0.0; 7]));
         assert!(!covariance.is_lost());
         for size in [1e31, 1e200, f64::INFINITY, f64::NAN] {
             let mut lost = CovarianceFactor::along_components(&[size; 7]);
-            lost.add_noise(&noise);
+            lost.add_parts(&diagonal(&noise));
             assert!(lost.is_lost());
         }
     }
@@ -217,7 +231,7 @@ mod tests {
         });
         let mut covariance =
             CovarianceFactor::along_components(&[1e-9; 7]).carried(nearly_one, Vec::new());
-        covariance.add_noise(&[0.0; 7]);
+        covariance.add_parts(&diagonal(&[0.0; 7]));
         let apart = covariance.along(&[1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
         assert!((apart / 1e-21 - 1.0).abs() < 1e-3, "{apart:e}");
     }

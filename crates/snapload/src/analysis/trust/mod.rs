@@ -2,15 +2,17 @@
 //!
 //! An uncertainty of the start or of a key, and in any case the rounding of the arithmetic, is
 //! carried along the run by the linearised motion ([`crate::motion::tangent::Tangent`]) as the
-//! spread of (w, τ), the deviation of state and time told at the events. The *horizon* is the first
-//! event where the standard deviation passes a tolerance, or where neighbours within three standard
-//! deviations may have another event than the run: there the linearisation ends, and with it the
-//! knowledge of what follows.
+//! spread of (w, τ), the deviation of state and time told at the events. An *error* is two standard
+//! deviations of that: one neighbour in twenty is further off. The *horizon* is the first event
+//! where the error passes a tolerance, or where neighbours within three standard deviations may have
+//! another event than the run: there the linearisation ends, and with it the knowledge of what
+//! follows.
 
 mod causes;
 mod certainty;
 mod covariance;
 mod monitor;
+mod rounding;
 
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;
@@ -32,7 +34,7 @@ pub struct Uncertainty {
     pub start: [f64; 6],
     /// Of parameters, by name of their key.
     pub keys: Vec<(&'static str, f64)>,
-    /// A result with a larger standard deviation is not known.
+    /// A result with a larger error, which is two standard deviations, is not known.
     pub tolerance: f64,
 }
 
@@ -139,6 +141,12 @@ pub enum HorizonCause {
         /// The cable.
         cable: usize,
     },
+    /// A cable snaps about as slowly as lets it stick: a neighbour may bounce once more, or once
+    /// less.
+    Sticking {
+        /// The cable.
+        cable: usize,
+    },
     /// Several cables snap at one instant: which is first decides what follows.
     Simultaneous,
     /// The start is at the end of a cable, and a neighbour may begin slack.
@@ -157,6 +165,7 @@ impl HorizonCause {
             Self::Tolerance => "tolerance",
             Self::Graze { .. } => "graze",
             Self::NearMiss { .. } => "near_miss",
+            Self::Sticking { .. } => "sticking",
             Self::Simultaneous => "simultaneous",
             Self::Start { .. } => "start",
             Self::StopRule => "stop_rule",
@@ -190,13 +199,14 @@ pub struct Graze {
 /// How far a run can be trusted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trust {
-    /// Standard deviation at each impact: the largest of its time and of its states' components,
-    /// each relative to its value where that is above 1; infinite once neighbours may have other
-    /// events.
+    /// Error at each impact, which is two standard deviations: the largest of its time and of its
+    /// states' components, each relative to its value where that is above 1; infinite once
+    /// neighbours may have other events.
     pub errors: Vec<f64>,
     /// Where trust ends; none if the whole run can be trusted, its end included.
     pub horizon: Option<Horizon>,
-    /// Standard deviation of the time at which the run ends \[T\]; infinite past the horizon.
+    /// Error of the time at which the run ends \[T\]: nothing where that is the end of the time
+    /// asked for, infinite past the horizon.
     pub end_error: f64,
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,

@@ -1,28 +1,28 @@
 //! Follows a run and keeps account of what is known of it.
 
 use crate::analysis::lyapunov::Frame;
-use crate::analysis::trust::causes::{Closing, cause, cause_at_start, may_run_out_of_time};
+use crate::analysis::trust::causes::{
+    Closing, Neighbours, cause, cause_at_start, may_stop_at_start,
+};
 use crate::analysis::trust::covariance::CovarianceFactor;
+use crate::analysis::trust::rounding::{self, Rounding};
 use crate::analysis::trust::{Graze, Horizon, HorizonCause, Trust, Uncertainty};
 use crate::arithmetic::dual::Dual;
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::value::Value;
+use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap, combined};
 use crate::motion::tangent::Tangent;
 
+/// So many standard deviations make an error: 95 % of what is distributed normally lies within.
+const ERROR: f64 = 2.0;
+
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;
-
-/// What rounding adds in one step to a component of size 1, as standard deviation: a few
-/// operations, each off by up to ε/2, most of them on increments smaller than what they are added
-/// to.
-const ROUNDING: f64 = 0.25 * f64::EPSILON;
-/// A component is taken to be no smaller than this: it is computed from others that are not.
-const LEAST: f64 = 0.25;
 
 /// Follows a run, step by step, and says in the end how far it can be trusted.
 #[derive(Clone, Debug)]
@@ -30,6 +30,8 @@ pub struct TrustMonitor {
     tolerance: f64,
     tangent: Tangent,
     covariance: CovarianceFactor,
+    /// How many roundings the cables are off by in their direction.
+    slant: f64,
     keys: Vec<UncertainKey>,
     frame: Frame,
     errors: Vec<f64>,
@@ -73,21 +75,31 @@ impl TrustMonitor {
         let projection = tangent.of_start(simulation);
         let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
         let covariance = CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
-        let horizon = cause_at_start(simulation, &covariance).map(|cause| Horizon {
-            t: simulation.time(),
-            impact: 1,
-            cause,
-        });
+        let cause = cause_at_start(simulation, &covariance);
         let project = |block: &mut Block<_>| {
             let projected = projection.map(|row| combined(block, &row));
             block[..6].copy_from_slice(&projected);
         };
         let mut covariance = covariance.carried(project, Vec::new());
-        covariance.add_noise(&rounding(simulation.state(), simulation.time()));
+        covariance.add_parts(&rounding::of_start(
+            simulation.system(),
+            simulation.state(),
+            simulation.time(),
+            simulation.closed(),
+        ));
+        let cause = cause.or_else(|| {
+            may_stop_at_start(simulation, &covariance).then_some(HorizonCause::StopRule)
+        });
+        let horizon = cause.map(|cause| Horizon {
+            t: simulation.time(),
+            impact: 1,
+            cause,
+        });
         Self {
             tolerance,
             tangent,
             covariance,
+            slant: 1.0,
             keys: Vec::new(),
             frame: Frame::new(),
             errors: Vec::new(),
@@ -106,11 +118,20 @@ impl TrustMonitor {
     pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
         let start = uncertainty.of_start_of(case.parameters());
         let mut monitor = Self::new(&case.simulation(), &start, uncertainty.tolerance);
+        monitor.slant = rounding::slant(case);
         for (name, size) in &uncertainty.keys {
             monitor.keys.push(UncertainKey::new(case, name, *size)?);
         }
         monitor.covariance.columns = monitor.keys.iter().map(|key| key.deviation).collect();
         Ok(monitor)
+    }
+
+    /// Of a case whose values are exact, so that rounding alone is in doubt.
+    pub fn of_exact_case(case: &Case) -> Self {
+        let tolerance = Uncertainty::default().tolerance;
+        let mut monitor = Self::new(&case.simulation(), &[0.0; 6], tolerance);
+        monitor.slant = rounding::slant(case);
+        monitor
     }
 
     /// Takes in the step that `simulation` has just made.
@@ -160,20 +181,29 @@ impl TrustMonitor {
     ) -> f64 {
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(map)).collect();
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
+        let rounding = Rounding::of_step(simulation, step, map, self.slant);
         let along = self.covariance.carried(|w| map.carry_along(w), column(0));
-        if let Some(cause) = cause(simulation, step, map, &along, closing) {
+        let met = along
+            .carried(|w| map.carry_to_meet(w), column(1))
+            .with_part(&rounding.location);
+        let neighbours = Neighbours {
+            along: &along,
+            met: &met,
+            late: rounding.late,
+        };
+        if let Some(cause) = cause(simulation, step, map, &neighbours, closing) {
             self.lose(step, cause);
         }
-        let met = along.carried(|w| map.carry_to_meet(w), column(1));
-        if may_run_out_of_time(simulation, step, &met) {
-            self.lose(step, HorizonCause::StopRule);
-        }
         let mut after = met.carried(|w| map.carry_through(w), column(2));
+        after.add_parts(&rounding.parts);
         let error =
             relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
-        after.add_noise(&rounding(&step.after, step.t_end));
         self.covariance = after;
-        self.end_error = self.covariance.of_component(6);
+        self.end_error = if step.stop == Some(Stop::EndTime) {
+            0.0
+        } else {
+            ERROR * self.covariance.of_component(6)
+        };
         if error > self.tolerance || self.covariance.is_lost() {
             self.lose(step, HorizonCause::Tolerance);
         }
@@ -211,10 +241,9 @@ impl TrustMonitor {
 
     /// What there is to say, at the end of the run or wherever it has come to.
     pub fn verdict(self) -> Trust {
-        let end_error = if self.is_lost() {
-            f64::INFINITY
-        } else {
-            self.end_error
+        let end_error = match self.horizon {
+            Some(_) => f64::INFINITY,
+            None => self.end_error,
         };
         Trust {
             errors: self.errors,
@@ -270,21 +299,12 @@ impl UncertainKey {
     }
 }
 
-/// The largest standard deviation of time and state, of each relative to its value where that is
-/// above 1.
+/// The largest error of time and state, of each relative to its value where that is above 1.
 fn relative(covariance: &CovarianceFactor, state: &State, t: f64) -> f64 {
     let [x, y, theta, vx, vy, vtheta] = state.components();
     let mut largest = 0.0_f64;
     for (i, value) in [x, y, theta, vx, vy, vtheta, t].into_iter().enumerate() {
         largest = largest.max(covariance.variance(i) / (value * value).max(1.0));
     }
-    largest.sqrt()
-}
-
-/// What rounding adds to a state and its time in one step.
-fn rounding(state: &State, t: f64) -> Deviation {
-    let [x, y, theta, vx, vy, vtheta] = state
-        .components()
-        .map(|component| ROUNDING * component.abs().max(LEAST));
-    [x, y, theta, vx, vy, vtheta, ROUNDING * t]
+    ERROR * largest.sqrt()
 }

@@ -142,9 +142,32 @@ impl<T: Real> Simulation<T> {
         Cow::Owned(flight)
     }
 
-    /// The gap of a cable at the time reached.
-    pub(crate) fn gap(&self, cable: usize) -> T {
-        self.contacts[cable].gap
+    /// Whether the latest step was a bounce ([`crate::motion::bounce`]).
+    pub(crate) fn has_bounced(&self) -> bool {
+        self.bounce_start.is_some()
+    }
+
+    /// What is known of the gap of a cable at the time reached.
+    pub(crate) fn contact(&self, cable: usize) -> &Contact<T> {
+        &self.contacts[cable]
+    }
+
+    /// What was known of the gap of a slack cable at the start of the latest step; exactly 0 where
+    /// it was closed.
+    #[inline(always)]
+    pub(crate) fn contact_at_start(&self, step: &Step<T>, cable: usize) -> Contact<T> {
+        match (self.expanded(step.taut), &self.bounce_start) {
+            (Some(series), _) => series.contact(cable, T::ZERO),
+            (None, Some(from)) => {
+                let [gap, error] = from.gaps[cable];
+                Contact {
+                    gap,
+                    error,
+                    resting: false,
+                }
+            }
+            (None, None) => self.flight.contact_at_start(cable),
+        }
     }
 
     /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0
@@ -156,16 +179,12 @@ impl<T: Real> Simulation<T> {
         if s <= T::ZERO {
             return false;
         }
-        let series = self.expanded(step.taut);
-        let (bend, first) = match (series, &self.bounce_start) {
-            (Some(series), _) => (
-                series.gap_bend(cable),
-                series.gap_and_rate(cable, T::ZERO).0,
-            ),
-            (None, Some(from)) => (self.gap_bend(step, cable), from.gaps[cable][0]),
-            (None, None) => (self.gap_bend(step, cable), self.flight.gap_at_start(cable)),
+        let bend = match self.expanded(step.taut) {
+            Some(series) => series.gap_bend(cable),
+            None => self.gap_bend(step, cable),
         };
-        if first.max(self.gap(cable)) + margin + bend * s * s * 0.125 < T::ZERO {
+        let first = self.contact_at_start(step, cable).gap;
+        if first.max(self.contacts[cable].gap) + margin + bend * s * s * 0.125 < T::ZERO {
             return false;
         }
         let (offset, slope) = if first < T::ZERO {
@@ -193,14 +212,34 @@ impl<T: Real> Simulation<T> {
         (speed * speed + tether.length() * accel) * 2.0
     }
 
-    /// A bound on what a limit bounds along the latest step, close where it is above `floor`. The
-    /// rotation is the largest at an end of a flight.
+    /// A bound on what a limit bounds along the latest step, close where it is above `floor`.
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
         match limit {
-            Limit::Rotation => step.before.theta.abs(),
+            Limit::Rotation => self.farthest_turned_within(step, floor),
             Limit::UpperBound => self.highest_within(step, floor),
         }
+    }
+
+    /// A bound on |θ| along the latest step, close where it is above `floor`. In a flight it is
+    /// largest at an end.
+    #[inline(always)]
+    fn farthest_turned_within(&self, step: &Step<T>, floor: T) -> T {
+        let ends = step.start.theta.abs().max(step.before.theta.abs());
+        let Some(series) = self.expanded(step.taut) else {
+            return ends;
+        };
+        let [_, bend] = series.acceleration_bounds();
+        let s = step.t_end - step.t_start;
+        let rough = ends + bend * s * s * 0.125;
+        if rough < floor {
+            return rough;
+        }
+        let width = s / LOOKS as f64;
+        (0..=LOOKS)
+            .map(|k| series.state(width * k as f64).theta.abs())
+            .fold(ends, T::max)
+            + bend * width * width * 0.125
     }
 
     /// A bound on the highest y of the body along the latest step, close where it is above `floor`.

@@ -1,0 +1,305 @@
+//! What rounding adds to the deviation of a run in one step.
+//!
+//! Every rounding is off by anything up to half of the last place: a standard deviation of
+//! ε/√12 ≈ 0.29 ε of a number in \[1, 2), 0.25 ε on average of any. It acts in three ways.
+//!
+//! - *The event is located a little too early or too late*, where the gap as it is computed, and
+//!   not the gap, is zero: by its rounding over ġ. What is then told at the event has gone on along
+//!   its motion by that much, and snaps from there; see [`location`]. A slow snap makes
+//!   this large, as it divides by v_n.
+//! - *The law of impact* is computed from a rounded position and from rounded velocities.
+//! - *What is stored* is rounded: positions, velocities, and the time, which also is the phase of
+//!   the forcing.
+//!
+//! A cable that is closed is known to be so, and computed with a gap of exactly zero: positions are
+//! off along it and not across.
+
+use crate::analysis::trust::covariance::{COLUMNS, PARTS};
+use crate::case::Case;
+use crate::case::parameters::Parameters;
+use crate::model::cable::Normal;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::TautSet;
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::step_map::{Block, Deviation, StepMap};
+
+/// Standard deviation of a number that is rounded, relative to it.
+const ROUNDING: f64 = 0.43 * f64::EPSILON;
+
+/// What rounding does in one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rounding {
+    /// Standard deviation of the time at which the event is located.
+    pub(super) late: f64,
+    /// What that leaves, one standard deviation late, as it is told before the event's law.
+    pub(super) location: Deviation,
+    /// What else there is after the law: independent parts as columns.
+    pub(super) parts: Block<COLUMNS>,
+}
+
+impl Rounding {
+    /// Of the step that `simulation` has just made.
+    #[inline(always)]
+    pub(super) fn of_step(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Self {
+        let (late, location) = location(simulation, step, map, slant);
+        Self {
+            late,
+            location,
+            parts: stored(simulation, step, map, slant),
+        }
+    }
+}
+
+/// How many roundings the cables of a case are off by in their direction: their anchors are at the
+/// height h = √(r² − (1 − a)²), which loses digits where the cables are hardly longer than they have
+/// to be.
+pub(super) fn slant(case: &Case) -> f64 {
+    let Parameters { r, a, .. } = *case.parameters();
+    let squares = [r * r, (1.0 - a) * (1.0 - a)];
+    let h = (squares[0] - squares[1]).sqrt();
+    ((squares[0] + squares[1]) / (h * r)).max(1.0)
+}
+
+/// What rounding leaves of a start: its numbers are doubles, and not those that were meant.
+pub(super) fn of_start(system: &System, state: &State, t: f64, closed: TautSet) -> Block<COLUMNS> {
+    let sizes = state.components().map(f64::abs);
+    let mut parts = diagonal(sizes, t);
+    Constraints::of(system, state, closed, Metric::of_masses(system)).keep_parts(&mut parts, 0);
+    parts
+}
+
+/// By how much a step is late, and where it is then: gone on along its motion, and put back onto the
+/// cable that it has reached the end of.
+#[inline(always)]
+fn location(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> (f64, Deviation) {
+    let struck = step.event.reached.gaps.iter().next();
+    let s = step.t_end - step.t_start;
+    let (first, last) = (&step.start, &step.before);
+    // A gap is computed from what it was and from how far its end has moved since.
+    let place = |start: f64, end: f64| match struck {
+        Some(_) => 0.0,
+        None => start.abs().max(end.abs()),
+    };
+    let size = |start: f64, end: f64, v: f64, v_end: f64| {
+        ROUNDING * (place(start, end) + v.abs().max(v_end.abs()) * s)
+    };
+    let sizes = [
+        size(first.x, last.x, first.vx, last.vx),
+        size(first.y, last.y, first.vy, last.vy),
+        size(first.theta, last.theta, first.vtheta, last.vtheta),
+    ];
+    let mut square = 0.0;
+    for (size, delay) in sizes.iter().zip(map.delay()) {
+        square += (size * delay) * (size * delay);
+    }
+    if let Some(cable) = struck {
+        let tether = &simulation.system().cables[cable];
+        let v_n = tether.normal(last).velocity(last);
+        let contact = simulation.contact_at_start(step, cable);
+        let known = across(contact.error, tether.length()) / v_n;
+        // Where the cable leads in another direction, its end is reached elsewhere; but one that was
+        // closed at the start has its end there.
+        let reach = tether.fairlead().length();
+        let moved = if contact.gap == 0.0 {
+            s * (last.velocity().length() + last.vtheta.abs() * reach)
+        } else {
+            last.x.abs() + last.y.abs() + last.theta.abs() * reach
+        };
+        let turned = ROUNDING * (slant - 1.0) * moved / v_n;
+        square += known * known + turned * turned;
+    }
+    let late = square.sqrt();
+    let rate = map.rate().map(|rate| rate * late);
+    let [vx, vy, vtheta, ax, ay, atheta] = rate;
+    let mut place = [vx, vy, vtheta];
+    if let Some(cable) = struck {
+        let (system, metric) = (simulation.system(), Metric::of_step(simulation));
+        Constraints::of(system, last, TautSet::only(cable), metric).keep(&mut place);
+    }
+    let [x, y, theta] = place;
+    let location = [x, y, theta, ax, ay, atheta, late];
+    (late, location)
+}
+
+/// What the rounding of the law's result, and of what it is computed from, leaves.
+#[inline(always)]
+fn stored(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Block<COLUMNS> {
+    let system = simulation.system();
+    let (first, before, after) = (&step.start, &step.before, &step.after);
+    let s = step.t_end - step.t_start;
+    let speed = |state: &State| state.velocity().length();
+    let speed = speed(before).max(speed(after));
+    let spin = before.vtheta.abs().max(after.vtheta.abs());
+    let place = |now: f64, v: f64, v_end: f64| now.abs() + v.abs().max(v_end.abs()) * s;
+    let sizes = [
+        place(after.x, first.vx, before.vx),
+        place(after.y, first.vy, before.vy),
+        place(after.theta, first.vtheta, before.vtheta),
+        speed,
+        speed,
+        spin,
+    ];
+    let mut parts = diagonal(sizes, step.t_end);
+    let metric = Metric::of_step(simulation);
+    let mut constraints = Constraints::of(system, after, step.event.closed, metric);
+    constraints.keep_parts(&mut parts, 0);
+    keep_known_gap(simulation, step, &mut constraints, &mut parts);
+    Constraints::of(system, after, step.taut_after, Metric::of_masses(system))
+        .keep_parts(&mut parts, 3);
+    if let (Some(law), Some(cable)) = (map.slopes_of_law(), step.event.closed.iter().next()) {
+        // The law is told a direction that is off by a rounding, and a rotation likewise.
+        let length = 0.5 * slant * system.cables[cable].length();
+        for (row, slopes) in parts[3..6].iter_mut().zip(law) {
+            for (j, size) in [length, length, 1.0].into_iter().enumerate() {
+                row[j] += ROUNDING * size * slopes[j];
+            }
+        }
+    }
+    parts
+}
+
+/// A part for each component and for the time, which is rounded as such and as the forcing's phase.
+fn diagonal(sizes: [f64; 6], t: f64) -> Block<COLUMNS> {
+    let mut parts = [[0.0; COLUMNS]; 7];
+    for (i, size) in sizes.into_iter().enumerate() {
+        parts[i][i] = ROUNDING * size;
+    }
+    parts[6][6] = ROUNDING * std::f64::consts::SQRT_2 * t;
+    parts
+}
+
+/// Where the gap of a slack cable is known better than the positions are, as it has been carried on
+/// since the cable was closed: the displacement keeps that gap, too, but for what is not known of
+/// it. Of several cables it is the one whose gap is known best.
+#[inline(always)]
+fn keep_known_gap(
+    simulation: &Simulation,
+    step: &Step,
+    constraints: &mut Constraints,
+    parts: &mut Block<COLUMNS>,
+) {
+    let (system, after) = (simulation.system(), &step.after);
+    let slack = (0..system.cables.len()).filter(|cable| !step.event.closed.contains(*cable));
+    let known = |cable: usize| {
+        let error = simulation.contact(cable).error;
+        (cable, across(error, system.cables[cable].length()))
+    };
+    let Some((cable, size)) = slack
+        .map(known)
+        .reduce(|a, b| if b.1 < a.1 { b } else { a })
+    else {
+        return;
+    };
+    let Normal { n, arm } = system.cables[cable].normal(after);
+    let normal = [n.x, n.y, arm];
+    let mut square = 0.0;
+    for part in 0..3 {
+        let along: f64 = (0..3).map(|i| parts[i][part] * normal[i]).sum();
+        square += along * along;
+    }
+    if size * size < square
+        && let Some(left) = constraints.add(normal)
+    {
+        constraints.keep_parts(parts, 0);
+        let newest = constraints.normals[constraints.count - 1];
+        for (i, along) in newest.into_iter().enumerate() {
+            parts[i][PARTS] = constraints.metric.0[i] * along * (size / left);
+        }
+    }
+}
+
+/// Standard deviation of a place across a cable's end, of a bound on the error of its gap: g = |d|² −
+/// r² changes by 2r times it, and the bound is a sum of about eight roundings at their worst.
+fn across(error: f64, length: f64) -> f64 {
+    error / (8.0 * 2.0 * length)
+}
+
+/// By how much x, y and θ yield where a body is put back onto its cables.
+#[derive(Clone, Copy)]
+struct Metric([f64; 3]);
+
+impl Metric {
+    /// Each as a force would move it.
+    fn of_masses(system: &System) -> Self {
+        Self([1.0, 1.0, system.body.inverse_inertia()])
+    }
+
+    /// As the step that `simulation` has just made does it: a bounce does not turn the body.
+    fn of_step(simulation: &Simulation) -> Self {
+        if simulation.has_bounced() {
+            Self([1.0, 1.0, 0.0])
+        } else {
+            Self::of_masses(simulation.system())
+        }
+    }
+
+    fn product(self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
+        (0..3).map(|i| self.0[i] * a[i] * b[i]).sum()
+    }
+}
+
+/// The normals of some cables in (x, y, θ), orthonormal in a metric; three at most are independent.
+struct Constraints {
+    normals: [[f64; 3]; 3],
+    count: usize,
+    metric: Metric,
+}
+
+impl Constraints {
+    fn of(system: &System, state: &State, set: TautSet, metric: Metric) -> Self {
+        let mut all = Self {
+            normals: [[0.0; 3]; 3],
+            count: 0,
+            metric,
+        };
+        for cable in set.iter() {
+            let Normal { n, arm } = system.cables[cable].normal(state);
+            all.add([n.x, n.y, arm]);
+        }
+        all
+    }
+
+    /// Adds a normal, if it is independent of the others; returns the length of its part that is.
+    fn add(&mut self, mut normal: [f64; 3]) -> Option<f64> {
+        let whole = self.metric.product(&normal, &normal);
+        for earlier in &self.normals[..self.count] {
+            let along = self.metric.product(&normal, earlier);
+            subtract(&mut normal, earlier, along);
+        }
+        let left = self.metric.product(&normal, &normal);
+        if self.count == 3 || left <= f64::EPSILON * whole {
+            return None;
+        }
+        let left = left.sqrt();
+        self.normals[self.count] = normal.map(|component| component / left);
+        self.count += 1;
+        Some(left)
+    }
+
+    /// Moves a displacement back to where it stretches no cable of the set.
+    fn keep(&self, displacement: &mut [f64; 3]) {
+        for normal in &self.normals[..self.count] {
+            let across: f64 = (0..3).map(|i| displacement[i] * normal[i]).sum();
+            let yields = [0, 1, 2].map(|i| self.metric.0[i] * normal[i]);
+            subtract(displacement, &yields, across);
+        }
+    }
+
+    /// The same for what rounding displaces, or adds to the velocity, in the three rows from `row`.
+    fn keep_parts(&self, parts: &mut Block<COLUMNS>, row: usize) {
+        for column in row..row + 3 {
+            let mut part = [0, 1, 2].map(|i| parts[row + i][column]);
+            self.keep(&mut part);
+            for (i, entry) in part.into_iter().enumerate() {
+                parts[row + i][column] = entry;
+            }
+        }
+    }
+}
+
+fn subtract(vector: &mut [f64; 3], direction: &[f64; 3], length: f64) {
+    for (component, along) in vector.iter_mut().zip(direction) {
+        *component -= length * along;
+    }
+}
