@@ -70,6 +70,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     match Store::open(&args.out, identity, args.resume)? {
         Opened::Complete => {}
         Opened::Work(store) => {
+            if store.damaged() > 0 {
+                let (rows, out) = (store.damaged(), args.out.display());
+                say(&format!(
+                    "{rows} rows in {out}.parts were damaged, and are computed again"
+                ));
+            }
             interrupt::end_gracefully(Graceful {
                 on_first: Box::new(|| {
                     say("stopping after the cases at work; once more to stop at once");
@@ -98,7 +104,12 @@ fn go_on(error: StudyError, rows: u64) -> Failure {
             resume_command()
         )),
         StudyError::Failed(message) => Failure::Failed(format!(
-            "{message}\nhint: what was saved is safe; once there is room again, go on with\n  {}",
+            "{message}\nhint: what was saved is safe; once that is put right, go on with\n  {}",
+            resume_command()
+        )),
+        StudyError::Damaged { .. } => Failure::Failed(format!(
+            "{error}\nhint: rows came back other than they were written, again and again; have an --out on another \
+             disk, or go on here, which computes them again, with\n  {}",
             resume_command()
         )),
         other => other.into(),

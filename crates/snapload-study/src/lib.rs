@@ -5,7 +5,8 @@
 //! shards for several machines, at the point where a run was killed. [`rows()`] is the one place
 //! where cases become rows; a [`Store`] keeps each chunk as a file of its own until all are there,
 //! and then joins them. What the file holds depends on the study alone, to the byte: not on
-//! threads, chunks, shards or interruptions.
+//! threads, chunks, shards or interruptions. Each file has its checksum in it, which is checked before
+//! its rows go into another one.
 
 mod error;
 mod grid;
@@ -16,6 +17,7 @@ mod parquet_file;
 mod picture;
 mod plan;
 mod rows;
+mod seal;
 mod sobol;
 mod store;
 mod study;

@@ -2,14 +2,13 @@
 
 use crate::StudyError;
 use crate::parquet_file::{Reader as ParquetReader, Values};
+use crate::seal::Sum;
 use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 use parquet::basic::ConvertedType;
 use parquet::schema::types::Type;
-use sha2::{Digest, Sha256};
 use snapload::{CaseError, Value, key_named};
 use std::error::Error;
 use std::fs::File;
-use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -164,17 +163,9 @@ impl List {
 }
 
 fn digest(path: &Path) -> std::io::Result<String> {
-    let mut file = File::open(path)?;
-    let mut hash = Sha256::new();
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        let length = file.read(&mut buffer)?;
-        if length == 0 {
-            let bytes = hash.finalize();
-            return Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect());
-        }
-        hash.update(&buffer[..length]);
-    }
+    let mut sum = Sum::default();
+    sum.add(File::open(path)?)?;
+    Ok(sum.digits())
 }
 
 fn open_csv(path: &Path) -> csv::Result<Reader<File>> {
