@@ -10,6 +10,7 @@
 
 mod error;
 mod grid;
+mod lines;
 mod list;
 mod metadata;
 mod parquet_file;
