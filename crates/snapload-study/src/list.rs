@@ -50,7 +50,9 @@ impl List {
         let about = path.metadata().map_err(|error| input(&error))?;
         if !about.is_file() {
             // It is read more than once, from any row, and has to end.
-            return Err(input(&"a list has to be a file, which can be read more than once"));
+            return Err(input(
+                &"a list has to be a file, which can be read more than once",
+            ));
         }
         let parquet = path
             .extension()
