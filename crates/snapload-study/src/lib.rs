@@ -36,7 +36,7 @@ pub use picture::StudyPicture;
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
 pub use rows::{Row, rows};
 pub use sobol::Sobol;
-pub use store::{Opened, Store, chunk, folder_of, parent_of};
+pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
 pub use study::{Drawn, Study};
 pub use sweep::{Ending, sweep};
 pub use table::{Column, Run, Take, columns};

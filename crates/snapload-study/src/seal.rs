@@ -47,7 +47,7 @@ pub(crate) fn flaw(path: &Path) -> Option<String> {
 /// The same for bytes or a file that is open.
 pub(crate) fn flaw_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
     let Some(note) = Note::find(&mut file)? else {
-        return Ok(Some("it is damaged, or no file of this program"));
+        return Ok(Some("it is damaged, or not a file of snapload sweep"));
     };
     let whole = note.computed(&mut file)?.as_bytes() == note.there;
     Ok((!whole).then_some("it is damaged: its checksum is not that of its bytes"))

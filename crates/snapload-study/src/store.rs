@@ -53,8 +53,9 @@ impl Store {
     /// # Errors
     /// [`StudyError::Occupied`] if something else stands there, if another study was begun there,
     /// or this one was and is not to be resumed, or if another program is at work there;
-    /// [`StudyError::Input`] if there is no such folder.
+    /// [`StudyError::Input`] if there is no such folder, or the name is none of a Parquet file.
     pub fn open(target: &Path, identity: Identity, resume: bool) -> Result<Opened, StudyError> {
+        check_name(target)?;
         let mut name = OsString::from(target);
         name.push(".parts");
         let directory = PathBuf::from(name);
@@ -280,6 +281,7 @@ pub fn chunk(
 fn encode(whole: &Identity, rows: Range<u64>, made: &[Row]) -> io::Result<Vec<u8>> {
     let identity = Identity {
         rows,
+        shard: None,
         ..whole.clone()
     };
     to_bytes(&identity, made)
@@ -314,11 +316,27 @@ fn describe(identity: &Identity) -> String {
         version,
         cases,
         rows,
+        ..
     } = identity;
     format!(
         "# snapload {version}: rows {} to {} of {cases}\n{study}",
         rows.start, rows.end
     )
+}
+
+/// That the name of a file of rows does not promise something else than Parquet.
+///
+/// # Errors
+/// [`StudyError::Input`] if it has another ending.
+pub fn check_name(file: &Path) -> Result<(), StudyError> {
+    match file.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("parquet") => Err(StudyError::Input(format!(
+            "can not write {}: rows are written as Parquet, and the name says otherwise; end it in .parquet\nhint: \
+             for another format read that file, such as with pandas.read_parquet(...).to_csv(...)",
+            file.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The folder that a file's path names, there or not: `.` where it names none.

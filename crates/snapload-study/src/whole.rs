@@ -1,20 +1,24 @@
 //! Files of rows: written, joined in one pass, and read again.
 
-use crate::metadata::Identity;
+use crate::metadata::{Identity, Shard};
 use crate::parquet_file::{Holds, Reader, Values, Writer};
 use crate::seal::{blank, flaw, seal};
 use crate::table::{columns_of, fields};
-use crate::{Column, Row, StudyError, without_number};
+use crate::{Column, Row, StudyError};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::properties::WriterProperties;
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Cursor, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Rows of a row group. A constant, as the bytes of a file hang on it.
 const GROUP: usize = 1 << 16;
+
+/// So many missing parts are named.
+const MOST_NAMES: usize = 10;
 
 /// Rows as the bytes of a file of their own.
 pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>> {
@@ -142,15 +146,16 @@ pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
             return Err(StudyError::Input(words));
         }
         if identity.rows.start > next {
-            return Err(missing(next, identity.rows.start));
+            return Err(missing(next..identity.rows.start, &parts));
         }
         next = identity.rows.end;
     }
     if next < first.cases {
-        return Err(missing(next, first.cases));
+        return Err(missing(next..first.cases, &parts));
     }
     let whole = Identity {
         rows: 0..first.cases,
+        shard: None,
         ..first.clone()
     };
     let paths: Vec<PathBuf> = parts.iter().map(|(_, path)| path.to_path_buf()).collect();
@@ -163,11 +168,8 @@ pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
 /// What a part says of itself, once it is known to be as it was written.
 fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
     let shown = path.display();
-    if let Err(error) = File::open(path) {
-        let words = format!(
-            "{shown}: {}; give the files of the parts",
-            without_number(&error)
-        );
+    if File::open(path).is_err() {
+        let words = format!("{shown}: there is no such file, or it can not be read");
         return Err(StudyError::Input(words));
     }
     if let Some(why) = flaw(path) {
@@ -182,10 +184,29 @@ fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
     })
 }
 
-fn missing(from: u64, to: u64) -> StudyError {
+/// That rows are in none of the parts, and which parts these were to be in.
+fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
+    let there: Option<Vec<Shard>> = parts.iter().map(|(identity, _)| identity.shard).collect();
+    let there = there.unwrap_or_default();
+    let cases = parts.first().map_or(0, |(identity, _)| identity.cases);
+    let known = there.first().copied();
+    let absent = known.into_iter().flat_map(Shard::all);
+    let absent = absent.filter(|part| !part.rows(cases).is_empty() && !there.contains(part));
+    let mut names: Vec<String> = absent
+        .take(MOST_NAMES + 1)
+        .map(|part| part.to_string())
+        .collect();
+    if names.len() > MOST_NAMES {
+        names[MOST_NAMES] = "...".to_owned();
+    }
+    let give = match &names[..] {
+        [] => "give every part of the study".to_owned(),
+        names => format!("missing is --shard {}", names.join(", ")),
+    };
     StudyError::Input(format!(
-        "rows {from} to {} are in none of the files; give every part of the study",
-        to - 1
+        "rows {} to {} are in none of the files; {give}",
+        rows.start,
+        rows.end - 1
     ))
 }
 
