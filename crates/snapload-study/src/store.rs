@@ -215,7 +215,12 @@ impl Store {
         if let Some(range) = name.and_then(parse_chunk_name) {
             self.chunks.remove(&range.start);
         }
-        fs::remove_file(path).map_err(|error| StudyError::write(path, error))
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(StudyError::write(path, error))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Writes a file of the directory.

@@ -319,7 +319,7 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
 /// nothing if it is another file.
 ///
 /// # Errors
-/// [`StudyError::Damaged`] if the file can not be read.
+/// [`StudyError::Damaged`] if the file can not be read, or is not as it was written.
 pub fn read_all(
     path: &Path,
     mut visit: impl FnMut(Vec<Values>),
@@ -327,6 +327,9 @@ pub fn read_all(
     let Some(identity) = identity(&open(path)?) else {
         return Ok(None);
     };
+    if let Some(why) = flaw(path) {
+        return Err(StudyError::damaged(path, why));
+    }
     read_groups(path, None, |columns| {
         visit(columns);
         Ok(())

@@ -407,7 +407,6 @@ fn slips_are_refused_before_anything_is_run() {
             "holds no numbers",
         ),
         (&["--threads", "0"], "--threads"),
-        (&["--vary", "e=0:1:x", "--random", "9"], "write low:high"),
     ] {
         sweep(d.path(), args, "out.parquet")
             .code(2)

@@ -173,7 +173,11 @@ fn what_varies_is_said() {
     ] {
         vary(value, out).stderr(contains("two values").not());
     }
-    let random = [&point[..], &["f_o=0.1:0.5:7", "--random", "4"]].concat();
+    let box_of = |range| [&point[..], &[range, "--random", "4"]].concat();
+    sweep(d.path(), &box_of("f_o=0.1:0.5:x"), "d.parquet")
+        .code(2)
+        .stderr(contains("\"x\" is no number of values; write low:high"));
+    let random = box_of("f_o=0.1:0.5:7");
     sweep(d.path(), &random, "d.parquet")
         .success()
         .stdout(contains(

@@ -1,7 +1,7 @@
 //! A single bit that flips on the disk is found wherever it is.
 use crate::store::{chunk_name, complete, open, save, study, work};
 use snapload::analysis::unwatched;
-use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, merge, sweep};
+use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, merge, read_all, sweep};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -54,12 +54,21 @@ fn a_chunk_that_is_damaged_meanwhile_is_computed_again() {
         .path()
         .join("file.parts")
         .join(chunk_name(&(0..9)));
-    for at in [4, 1000] {
+    let mut store = work(&target, &study);
+    save(&mut store, &study, 0..9);
+    let bytes = fs::read(&path).unwrap();
+    drop(store);
+    // Also where it is gone altogether.
+    let damaged = damaged(&bytes).step_by(4).map(Some).chain([None]);
+    for damaged in damaged {
         let mut store = work(&target, &study);
-        save(&mut store, &study, 0..9);
-        let mut bytes = fs::read(&path).unwrap();
-        bytes[at] ^= 16;
-        fs::write(&path, bytes).unwrap();
+        if store.gap().is_some() {
+            save(&mut store, &study, 0..9);
+        }
+        match damaged {
+            Some(damaged) => fs::write(&path, damaged).unwrap(),
+            None => fs::remove_file(&path).unwrap(),
+        }
         sweep(&study, store, Ending::AfterChunk, &unwatched).unwrap();
         assert!(fs::read(&target).unwrap() == wanted);
         fs::remove_file(&target).unwrap();
@@ -96,7 +105,7 @@ fn a_damaged_part_is_refused() {
     }
 }
 
-/// A complete file is taken as it is only if it is as it was written.
+/// A complete file is read, and taken as it is, only if it is as it was written.
 #[test]
 fn a_damaged_file_is_not_complete() {
     let directory = tempfile::tempdir().unwrap();
@@ -104,6 +113,8 @@ fn a_damaged_file_is_not_complete() {
     let bytes = complete(&target, &study);
     for damaged in damaged(&bytes) {
         fs::write(&target, damaged).unwrap();
+        let read = read_all(&target, |_| {});
+        assert!(matches!(read, Err(StudyError::Damaged { .. }) | Ok(None)));
         let opened = open(&target, &study, true);
         assert!(matches!(opened, Err(StudyError::Occupied(_))));
     }
