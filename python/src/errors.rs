@@ -24,6 +24,7 @@ pub(crate) fn of_work(error: Unfinished) -> PyErr {
 pub(crate) fn of_study(error: StudyError) -> PyErr {
     match error {
         StudyError::Failed(message) => PyOSError::new_err(message),
+        StudyError::Damaged { .. } => PyOSError::new_err(error.to_string()),
         StudyError::Occupied(there) => PyValueError::new_err(there.in_words("resume=True", "out")),
         StudyError::Cancelled(cancelled) => of_work(cancelled.into()),
         other => PyValueError::new_err(other.to_string()),

@@ -124,8 +124,8 @@ impl Store {
 
     /// Joins all rows into the file.
     fn finish(&self, py: Python<'_>) -> PyResult<()> {
-        let store = self.take()?;
-        py.detach(|| store.finish()).map_err(of_study)
+        let mut store = self.take()?;
+        py.detach(move || store.finish()).map_err(of_study)
     }
 
     /// Lets go of the place; what is safe stays.

@@ -81,6 +81,7 @@ impl From<StudyError> for Failure {
     fn from(error: StudyError) -> Self {
         match error {
             StudyError::Failed(message) => Self::Failed(message),
+            StudyError::Damaged { .. } => Self::Failed(error.to_string()),
             StudyError::Cancelled(cancelled) => cancelled.into(),
             other => Self::bad_input(other),
         }

@@ -28,6 +28,7 @@ mod stage;
 mod structure_input;
 mod study_input;
 mod study_picture;
+mod study_summary;
 mod sweep;
 mod uncertainty;
 mod verify;

@@ -1,10 +1,9 @@
 //! `snapload merge`: the parts of a study, joined into the file that one run would have written.
 use crate::failure::Failure;
-use crate::failure::print;
 use crate::stage::Stage;
 use crate::study_picture::PictureArgs;
-use crate::sweep::summary;
-use snapload_study::{identity_of, merge, parent_of};
+use crate::study_summary::Summary;
+use snapload_study::{check_name, identity_of, merge, parent_of};
 use std::path::PathBuf;
 
 /// Which parts, and where the whole goes.
@@ -26,6 +25,7 @@ pub(crate) struct Args {
 
 /// Joins them.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    check_name(&args.out)?;
     if std::fs::symlink_metadata(&args.out).is_ok() {
         return Err(Failure::BadInput(format!(
             "{} is there already; choose another --out, or remove it",
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     if let Some(identity) = args.parts.first().and_then(|part| identity_of(part)) {
-        args.picture.check(&identity.study)?;
+        args.picture.check(&identity.study, false)?;
     }
     let mut stage = Stage::default();
     let room = stage.open(parent_of(&args.out))?;
@@ -43,5 +43,5 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     stage.commit()?;
     let picture = args.picture.draw(&args.out)?;
     let cases = identity_of(&args.out).map_or(0, |identity| identity.cases);
-    print(&summary(&args.out, cases, picture)?)
+    Summary::of(&args.out, cases, picture)?.tell(true)
 }

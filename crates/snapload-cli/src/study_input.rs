@@ -1,6 +1,7 @@
 //! The study that a command line asks for: a case, what varies, and how.
 use crate::case_input::{CaseArgs, begin_with};
 use crate::failure::Failure;
+use crate::interrupt::say;
 use snapload::DefaultValue::{Count, Derived, Flag};
 use snapload::{
     CASE_KEYS, CaseError, Entries, Heading, KEYS, Key, Kind, Schema, Table, Value, key_named,
@@ -210,6 +211,7 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
         Ok(known) => known.refuse(key, shown),
         Err(unknown) => unknown,
     };
+    warn_of_comma(key, values);
     let values = values.split(',');
     let values = values.map(|value| parse_value(value.trim()).map_err(refuse));
     let values = values.collect::<Result<_, CaseError>>();
@@ -217,6 +219,21 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
         key.to_owned(),
         Varied::Listed(values.map_err(|error| error.at("--vary"))?),
     ))
+}
+
+/// Says of `f_o=0,3` that it is two values, which it may be meant to be.
+fn warn_of_comma(key: &str, values: &str) {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let number = key_named(key).is_ok_and(|key| matches!(key.kind, Kind::Number { .. }));
+    let Some((whole, fraction)) = values.split_once(',').filter(|_| number) else {
+        return;
+    };
+    if digits(whole.trim_start_matches(['+', '-'])) && digits(fraction) {
+        say(&format!(
+            "--vary {key}={values} is two values, {whole} and {fraction}; if one was meant, write a point: \
+             {key}={whole}.{fraction}"
+        ));
+    }
 }
 
 fn axis(key: &str, varied: Varied) -> Result<Axis, Failure> {

@@ -4,6 +4,7 @@ use crate::stage::Stage;
 use crate::study_input::axes_of;
 use snapload_figures::PNG_SCALE;
 use snapload_study::{StudyError, StudyPicture, folder_of, identity_of};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Which picture.
@@ -18,9 +19,13 @@ pub(crate) struct PictureArgs {
 }
 
 impl PictureArgs {
-    /// Refuses what can not be drawn, before anything is computed.
-    pub(crate) fn check(&self, study: &str) -> Result<(), Failure> {
-        self.wanted(study).map(|_| ())
+    /// Refuses what can not be drawn, before anything is computed. Whoever resumes may have drawn
+    /// the picture already, so then it may be there.
+    pub(crate) fn check(&self, study: &str, resume: bool) -> Result<(), Failure> {
+        match self.wanted(study)? {
+            Some((path, _)) if !resume && is_there(path) => Err(occupied(path)),
+            _ => Ok(()),
+        }
     }
 
     fn wanted(&self, study: &str) -> Result<Option<(&Path, StudyPicture)>, Failure> {
@@ -57,12 +62,30 @@ impl PictureArgs {
             })?,
             _ => picture.svg().as_bytes().to_vec(),
         };
+        if is_there(path) {
+            return match fs::read(path) {
+                Ok(there) if there == bytes => Ok(Some(path.to_owned())),
+                _ => Err(occupied(path)),
+            };
+        }
         let mut stage = Stage::default();
         let room = stage.open(folder_of(path)?)?;
         stage.write(room, path.to_owned(), |out| out.write_all(&bytes))?;
         stage.commit()?;
         Ok(Some(path.to_owned()))
     }
+}
+
+fn is_there(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok()
+}
+
+/// A picture is no more written over than rows are.
+fn occupied(path: &Path) -> Failure {
+    Failure::BadInput(format!(
+        "--plot: {} is there already; choose another name, or remove it",
+        path.display()
+    ))
 }
 
 fn ending(path: &Path) -> Option<&str> {

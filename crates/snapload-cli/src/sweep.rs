@@ -1,15 +1,16 @@
 //! `snapload sweep`: a study, a row a case, in one Parquet file.
 use crate::bar::Bar;
-use crate::failure::{Failure, print};
+use crate::failure::Failure;
 use crate::interrupt::{self, Graceful, say};
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
+use crate::study_summary::Summary;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
-use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, Tally, ends, sweep};
-use std::fmt::Write;
+use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, sweep};
+use std::num::NonZero;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 A key varies over first:last:n, n evenly spaced values that are the decimals one would write, or over a list
@@ -30,6 +31,9 @@ Examples:
   snapload sweep study.toml --shard 3/8 --out part-3.parquet
       the third of eight parts, for one of eight machines; snapload merge joins them";
 
+/// Threads for each that the machine runs at a time: enough for whatever it says of itself.
+const MOST_THREADS: usize = 4;
+
 /// Which study, and where its rows go.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -45,7 +49,7 @@ pub(crate) struct Args {
     /// Compute the i-th of n parts only
     #[arg(long, value_name = "i/n", conflicts_with = "plot")]
     shard: Option<String>,
-    /// Threads to use; as many as the machine has if left out
+    /// Threads to use; as many as the machine has if left out, and at the most four times as many
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     #[command(flatten)]
@@ -58,18 +62,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let shard = args.shard.as_deref().map(Shard::parse).transpose();
     let shard = shard.map_err(|error| Failure::from(error).with_prefix("--shard"))?;
     let identity = Identity::new(&study, shard);
-    args.picture.check(&identity.study)?;
-    if let Some(threads) = args.threads {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into());
-        let built = pool.build_global();
-        built.map_err(|error| {
-            Failure::Failed(format!("can not start {threads} threads: {error}"))
-        })?;
-    }
+    args.picture.check(&identity.study, args.resume)?;
+    args.threads.map(start_threads).transpose()?;
     let rows = identity.rows.end - identity.rows.start;
     match Store::open(&args.out, identity, args.resume)? {
         Opened::Complete => {}
         Opened::Work(store) => {
+            if store.damaged() > 0 {
+                let (rows, out) = (store.damaged(), args.out.display());
+                say(&format!(
+                    "{rows} rows in {out}.parts were damaged, and are computed again"
+                ));
+            }
             interrupt::end_gracefully(Graceful {
                 on_first: Box::new(|| {
                     say("stopping after the cases at work; once more to stop at once");
@@ -87,7 +91,25 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         }
     }
     let picture = args.picture.draw(&args.out)?;
-    print(&summary(&args.out, rows, picture)?)
+    let whole = args.shard.is_none();
+    Summary::of(&args.out, rows, picture)?
+        .with(study.plan())
+        .tell(whole)
+}
+
+/// As many threads as asked for, up to a few for each that the machine runs at a time.
+fn start_threads(asked: u16) -> Result<(), Failure> {
+    let at_a_time = std::thread::available_parallelism().map_or(1, NonZero::get);
+    let most = at_a_time.saturating_mul(MOST_THREADS);
+    let threads = most.min(asked.into());
+    if threads < asked.into() {
+        say(&format!(
+            "--threads {asked}: this machine runs {at_a_time} at a time, and more only wait; {threads} are used"
+        ));
+    }
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let built = pool.build_global();
+    built.map_err(|error| Failure::Failed(format!("can not start {threads} threads: {error}")))
 }
 
 /// What broke, and that no more than a few seconds of work are lost.
@@ -98,7 +120,12 @@ fn go_on(error: StudyError, rows: u64) -> Failure {
             resume_command()
         )),
         StudyError::Failed(message) => Failure::Failed(format!(
-            "{message}\nhint: what was saved is safe; once there is room again, go on with\n  {}",
+            "{message}\nhint: what was saved is safe; once that is put right, go on with\n  {}",
+            resume_command()
+        )),
+        StudyError::Damaged { .. } => Failure::Failed(format!(
+            "{error}\nhint: rows came back other than they were written, again and again; have an --out on another \
+             disk, or go on here, which computes them again, with\n  {}",
             resume_command()
         )),
         other => other.into(),
@@ -121,46 +148,4 @@ fn quoted(word: &str) -> String {
         return word.to_owned();
     }
     format!("'{}'", word.replace('\'', r"'\''"))
-}
-
-/// What there is in the file now, for a person.
-pub(crate) fn summary(file: &Path, rows: u64, picture: Option<PathBuf>) -> Result<String, Failure> {
-    let tally = ends(file)?;
-    let mut text = format!("Cases     {rows}\n");
-    let counts = tally.ends.iter();
-    let counts: Vec<String> = counts
-        .map(|(end, n)| format!("{} {n}", end.replace('_', " ")))
-        .collect();
-    let ends = if counts.is_empty() {
-        "none".to_owned()
-    } else {
-        counts.join(", ")
-    };
-    let _ = writeln!(text, "Ends      {ends}");
-    if tally.judged > 0 {
-        let Tally {
-            certain, judged, ..
-        } = tally;
-        let _ = writeln!(
-            text,
-            "Trust     {certain} of {judged} ends are certain: column certain"
-        );
-    }
-    if let Some((row, error)) = tally.first_error {
-        let first = error.lines().next().unwrap_or_default();
-        let _ = writeln!(
-            text,
-            "Errors    {}; the first, in row {row}: {first}",
-            tally.errors
-        );
-    }
-    for (i, path) in [Some(file.to_owned()), picture]
-        .into_iter()
-        .flatten()
-        .enumerate()
-    {
-        let label = if i == 0 { "Written" } else { "" };
-        let _ = writeln!(text, "{label:<9} {}", path.display());
-    }
-    Ok(text)
 }

@@ -21,6 +21,14 @@ pub enum StudyError {
     /// Something broke on the way, such as a full disk.
     #[error("{0}")]
     Failed(String),
+    /// A file of rows is damaged, or can not be read.
+    #[error("can not read {}: {why}", .file.display())]
+    Damaged {
+        /// Which file.
+        file: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
     /// It was told to end.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -31,6 +39,8 @@ pub enum StudyError {
 pub enum Occupied {
     /// This very study, complete.
     Complete(PathBuf),
+    /// What was this study, and is damaged.
+    Damaged(PathBuf),
     /// A file of something else.
     OtherFile(PathBuf),
     /// Some rows of this study.
@@ -62,6 +72,11 @@ impl Occupied {
         match self {
             Self::Complete(file) => format!(
                 "{} is there already and holds this very study, complete; {resume} takes it as it is",
+                file.display()
+            ),
+            Self::Damaged(file) => format!(
+                "{} is there already and held this study, but it is damaged: its checksum is not that of its bytes; \
+                 remove it to compute it anew, or choose another {out}",
                 file.display()
             ),
             Self::OtherFile(file) => format!(
@@ -105,6 +120,14 @@ impl StudyError {
     /// A file that can not be read.
     pub(crate) fn read(path: &Path, error: impl Display) -> Self {
         Self::Failed(about("read", path, &error))
+    }
+
+    /// A file of rows that can not be read.
+    pub(crate) fn damaged(file: &Path, why: impl Display) -> Self {
+        Self::Damaged {
+            file: file.to_owned(),
+            why: without_number(&why),
+        }
     }
 
     /// The same for a file that somebody named: it is the name that is wrong.

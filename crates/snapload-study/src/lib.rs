@@ -5,10 +5,12 @@
 //! shards for several machines, at the point where a run was killed. [`rows()`] is the one place
 //! where cases become rows; a [`Store`] keeps each chunk as a file of its own until all are there,
 //! and then joins them. What the file holds depends on the study alone, to the byte: not on
-//! threads, chunks, shards or interruptions.
+//! threads, chunks, shards or interruptions. Each file has its checksum in it, which is checked before
+//! its rows go into another one.
 
 mod error;
 mod grid;
+mod lines;
 mod list;
 mod metadata;
 mod parquet_file;
@@ -16,6 +18,7 @@ mod parquet_file;
 mod picture;
 mod plan;
 mod rows;
+mod seal;
 mod sobol;
 mod store;
 mod study;
@@ -33,7 +36,7 @@ pub use picture::StudyPicture;
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
 pub use rows::{Row, rows};
 pub use sobol::Sobol;
-pub use store::{Opened, Store, chunk, folder_of, parent_of};
+pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
 pub use study::{Drawn, Study};
 pub use sweep::{Ending, sweep};
 pub use table::{Column, Run, Take, columns};

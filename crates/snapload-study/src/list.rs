@@ -1,11 +1,12 @@
 //! A list of cases in a CSV or Parquet file, read where it is needed and never as a whole.
 
 use crate::StudyError;
+use crate::lines::{Watched, line_of};
 use crate::parquet_file::{Reader as ParquetReader, Values};
+use crate::seal::Sum;
 use csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 use parquet::basic::ConvertedType;
 use parquet::schema::types::Type;
-use sha2::{Digest, Sha256};
 use snapload::{CaseError, Value, key_named};
 use std::error::Error;
 use std::fs::File;
@@ -46,7 +47,13 @@ impl List {
     /// if a column is no key.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
         let input = |error: &dyn std::fmt::Display| StudyError::read(path, error).of_input();
-        let sha256 = digest(path).map_err(|error| input(&error))?;
+        let about = path.metadata().map_err(|error| input(&error))?;
+        if !about.is_file() {
+            // It is read more than once, from any row, and has to end.
+            return Err(input(
+                &"a list has to be a file, which can be read more than once",
+            ));
+        }
         let parquet = path
             .extension()
             .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
@@ -54,6 +61,13 @@ impl List {
             let file = File::open(path).map_err(|error| input(&error))?;
             let reader = ParquetReader::open(file)
                 .map_err(|error| input(&format!("it is no Parquet file ({error})")))?;
+            if let Some(codec) = reader.codec_without_reader() {
+                return Err(input(&format!(
+                    "its columns are compressed with {codec}; allowed: no compression, {}; write it again with one of \
+                     these, or as CSV",
+                    ParquetReader::CODECS
+                )));
+            }
             let count = reader.about().num_rows();
             let names = named_columns(path, &reader)?;
             (names, count.unsigned_abs(), Format::Parquet)
@@ -62,6 +76,7 @@ impl List {
             (names, count, Format::Csv { marks })
         };
         let keys = keys(path, &names)?;
+        let sha256 = digest(path).map_err(|error| input(&error))?;
         if count == 0 {
             return Err(input(&"it holds no case, only names of columns"));
         }
@@ -83,6 +98,20 @@ impl List {
     pub fn name(&self) -> String {
         let name = self.path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
+    }
+
+    /// The line of the file in which a row begins; none where it has no lines.
+    pub fn line(&self, row: u64) -> Option<u64> {
+        match self.format {
+            // Before the first row is the line of the keys.
+            Format::Csv { .. } => line_of(&self.path, row + 1).ok()?,
+            Format::Parquet => None,
+        }
+    }
+
+    /// The keys that it has columns of, in their order.
+    pub fn keys(&self) -> &[&'static str] {
+        &self.keys
     }
 
     /// What `sha256sum` prints of the file.
@@ -108,7 +137,7 @@ impl List {
 
     fn read_csv(&self, marks: &[Position], range: &Range<u64>) -> Result<Vec<ListRow>, Unreadable> {
         let mark = range.start / MARK_EVERY;
-        let mut reader = open_csv(&self.path)?;
+        let mut reader = as_csv(File::open(&self.path)?);
         let position = marks
             .get(mark as usize)
             .cloned()
@@ -164,29 +193,19 @@ impl List {
 }
 
 fn digest(path: &Path) -> std::io::Result<String> {
-    let mut file = File::open(path)?;
-    let mut hash = Sha256::new();
-    let mut buffer = vec![0; 1 << 16];
-    loop {
-        let length = file.read(&mut buffer)?;
-        if length == 0 {
-            let bytes = hash.finalize();
-            return Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect());
-        }
-        hash.update(&buffer[..length]);
-    }
+    let mut sum = Sum::default();
+    sum.add(File::open(path)?)?;
+    Ok(sum.digits())
 }
 
-fn open_csv(path: &Path) -> csv::Result<Reader<File>> {
-    ReaderBuilder::new()
-        .flexible(true)
-        .trim(Trim::All)
-        .from_path(path)
+fn as_csv<R: Read>(file: R) -> Reader<R> {
+    let mut builder = ReaderBuilder::new();
+    builder.flexible(true).trim(Trim::All).from_reader(file)
 }
 
 /// The names of the columns, the place of every 1024th row, and how many rows there are.
 fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
-    let mut reader = open_csv(path)?;
+    let mut reader = as_csv(Watched::open(path)?);
     let names = reader.byte_headers()?.iter();
     let names = names.map(|name| String::from_utf8_lossy(name).into_owned());
     let names = names.collect();

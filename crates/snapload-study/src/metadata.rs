@@ -2,6 +2,7 @@
 
 use crate::{Study, StudyError};
 use parquet::file::metadata::KeyValue;
+use std::fmt;
 use std::ops::Range;
 
 /// The study, as a study file.
@@ -12,6 +13,9 @@ const VERSION: &str = "snapload.version";
 const CASES: &str = "snapload.cases";
 /// The first row and the one after the last; only where a file does not hold all of them.
 const ROWS: &str = "snapload.rows";
+
+/// Which of how many parts; only where a file is one.
+const SHARD: &str = "snapload.shard";
 
 /// Which rows of which study a file holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +28,8 @@ pub struct Identity {
     pub cases: u64,
     /// The rows of this file.
     pub rows: Range<u64>,
+    /// Which part they are, if they are one.
+    pub shard: Option<Shard>,
 }
 
 /// The i-th of n parts of a study.
@@ -50,10 +56,22 @@ impl Shard {
         }
     }
 
+    /// All of as many parts, in order.
+    pub(crate) fn all(self) -> impl Iterator<Item = Self> {
+        (1..=self.of).map(move |part| Self { part, ..self })
+    }
+
     /// Its rows, of so many.
     pub fn rows(self, cases: u64) -> Range<u64> {
         let bound = |i: u64| (u128::from(cases) * u128::from(i) / u128::from(self.of)) as u64;
         bound(self.part - 1)..bound(self.part)
+    }
+}
+
+impl fmt::Display for Shard {
+    /// As one writes it, `i/n`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.part, self.of)
     }
 }
 
@@ -66,6 +84,7 @@ impl Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             cases,
             rows: shard.map_or(0..cases, |shard| shard.rows(cases)),
+            shard,
         }
     }
 
@@ -86,6 +105,7 @@ impl Identity {
             let Range { start, end } = self.rows;
             entries.push(entry(ROWS, format!("{start}:{end}")));
         }
+        entries.extend(self.shard.map(|shard| entry(SHARD, shard.to_string())));
         entries
     }
 
@@ -108,6 +128,10 @@ impl Identity {
             version: find(VERSION)?,
             cases,
             rows,
+            shard: match find(SHARD) {
+                Some(text) => Some(Shard::parse(&text).ok()?),
+                None => None,
+            },
         })
     }
 }
@@ -139,9 +163,11 @@ mod tests {
             version: "1".to_owned(),
             cases: 10,
             rows: 0..10,
+            shard: None,
         };
         let part = Identity {
-            rows: 3..5,
+            rows: 3..6,
+            shard: Shard::parse("2/3").ok(),
             ..whole.clone()
         };
         for identity in [whole, part] {

@@ -4,7 +4,7 @@
 //! every type there is takes longer to compile than all else that the command line depends on.
 
 use half::f16;
-use parquet::basic::{ConvertedType, LogicalType, Repetition, Type as Physical};
+use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, get_typed_column_reader};
 use parquet::data_type::{
     BoolType, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType, Int32Type,
@@ -184,6 +184,22 @@ fn put<D: DataType, V>(
 pub(crate) struct Reader(SerializedFileReader<File>);
 
 impl Reader {
+    /// The compressions that can be read, beside none.
+    pub(crate) const CODECS: &'static str = "snappy, gzip, lz4, zstd";
+
+    /// The compression of a column that can not be read.
+    pub(crate) fn codec_without_reader(&self) -> Option<&'static str> {
+        let groups = self.0.metadata().row_groups().iter();
+        let mut codecs = groups
+            .flat_map(|group| group.columns())
+            .map(|column| column.compression());
+        codecs.find_map(|codec| match codec {
+            Compression::BROTLI(_) => Some("brotli"),
+            Compression::LZO => Some("lzo"),
+            _ => None,
+        })
+    }
+
     pub(crate) fn open(file: File) -> Result<Self> {
         SerializedFileReader::new(file).map(Self)
     }
@@ -283,14 +299,22 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
         }
         ColumnReader::Int64ColumnReader(_) => {
             let unsigned = kind == As::UINT_64;
-            Values::Counts(list::<Int64Type, _>(reader, rows, |n| match unsigned {
-                true => i64::try_from(*n as u64).map_err(|_| too_large(*n as u64)),
-                false => Ok(*n),
-            })?)
+            let counts = list::<Int64Type, _>(reader, rows, |n| Ok(*n))?;
+            let too_large = |n: &i64| unsigned && *n < 0;
+            match counts.iter().flatten().any(too_large) {
+                // As doubles, so that the key refuses them, in their own rows.
+                true => Values::Numbers(
+                    counts
+                        .into_iter()
+                        .map(|n| n.map(|n| n as u64 as f64))
+                        .collect(),
+                ),
+                false => Values::Counts(counts),
+            }
         }
         ColumnReader::ByteArrayColumnReader(_) => {
             Values::Words(list::<ByteArrayType, _>(reader, rows, |word| {
-                Ok(word.as_utf8()?.to_owned())
+                Ok(String::from_utf8_lossy(word.data()).into_owned())
             })?)
         }
         ColumnReader::FixedLenByteArrayColumnReader(_) => {
@@ -308,7 +332,7 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
 
 /// Whole numbers of any width, divided by the scale of their column.
 fn decimals(reader: ColumnReader, rows: &Range<u64>, scale: f64) -> Result<Vec<Option<f64>>> {
-    let of_bytes = |bytes: &[u8]| Ok(whole(bytes)? as f64 / scale);
+    let of_bytes = |bytes: &[u8]| Ok(whole(bytes) / scale);
     match reader {
         ColumnReader::Int32ColumnReader(_) => {
             list::<Int32Type, _>(reader, rows, |n| Ok(f64::from(*n) / scale))
@@ -330,20 +354,20 @@ fn refused(why: &str) -> ParquetError {
     ParquetError::General(why.to_owned())
 }
 
-/// The whole number of bytes in two's complement, the highest first.
-fn whole(bytes: &[u8]) -> Result<i128> {
+/// The whole number of bytes in two's complement, the highest first; rounded where it is so large
+/// that no key takes it.
+fn whole(bytes: &[u8]) -> f64 {
     let negative = bytes.first().is_some_and(|byte| *byte > 0x7f);
     let start = if negative { -1_i128 } else { 0 };
-    bytes.iter().try_fold(start, |number, byte| {
-        let shifted = number.checked_mul(256);
-        shifted
-            .map(|n| n | i128::from(*byte))
-            .ok_or_else(|| too_large(number))
-    })
-}
-
-fn too_large(number: impl std::fmt::Display) -> ParquetError {
-    ParquetError::General(format!("{number} is too large a number"))
+    let exact = bytes.iter().try_fold(start, |number, byte| {
+        Some(number.checked_mul(256)? | i128::from(*byte))
+    });
+    let rounded = || {
+        let start = if negative { -1.0 } else { 0.0 };
+        let next = |number: f64, byte: &u8| number * 256.0 + f64::from(*byte);
+        bytes.iter().fold(start, next)
+    };
+    exact.map_or_else(rounded, |number| number as f64)
 }
 
 fn list<D: DataType, V>(

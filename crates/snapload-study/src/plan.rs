@@ -148,8 +148,8 @@ impl Side {
         Ok(Self { key, low, high })
     }
 
-    /// As one writes it: `low:high`. How many values a grid would have, after another colon, does
-    /// not matter here.
+    /// As one writes it: `low:high`. How many values a grid would have may follow after another
+    /// colon; it does not matter here.
     ///
     /// # Errors
     /// [`StudyError::Input`] if the text is no range, and as for [`Side::new`].
@@ -161,7 +161,14 @@ impl Side {
             number.ok_or_else(|| wrong_range(key, end, "not a number", SIDE))
         };
         match ends[..] {
-            [low, high] | [low, high, _] => Self::new(key, number(low)?, number(high)?),
+            [low, high] => Self::new(key, number(low)?, number(high)?),
+            [low, high, count] if count.parse().is_ok_and(|n: u64| n >= 1) => {
+                Self::new(key, number(low)?, number(high)?)
+            }
+            [_, _, count] => {
+                let what = format!("{count:?} is no number of values");
+                Err(wrong_range(key, text, &what, SIDE))
+            }
             _ => Err(wrong_range(key, text, "two numbers are needed", SIDE)),
         }
     }

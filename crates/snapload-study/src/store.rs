@@ -4,15 +4,17 @@
 //! under a scratch name, brought to the disk, and renamed: it is whole or not at all. When nothing
 //! is missing the chunks are joined, the file is brought to the disk and renamed into its place,
 //! and the directory goes. At whichever point the power fails, what was renamed is still there, and
-//! all else is done again.
+//! all else is done again. A chunk that comes back from the disk other than it was written is no
+//! chunk: its rows are missing.
 
+use crate::seal::{flaw, flaw_of};
 use crate::whole::{identity_of, join, to_bytes};
 use crate::{Identity, Occupied, Row, Study, StudyError, rows};
 use snapload::analysis::{Counter, OnProgress};
 use std::collections::BTreeMap;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -31,6 +33,8 @@ pub struct Store {
     identity: Identity,
     /// The chunks that are there: first row, and the one after the last.
     chunks: BTreeMap<u64, u64>,
+    /// How many rows were there and damaged when it was opened.
+    damaged: u64,
     _lock: File,
 }
 
@@ -49,8 +53,9 @@ impl Store {
     /// # Errors
     /// [`StudyError::Occupied`] if something else stands there, if another study was begun there,
     /// or this one was and is not to be resumed, or if another program is at work there;
-    /// [`StudyError::Input`] if there is no such folder.
+    /// [`StudyError::Input`] if there is no such folder, or the name is none of a Parquet file.
     pub fn open(target: &Path, identity: Identity, resume: bool) -> Result<Opened, StudyError> {
+        check_name(target)?;
         let mut name = OsString::from(target);
         name.push(".parts");
         let directory = PathBuf::from(name);
@@ -76,6 +81,7 @@ impl Store {
         let mut store = Self {
             target: target.to_owned(),
             chunks: BTreeMap::new(),
+            damaged: 0,
             identity,
             directory,
             _lock: lock,
@@ -97,6 +103,11 @@ impl Store {
     /// How many rows are safe.
     pub fn safe(&self) -> u64 {
         self.chunks.iter().map(|(start, end)| end - start).sum()
+    }
+
+    /// How many rows were found damaged, and so are missing again.
+    pub fn damaged(&self) -> u64 {
+        self.damaged
     }
 
     /// How many rows there are to be.
@@ -138,6 +149,13 @@ impl Store {
     /// the program; [`StudyError::Failed`] if they can not be written.
     pub fn keep(&mut self, range: Range<u64>, bytes: &[u8]) -> Result<(), StudyError> {
         let name = chunk_name(&range);
+        if let Ok(Some(why)) = flaw_of(Cursor::new(bytes)) {
+            return Err(StudyError::Input(format!(
+                "rows {} to {} can not be taken: {why}; compute them again",
+                range.start,
+                range.end - 1
+            )));
+        }
         self.put(&name, bytes)?;
         let path = self.directory.join(name);
         let found = identity_of(&path);
@@ -158,11 +176,11 @@ impl Store {
     ///
     /// # Errors
     /// [`StudyError::Failed`] if the disk is full, for instance; the rows stay where they are.
-    pub fn finish(self) -> Result<(), StudyError> {
-        let chunks = self.chunks.iter();
-        let chunks = chunks.map(|(start, end)| self.directory.join(chunk_name(&(*start..*end))));
+    /// [`StudyError::Damaged`] if some came back from the disk other than they were written: those
+    /// are missing now, and all others stay.
+    pub fn finish(&mut self) -> Result<(), StudyError> {
         let scratch = self.directory.join(SCRATCH);
-        let joined = join(&chunks.collect::<Vec<_>>(), &scratch, &self.identity).and_then(|()| {
+        let joined = self.join_to(&scratch).and_then(|()| {
             place(&scratch, &self.target).map_err(|error| StudyError::write(&self.target, error))
         });
         if joined.is_err() {
@@ -173,6 +191,36 @@ impl Store {
             let _ = fs::remove_dir_all(&self.directory);
         }
         joined
+    }
+
+    fn join_to(&mut self, scratch: &Path) -> Result<(), StudyError> {
+        let path = |(start, end): (&u64, &u64)| self.directory.join(chunk_name(&(*start..*end)));
+        let paths: Vec<PathBuf> = self.chunks.iter().map(path).collect();
+        let flawed = |path: &PathBuf| flaw(path).map(|why| StudyError::damaged(path, why));
+        let mut wrong: Vec<StudyError> = paths.iter().filter_map(flawed).collect();
+        if wrong.is_empty() {
+            wrong.extend(join(&paths, scratch, &self.identity).err());
+        }
+        for error in &wrong {
+            if let StudyError::Damaged { file, .. } = error {
+                self.lose(file)?;
+            }
+        }
+        wrong.into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// Takes a chunk away that is not as it was written.
+    fn lose(&mut self, path: &Path) -> Result<(), StudyError> {
+        let name = path.file_name().and_then(OsStr::to_str);
+        if let Some(range) = name.and_then(parse_chunk_name) {
+            self.chunks.remove(&range.start);
+        }
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(StudyError::write(path, error))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Writes a file of the directory.
@@ -204,10 +252,14 @@ impl Store {
             let fits = next <= range.start && range.end <= self.identity.rows.end;
             let ours =
                 |identity: Identity| identity.goes_with(&self.identity) && identity.rows == range;
-            if fits && identity_of(&path).is_some_and(ours) {
+            let whole = flaw(&path).is_none();
+            if fits && whole && identity_of(&path).is_some_and(ours) {
                 next = range.end;
                 self.chunks.insert(range.start, range.end);
             } else {
+                if !whole {
+                    self.damaged += range.end - range.start;
+                }
                 fs::remove_file(&path).map_err(|error| StudyError::write(&path, error))?;
             }
         }
@@ -234,6 +286,7 @@ pub fn chunk(
 fn encode(whole: &Identity, rows: Range<u64>, made: &[Row]) -> io::Result<Vec<u8>> {
     let identity = Identity {
         rows,
+        shard: None,
         ..whole.clone()
     };
     to_bytes(&identity, made)
@@ -247,6 +300,9 @@ fn finished(
     resume: bool,
 ) -> Result<Opened, StudyError> {
     let ours = identity_of(target).is_some_and(|found| found == *identity);
+    if ours && flaw(target).is_some() {
+        return Err(StudyError::Occupied(Occupied::Damaged(target.to_owned())));
+    }
     if ours && resume {
         let _ = fs::remove_dir_all(directory);
         return Ok(Opened::Complete);
@@ -265,11 +321,27 @@ fn describe(identity: &Identity) -> String {
         version,
         cases,
         rows,
+        ..
     } = identity;
     format!(
         "# snapload {version}: rows {} to {} of {cases}\n{study}",
         rows.start, rows.end
     )
+}
+
+/// That the name of a file of rows does not promise something else than Parquet.
+///
+/// # Errors
+/// [`StudyError::Input`] if it has another ending.
+pub fn check_name(file: &Path) -> Result<(), StudyError> {
+    match file.extension() {
+        Some(ending) if !ending.eq_ignore_ascii_case("parquet") => Err(StudyError::Input(format!(
+            "can not write {}: rows are written as Parquet, and the name says otherwise; end it in .parquet\nhint: \
+             for another format read that file, such as with pandas.read_parquet(...).to_csv(...)",
+            file.display()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The folder that a file's path names, there or not: `.` where it names none.

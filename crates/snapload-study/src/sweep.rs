@@ -24,18 +24,40 @@ pub enum Ending {
     AtNextCase,
 }
 
+/// So often rows that come back from the disk damaged are computed again.
+const TRIES: u32 = 3;
+
 /// A chunk that is run and not yet safe.
 type Chunk = (Range<u64>, Vec<Row>);
 
 /// Runs what is missing in the store, on the threads that there are, and completes the file. While
-/// a chunk is run the one before it is written.
+/// a chunk is run the one before it is written. Rows that come back damaged when the file is put
+/// together are run again.
 ///
 /// # Errors
 /// [`StudyError::Failed`] if rows can not be written, or the list of cases not be read;
-/// [`StudyError::Cancelled`], with the number of rows that are safe, if it is told to end.
+/// [`StudyError::Damaged`] if rows come back damaged again and again; [`StudyError::Cancelled`],
+/// with the number of rows that are safe, if it is told to end.
 pub fn sweep(
     study: &Study,
     mut store: Store,
+    ending: Ending,
+    on_progress: OnProgress,
+) -> Result<(), StudyError> {
+    let mut tries = 1;
+    loop {
+        fill(study, &mut store, ending, on_progress)?;
+        match store.finish() {
+            Err(StudyError::Damaged { .. }) if tries < TRIES => tries += 1,
+            finished => return finished,
+        }
+    }
+}
+
+/// Runs what is missing.
+fn fill(
+    study: &Study,
+    store: &mut Store,
     ending: Ending,
     on_progress: OnProgress,
 ) -> Result<(), StudyError> {
@@ -53,7 +75,7 @@ pub fn sweep(
     let mut written: Option<Chunk> = None;
     loop {
         let go_on = counter.add(0).is_ok() && !told_to_end.load(Ordering::Relaxed);
-        let range = next_range(&store, written.as_ref(), size).filter(|_| go_on);
+        let range = next_range(store, written.as_ref(), size).filter(|_| go_on);
         if range.is_none() && written.is_none() {
             break;
         }
@@ -76,7 +98,7 @@ pub fn sweep(
         let done = store.safe() as f64;
         return Err(Cancelled { done }.into());
     }
-    store.finish()
+    Ok(())
 }
 
 fn chunk(study: &Study, range: Range<u64>, counter: &Counter) -> Result<Chunk, StudyError> {

@@ -1,19 +1,24 @@
 //! Files of rows: written, joined in one pass, and read again.
 
-use crate::metadata::Identity;
+use crate::metadata::{Identity, Shard};
 use crate::parquet_file::{Holds, Reader, Values, Writer};
+use crate::seal::{blank, flaw, seal};
 use crate::table::{columns_of, fields};
 use crate::{Column, Row, StudyError};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::properties::WriterProperties;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufWriter, Cursor, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Rows of a row group. A constant, as the bytes of a file hang on it.
 const GROUP: usize = 1 << 16;
+
+/// So many missing parts are named.
+const MOST_NAMES: usize = 10;
 
 /// Rows as the bytes of a file of their own.
 pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>> {
@@ -22,23 +27,35 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>>
         writer.write(&columns_of(rows))?;
         writer.into_inner()
     };
-    write().map_err(to_io)
+    let mut bytes = write().map_err(to_io)?;
+    seal(Cursor::new(&mut bytes[..]))?;
+    Ok(bytes)
 }
 
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
+    let mut notes = identity.to_metadata();
+    notes.push(blank());
     Ok(WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
         .set_created_by(format!("snapload {}", identity.version))
-        .set_key_value_metadata(Some(identity.to_metadata()))
+        .set_key_value_metadata(Some(notes))
         .build())
 }
 
 /// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it
 /// returns. Rows are taken out and written anew, so the bytes depend on the rows and not on how
 /// they were cut.
+///
+/// # Errors
+/// [`StudyError::Damaged`] if it is one of the files that is wrong, and [`StudyError::Failed`] if it
+/// is the new one.
 pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result<(), StudyError> {
     let wrong = |error: ParquetError| StudyError::write(out, to_io(error));
-    let file = File::create(out).map_err(|error| StudyError::write(out, error))?;
+    let mut made = OpenOptions::new();
+    let made = made.read(true).write(true).create(true).truncate(true);
+    let file = made
+        .open(out)
+        .map_err(|error| StudyError::write(out, error))?;
     let properties = properties(identity).map_err(wrong)?;
     let fields = fields();
     let mut writer = Writer::new(BufWriter::new(file), &fields, properties).map_err(wrong)?;
@@ -67,13 +84,14 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
     let mut buffer = writer.into_inner().map_err(wrong)?;
     buffer
         .flush()
+        .and_then(|()| seal(buffer.get_ref()))
         .and_then(|()| buffer.get_ref().sync_all())
         .map_err(|error| StudyError::write(out, error))
 }
 
 fn open(path: &Path) -> Result<Reader, StudyError> {
-    let file = File::open(path).map_err(|error| StudyError::read(path, error))?;
-    Reader::open(file).map_err(|error| StudyError::read(path, error))
+    let file = File::open(path).map_err(|error| StudyError::damaged(path, error))?;
+    Reader::open(file).map_err(|error| StudyError::damaged(path, error))
 }
 
 /// What a file says of itself, if it is one of this program's and has as many rows as it says.
@@ -103,19 +121,12 @@ fn to_io(error: ParquetError) -> io::Error {
 ///
 /// # Errors
 /// [`StudyError::Input`] if the files are not all parts of one study by one version of the program,
-/// or do not cover it exactly; [`StudyError::Failed`] if one can not be read, or the whole not be
-/// written.
+/// if one is damaged, or if they do not cover it exactly; [`StudyError::Failed`] if the whole can
+/// not be written.
 pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
     let mut parts = Vec::new();
     for path in files {
-        let identity = identity_of(path).ok_or_else(|| {
-            let shown = path.display();
-            StudyError::Input(match File::open(path) {
-                Err(_) => format!("{shown}: there is no such file, or it can not be read"),
-                Ok(_) => format!("{shown}: not a file of snapload sweep"),
-            })
-        })?;
-        parts.push((identity, path));
+        parts.push((identity_of_part(path)?, path));
     }
     parts.sort_by_key(|(identity, _)| (identity.rows.start, identity.rows.end));
     let Some((first, first_path)) = parts.first() else {
@@ -135,25 +146,67 @@ pub fn merge(files: &[PathBuf], out: &Path) -> Result<(), StudyError> {
             return Err(StudyError::Input(words));
         }
         if identity.rows.start > next {
-            return Err(missing(next, identity.rows.start));
+            return Err(missing(next..identity.rows.start, &parts));
         }
         next = identity.rows.end;
     }
     if next < first.cases {
-        return Err(missing(next, first.cases));
+        return Err(missing(next..first.cases, &parts));
     }
     let whole = Identity {
         rows: 0..first.cases,
+        shard: None,
         ..first.clone()
     };
     let paths: Vec<PathBuf> = parts.iter().map(|(_, path)| path.to_path_buf()).collect();
-    join(&paths, out, &whole)
+    join(&paths, out, &whole).map_err(|error| match error {
+        StudyError::Damaged { .. } => StudyError::Input(error.to_string()),
+        other => other,
+    })
 }
 
-fn missing(from: u64, to: u64) -> StudyError {
+/// What a part says of itself, once it is known to be as it was written.
+fn identity_of_part(path: &Path) -> Result<Identity, StudyError> {
+    let shown = path.display();
+    if File::open(path).is_err() {
+        let words = format!("{shown}: there is no such file, or it can not be read");
+        return Err(StudyError::Input(words));
+    }
+    if let Some(why) = flaw(path) {
+        return Err(StudyError::Input(format!(
+            "{shown} can not be taken: {why}\nhint: if it was copied here, copy it again; else remove it and compute \
+             that part anew, with the snapload sweep --shard that made it"
+        )));
+    }
+    identity_of(path).ok_or_else(|| {
+        let words = format!("{shown}: not a file of snapload sweep");
+        StudyError::Input(words)
+    })
+}
+
+/// That rows are in none of the parts, and which parts these were to be in.
+fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
+    let there: Option<Vec<Shard>> = parts.iter().map(|(identity, _)| identity.shard).collect();
+    let there = there.unwrap_or_default();
+    let cases = parts.first().map_or(0, |(identity, _)| identity.cases);
+    let known = there.first().copied();
+    let absent = known.into_iter().flat_map(Shard::all);
+    let absent = absent.filter(|part| !part.rows(cases).is_empty() && !there.contains(part));
+    let mut names: Vec<String> = absent
+        .take(MOST_NAMES + 1)
+        .map(|part| part.to_string())
+        .collect();
+    if names.len() > MOST_NAMES {
+        names[MOST_NAMES] = "...".to_owned();
+    }
+    let give = match &names[..] {
+        [] => "give every part of the study".to_owned(),
+        names => format!("missing is --shard {}", names.join(", ")),
+    };
     StudyError::Input(format!(
-        "rows {from} to {} are in none of the files; give every part of the study",
-        to - 1
+        "rows {} to {} are in none of the files; {give}",
+        rows.start,
+        rows.end - 1
     ))
 }
 
@@ -175,7 +228,7 @@ pub struct Tally {
 /// Counts how the runs of a file ended.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if it can not be read.
+/// [`StudyError::Damaged`] if it can not be read.
 pub fn ends(path: &Path) -> Result<Tally, StudyError> {
     let mut tally = Tally::default();
     let mut row = identity_of(path).map_or(0, |identity| identity.rows.start);
@@ -227,7 +280,7 @@ pub enum Shown<'a> {
 /// Shows one column of a file, row by row from its first one, which counts as 0.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if it can not be read.
+/// [`StudyError::Damaged`] if it can not be read.
 pub fn read_shown(
     path: &Path,
     column: &Column,
@@ -266,7 +319,7 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
 /// nothing if it is another file.
 ///
 /// # Errors
-/// [`StudyError::Failed`] if the file can not be read.
+/// [`StudyError::Damaged`] if the file can not be read, or is not as it was written.
 pub fn read_all(
     path: &Path,
     mut visit: impl FnMut(Vec<Values>),
@@ -274,6 +327,9 @@ pub fn read_all(
     let Some(identity) = identity(&open(path)?) else {
         return Ok(None);
     };
+    if let Some(why) = flaw(path) {
+        return Err(StudyError::damaged(path, why));
+    }
     read_groups(path, None, |columns| {
         visit(columns);
         Ok(())
@@ -305,12 +361,12 @@ fn read_groups(
     );
     let place = |name: &&str| {
         let found = reader.fields().position(|(field, _)| field.name() == *name);
-        found.ok_or_else(|| StudyError::read(path, format!("it has no column {name}")))
+        found.ok_or_else(|| StudyError::damaged(path, format!("it has no column {name}")))
     };
     let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
     for (group, rows) in reader.groups().enumerate() {
         let columns = reader.read(group, &places, 0..rows);
-        visit(columns.map_err(|error| StudyError::read(path, error))?)?;
+        visit(columns.map_err(|error| StudyError::damaged(path, error))?)?;
     }
     Ok(())
 }

@@ -10,5 +10,6 @@ mod physics;
 mod report;
 mod structure;
 mod sweep;
+mod sweep_slips;
 mod system;
 mod trust;

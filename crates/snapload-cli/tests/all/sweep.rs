@@ -11,7 +11,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// A study of many short runs: long enough to be killed in.
-const LONG: [&str; 8] = [
+pub(crate) const LONG: [&str; 8] = [
     "--set",
     "t_end=2",
     "--vary",
@@ -21,7 +21,7 @@ const LONG: [&str; 8] = [
     "--threads",
     "1",
 ];
-const SHORT: [&str; 6] = [
+pub(crate) const SHORT: [&str; 6] = [
     "--set",
     "t_end=1",
     "--vary",
@@ -30,7 +30,7 @@ const SHORT: [&str; 6] = [
     "e=0.5,0.9",
 ];
 
-fn sweep(directory: &Path, args: &[&str], out: &str) -> assert_cmd::assert::Assert {
+pub(crate) fn sweep(directory: &Path, args: &[&str], out: &str) -> assert_cmd::assert::Assert {
     let mut command = snapload(directory);
     command
         .arg("sweep")
@@ -39,11 +39,11 @@ fn sweep(directory: &Path, args: &[&str], out: &str) -> assert_cmd::assert::Asse
         .assert()
 }
 
-fn bytes(directory: &Path, name: &str) -> Vec<u8> {
+pub(crate) fn bytes(directory: &Path, name: &str) -> Vec<u8> {
     fs::read(directory.join(name)).unwrap()
 }
 
-fn begin(directory: &Path, args: &[&str], out: &str) -> Child {
+pub(crate) fn begin(directory: &Path, args: &[&str], out: &str) -> Child {
     Command::new(assert_cmd::cargo::cargo_bin!("snapload"))
         .current_dir(directory)
         .arg("sweep")
@@ -56,7 +56,7 @@ fn begin(directory: &Path, args: &[&str], out: &str) -> Child {
 }
 
 /// Waits until so many chunks are there; false if the program ended before.
-fn chunks(directory: &Path, out: &str, wanted: usize, child: &mut Child) -> bool {
+pub(crate) fn chunks(directory: &Path, out: &str, wanted: usize, child: &mut Child) -> bool {
     let parts = directory.join(format!("{out}.parts"));
     loop {
         let entries = fs::read_dir(&parts).into_iter().flatten().flatten();
@@ -206,9 +206,9 @@ fn threads_and_parts_change_no_byte() {
     merge(&parts, "joined.parquet")
         .code(2)
         .stderr(contains("is there already"));
-    merge(&parts[..2], "x")
-        .code(2)
-        .stderr(contains("rows 3 to 5 are in none of the files"));
+    merge(&parts[..2], "x").code(2).stderr(contains(
+        "rows 3 to 5 are in none of the files; missing is --shard 2/3",
+    ));
     let twice = ["part-1.parquet", "part-1.parquet"];
     merge(&twice, "x")
         .code(2)
@@ -271,7 +271,7 @@ fn a_bad_row_is_a_row_with_its_error() {
         .success()
         .stdout(contains("Cases     5\n"))
         .stdout(contains(
-            "Errors    3; the first, in row 1: e = 1.5 is not allowed",
+            "Errors    3; the first, in row 1, line 3 of cases.csv: e = 1.5 is not allowed",
         ));
     // Cases that are illegal only together are errors of their row, too, and the others run.
     sweep(d.path(), &["--vary", "r=0.5:1.5:3"], "r.parquet")

@@ -1,11 +1,14 @@
 //! Lists of cases are read from anywhere, and never as a whole.
 use half::f16;
+use parquet::basic::{Compression, GzipLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
 use parquet::data_type::{FloatType, Int32Type, Int64Type};
+use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 use snapload::{CaseError, Value};
 use snapload_study::{List, Plan, Study, StudyError};
+use std::fs;
 use std::io::Write;
 use std::ops::Range;
 use std::path::Path;
@@ -133,6 +136,78 @@ fn a_parquet_file_is_read_from_anywhere() {
     }
 }
 
+/// As a text editor counts: empty lines are no rows, and two bytes may end a line.
+#[test]
+fn rows_know_their_lines() {
+    let file = csv("\u{feff}\"f_o\",body\r\n1,rigid\r\n\r\n2,\"po,\"\"int\"\r\n\n3,rigid");
+    let list = List::open(file.path()).unwrap();
+    assert_eq!((list.count(), list.keys()), (3, &["f_o", "body"][..]));
+    let lines = (0..4).map(|row| list.line(row));
+    assert_eq!(lines.collect::<Vec<_>>(), [Some(2), Some(4), Some(6), None]);
+}
+
+/// A file with a column of whole numbers without a sign, in some compression.
+fn counts(values: &[u64], codec: Compression) -> tempfile::NamedTempFile {
+    let columns = "message schema { required int64 max_impacts (INTEGER(64,false)); }";
+    let schema = Arc::new(parse_message_type(columns).unwrap());
+    let mut file = tempfile::Builder::new();
+    let file = file.suffix(".parquet").tempfile().unwrap();
+    let properties = WriterProperties::builder().set_compression(codec).build();
+    let mut writer = SerializedFileWriter::new(&file, schema, Arc::new(properties)).unwrap();
+    let mut group = writer.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    let values: Vec<i64> = values.iter().map(|n| *n as i64).collect();
+    column
+        .typed::<Int64Type>()
+        .write_batch(&values, None, None)
+        .unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    writer.close().unwrap();
+    file
+}
+
+/// A number that no key takes is the fault of its own row.
+#[test]
+fn a_count_that_is_too_large_spoils_its_own_row() {
+    let file = counts(&[7, u64::MAX, 9], Compression::UNCOMPRESSED);
+    let plan = Plan::List(List::open(file.path()).unwrap());
+    let drawn = Study::new([], plan, false).unwrap().draw(0..3).unwrap();
+    let runs = drawn.iter().map(|drawn| drawn.parameters.is_ok());
+    assert_eq!(runs.collect::<Vec<_>>(), [true, false, true]);
+    let error = drawn[1].parameters.as_ref().unwrap_err().to_string();
+    assert!(error.contains("max_impacts = 1.8"), "{error}");
+}
+
+/// What pandas, Spark and R write is read, but for one compression that is named.
+#[test]
+fn compressions_are_read_or_named() {
+    let level = || GzipLevel::try_new(6).unwrap();
+    for codec in [
+        Compression::SNAPPY,
+        Compression::GZIP(level()),
+        Compression::LZ4,
+        Compression::LZ4_RAW,
+    ] {
+        let file = counts(&[5; 5000], codec);
+        let rows = read(List::open(file.path()).unwrap(), 4999..5000);
+        assert_eq!(rows, [Ok(vec![("max_impacts", Value::Integer(5))])]);
+    }
+    // Behind the name of the column stands its codec, as a number of the format: 4 is brotli, and
+    // written twice as large.
+    let file = counts(&[5], Compression::UNCOMPRESSED);
+    let mut bytes = fs::read(file.path()).unwrap();
+    let name = b"max_impacts\x15\x00";
+    let place = bytes.windows(name.len()).rposition(|some| some == name);
+    bytes[place.unwrap() + name.len() - 1] = 8;
+    fs::write(file.path(), bytes).unwrap();
+    let error = List::open(file.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("compressed with brotli; allowed: no compression, snappy, gzip, lz4, zstd"),
+        "{error}"
+    );
+}
+
 #[test]
 fn bad_rows_are_errors_of_their_own_and_empty_cells_nothing() {
     let file = csv("f_o,stop_when_settled\n0.1,\n0.2\n,false\nx,True\n");
@@ -157,6 +232,24 @@ fn a_list_with_other_columns_is_refused() {
         let error = List::open(csv(text).path()).unwrap_err().to_string();
         assert!(error.contains(wanted), "{error}");
     }
+    let far = format!("f_o,body\n1,rigid\n2,{}\n", "x".repeat(2_000_000));
+    for (text, wanted) in [
+        (
+            "f_o,body\n\r\n1,rigid\n2,\"point\n3,rigid\n",
+            "line 4 opens a quote",
+        ),
+        (
+            "f_o,body\r\n1,\"ri\"\"gid\"\r\n2,\"point",
+            "line 3 opens a quote",
+        ),
+        (far.as_str(), "line 3 is longer than 1048576 bytes"),
+    ] {
+        let error = List::open(csv(text).path()).unwrap_err().to_string();
+        assert!(error.contains(wanted), "{error}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let error = List::open(folder.path()).unwrap_err().to_string();
+    assert!(error.contains("a list has to be a file"), "{error}");
     let error = List::open(Path::new("/no/such/list.csv")).unwrap_err();
     assert!(matches!(&error, StudyError::Input(words) if words.contains("No such file")));
 }

@@ -2,6 +2,7 @@
 //! run side by side.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod damage;
 mod grid;
 mod list;
 mod plan;

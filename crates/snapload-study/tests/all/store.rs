@@ -7,22 +7,22 @@ use std::fs;
 use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
-fn study(count: u64) -> Study {
+pub(crate) fn study(count: u64) -> Study {
     let grid = Grid::new("0.1", "0.6", count).unwrap();
     let plan = Plan::grid(vec![Axis::even("f_o", grid).unwrap()]).unwrap();
     Study::new([("t_end".to_owned(), 0.1.into())], plan, false).unwrap()
 }
 
 /// The name of a chunk in the directory of a study.
-fn chunk_name(range: &Range<u64>) -> String {
+pub(crate) fn chunk_name(range: &Range<u64>) -> String {
     format!("rows-{:013}-{:013}.parquet", range.start, range.end)
 }
 
-fn open(target: &Path, study: &Study, resume: bool) -> Result<Opened, StudyError> {
+pub(crate) fn open(target: &Path, study: &Study, resume: bool) -> Result<Opened, StudyError> {
     Store::open(target, Identity::new(study, None), resume)
 }
 
-fn work(target: &Path, study: &Study) -> Store {
+pub(crate) fn work(target: &Path, study: &Study) -> Store {
     match open(target, study, true).unwrap() {
         Opened::Work(store) => store,
         Opened::Complete => panic!("complete"),
@@ -52,7 +52,7 @@ fn rows_come_from_elsewhere() {
     assert_eq!(fs::read(here).unwrap(), fs::read(there).unwrap());
 }
 
-fn save(store: &mut Store, study: &Study, range: Range<u64>) {
+pub(crate) fn save(store: &mut Store, study: &Study, range: Range<u64>) {
     let drawn = study.draw(range.clone()).unwrap();
     let counter = Counter::new("running", 0, 0, &unwatched);
     store
@@ -60,7 +60,7 @@ fn save(store: &mut Store, study: &Study, range: Range<u64>) {
         .unwrap();
 }
 
-fn complete(target: &Path, study: &Study) -> Vec<u8> {
+pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
     sweep(study, work(target, study), Ending::AtNextCase, &unwatched).unwrap();
     fs::read(target).unwrap()
 }

@@ -52,19 +52,34 @@ impl ForceScan {
         })
     }
 
-    /// The amplitudes. Where the step is one over a whole number, as 0.01 is, they are the doubles
-    /// nearest to its multiples, as one would write them.
+    /// The amplitudes: the doubles nearest to the multiples of the step, as one would write them.
+    /// The step counts as one over a whole number where it is that, as 0.01 is, and else as the
+    /// shortest decimal that stands for it, so that five times 0.07 is 0.35.
     pub fn amplitudes(self) -> impl Iterator<Item = f64> {
         let inverse = (1.0 / self.step).round();
         let whole = (inverse * self.step - 1.0).abs() < 1e-12;
-        (1..=self.count).map(move |k| {
-            if whole {
-                f64::from(k) / inverse
-            } else {
-                f64::from(k) * self.step
-            }
+        let digits = decimal(self.step);
+        (1..=self.count).map(move |k| match digits {
+            _ if whole => f64::from(k) / inverse,
+            Some((digits, power)) => multiple(digits * u128::from(k), power),
+            None => f64::from(k) * self.step,
         })
     }
+}
+
+/// The shortest decimal that stands for a number: its digits, and the power of ten of the last one.
+fn decimal(number: f64) -> Option<(u128, i32)> {
+    let text = format!("{number:e}");
+    let (digits, power) = text.split_once('e')?;
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    let digits = format!("{whole}{fraction}").parse().ok()?;
+    let fraction = i32::try_from(fraction.len()).ok()?;
+    Some((digits, power.parse::<i32>().ok()? - fraction))
+}
+
+/// The double nearest to a decimal. What reads numbers from text rounds once.
+fn multiple(digits: u128, power: i32) -> f64 {
+    format!("{digits}e{power}").parse().unwrap_or(f64::NAN)
 }
 
 /// The first amplitude that exceeds, and how its run ends.
@@ -149,8 +164,15 @@ mod tests {
     fn amplitudes_are_decimals() -> Result<(), CaseError> {
         let all: Vec<f64> = ForceScan::default().amplitudes().collect();
         assert_eq!((all.len(), all[56], all[99]), (100, 0.57, 1.0));
-        let fifths: Vec<f64> = ForceScan::new(0.3, 1.0)?.amplitudes().collect();
-        assert_eq!(fifths.len(), 3);
+        let typed = |step, max| ForceScan::new(step, max).map(|scan| scan.amplitudes().collect());
+        let sevens: Vec<f64> = typed(0.07, 0.7)?;
+        assert_eq!((sevens.len(), sevens[2], sevens[4]), (10, 0.21, 0.35));
+        let threes: Vec<f64> = typed(0.3, 1.0)?;
+        assert_eq!(threes, [0.3, 0.6, 0.9]);
+        let thirds: Vec<f64> = typed(1.0 / 3.0, 1.0)?;
+        assert_eq!(thirds, [1.0 / 3.0, 2.0 / 3.0, 1.0]);
+        let large: Vec<f64> = typed(2.5e10, 1e11)?;
+        assert_eq!(large, [2.5e10, 5e10, 7.5e10, 1e11]);
         for (step, max) in [
             (0.0, 1.0),
             (-0.1, 1.0),

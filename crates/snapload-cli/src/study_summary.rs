@@ -1,0 +1,118 @@
+//! What there is in the file of a study, for a person.
+use crate::failure::{Failure, print};
+use snapload_study::{Axis, Plan, Side, Tally, ends};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// A file of rows that is complete.
+pub(crate) struct Summary<'a> {
+    file: &'a Path,
+    rows: u64,
+    tally: Tally,
+    picture: Option<PathBuf>,
+    plan: Option<&'a Plan>,
+}
+
+impl<'a> Summary<'a> {
+    /// Reads the file.
+    pub(crate) fn of(file: &'a Path, rows: u64, picture: Option<PathBuf>) -> Result<Self, Failure> {
+        Ok(Self {
+            file,
+            rows,
+            tally: ends(file)?,
+            picture,
+            plan: None,
+        })
+    }
+
+    /// The same with words on what varied.
+    pub(crate) fn with(self, plan: &'a Plan) -> Self {
+        let plan = Some(plan);
+        Self { plan, ..self }
+    }
+
+    /// Prints it. A whole study without a single run is bad input: the file is there, and says why.
+    pub(crate) fn tell(&self, whole: bool) -> Result<(), Failure> {
+        print(&self.in_words())?;
+        if !whole || self.tally.errors < self.rows {
+            return Ok(());
+        }
+        Err(Failure::BadInput(format!(
+            "not one of the {} cases could be run; the column error of {} says why",
+            self.rows,
+            self.file.display()
+        )))
+    }
+
+    fn in_words(&self) -> String {
+        let tally = &self.tally;
+        let mut text = format!("Cases     {}\n", self.rows);
+        // Writing to a string can not fail.
+        if let Some(plan) = self.plan {
+            let _ = writeln!(text, "Varied    {}", varied(plan));
+        }
+        let counts = tally.ends.iter();
+        let counts: Vec<String> = counts
+            .map(|(end, n)| format!("{} {n}", end.replace('_', " ")))
+            .collect();
+        let ends = if counts.is_empty() {
+            "none".to_owned()
+        } else {
+            counts.join(", ")
+        };
+        let _ = writeln!(text, "Ends      {ends}");
+        if tally.judged > 0 {
+            let Tally {
+                certain, judged, ..
+            } = tally;
+            let _ = writeln!(
+                text,
+                "Trust     {certain} of {judged} ends are certain: column certain"
+            );
+        }
+        if let Some((row, error)) = &tally.first_error {
+            let first = error.lines().next().unwrap_or_default();
+            let place = self.line(*row);
+            let _ = writeln!(
+                text,
+                "Errors    {}; the first, in row {row}{place}: {first}",
+                tally.errors
+            );
+        }
+        let files = [Some(self.file), self.picture.as_deref()];
+        for (label, path) in ["Written", ""].iter().zip(files.into_iter().flatten()) {
+            let _ = writeln!(text, "{label:<9} {}", path.display());
+        }
+        text
+    }
+
+    /// Where a row stands in the list that it comes from, as a text editor counts.
+    fn line(&self, row: u64) -> String {
+        let Some(Plan::List(list)) = self.plan else {
+            return String::new();
+        };
+        let line = list.line(row);
+        line.map_or(String::new(), |line| {
+            format!(", line {line} of {}", list.name())
+        })
+    }
+}
+
+/// Which keys varied, and how.
+fn varied(plan: &Plan) -> String {
+    match plan {
+        Plan::Grid(axes) if axes.is_empty() => "nothing".to_owned(),
+        Plan::Grid(axes) => {
+            let axis = |axis: &Axis| match axis.count() {
+                1 => format!("{} (1 value)", axis.key()),
+                n => format!("{} ({n} values)", axis.key()),
+            };
+            axes.iter().map(axis).collect::<Vec<_>>().join(", ")
+        }
+        Plan::Random { sides, seed, .. } => {
+            let keys: Vec<&str> = sides.iter().map(Side::key).collect();
+            format!("{} (random points, seed {seed})", keys.join(", "))
+        }
+        Plan::List(list) => format!("{} (columns of {})", list.keys().join(", "), list.name()),
+    }
+}

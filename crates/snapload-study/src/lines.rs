@@ -1,0 +1,150 @@
+//! The lines of a CSV file, watched while it is read.
+//!
+//! A reader of CSV takes a record as it comes, however long, and a quote that is not closed takes in
+//! the lines that follow, to the end of the file if need be. No key takes a value of two lines, so
+//! both are slips; they are told here, with their line, before much is read.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+
+/// The longest record. Every key has room in it many times over.
+const LONGEST: usize = 1 << 20;
+/// What some programs put before the first letter.
+const MARK: &[u8; 3] = b"\xef\xbb\xbf";
+
+/// Where in a record the next byte stands, as the `csv` crate sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum At {
+    /// Before its first byte; a line without any is no record.
+    Record,
+    /// Before a cell, where a quote opens.
+    Cell,
+    /// Within a cell.
+    Plain,
+    /// Within quotes.
+    Quoted,
+    /// After a quote within quotes: they end, unless another one follows.
+    Quote,
+    /// After the end of a line that was within quotes.
+    Open,
+}
+
+/// Follows records byte by byte.
+#[derive(Debug)]
+struct Lines {
+    at: At,
+    /// The line, from 1.
+    line: u64,
+    /// Whether the last byte was a carriage return, whose line feed is no line of its own.
+    returned: bool,
+    /// How long the record is so far.
+    length: usize,
+    /// How many bytes of a mark were seen, and nothing else.
+    mark: usize,
+}
+
+impl Lines {
+    fn new() -> Self {
+        Self {
+            at: At::Record,
+            line: 1,
+            returned: false,
+            length: 0,
+            mark: 0,
+        }
+    }
+
+    fn see(&mut self, byte: u8) {
+        if MARK.get(self.mark) == Some(&byte) {
+            self.mark += 1;
+            return;
+        }
+        self.mark = MARK.len();
+        if self.at == At::Open || self.length > LONGEST {
+            return;
+        }
+        let new_line = matches!(byte, b'\r' | b'\n');
+        self.at = match (self.at, byte) {
+            (At::Quoted, b'"') => At::Quote,
+            (At::Quoted, _) if new_line => At::Open,
+            (At::Quote | At::Record | At::Cell, b'"') => At::Quoted,
+            (At::Quoted, _) => At::Quoted,
+            (_, b',') => At::Cell,
+            _ if new_line => At::Record,
+            _ => At::Plain,
+        };
+        if self.at == At::Open {
+            return;
+        }
+        self.line += u64::from(new_line && !(byte == b'\n' && self.returned));
+        self.returned = byte == b'\r';
+        self.length = match self.at {
+            At::Record => 0,
+            _ => self.length + 1,
+        };
+    }
+
+    /// What is wrong by now.
+    fn check(&self, ended: bool) -> io::Result<()> {
+        let open = self.at == At::Open || ended && self.at == At::Quoted;
+        let line = self.line;
+        let words = if open {
+            format!("line {line} opens a quote and does not close it; close it, or leave it out")
+        } else if self.length > LONGEST {
+            format!("line {line} is longer than {LONGEST} bytes; a list has a case a line")
+        } else {
+            return Ok(());
+        };
+        Err(io::Error::new(io::ErrorKind::InvalidData, words))
+    }
+}
+
+/// A file whose lines are watched.
+#[derive(Debug)]
+pub(crate) struct Watched {
+    file: File,
+    lines: Lines,
+}
+
+impl Watched {
+    pub(crate) fn open(path: &Path) -> io::Result<Self> {
+        let (file, lines) = (File::open(path)?, Lines::new());
+        Ok(Self { file, lines })
+    }
+}
+
+impl Read for Watched {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.file.read(buffer)?;
+        for byte in &buffer[..length] {
+            self.lines.see(*byte);
+        }
+        self.lines.check(length == 0 && !buffer.is_empty())?;
+        Ok(length)
+    }
+}
+
+/// The line in which a record begins, from 1; the first record has the number 0.
+pub(crate) fn line_of(path: &Path, record: u64) -> io::Result<Option<u64>> {
+    let mut bytes = BufReader::new(File::open(path)?);
+    let (mut lines, mut before) = (Lines::new(), 0);
+    loop {
+        let some = bytes.fill_buf()?;
+        if some.is_empty() {
+            return Ok(None);
+        }
+        let length = some.len();
+        for byte in some {
+            let (at, line) = (lines.at, lines.line);
+            lines.see(*byte);
+            if at == At::Record && lines.at != At::Record {
+                if before == record {
+                    return Ok(Some(line));
+                }
+                before += 1;
+            }
+        }
+        bytes.consume(length);
+    }
+}

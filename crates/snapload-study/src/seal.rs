@@ -1,0 +1,131 @@
+//! The checksum of a file, in the file itself.
+//!
+//! A Parquet file ends with notes on itself, which any reader skips that does not know them. The
+//! last one here is the SHA-256 of the whole file, in which the checksum's own digits count as
+//! zeros. So every bit of a file is covered, a part that is copied from machine to machine takes
+//! its checksum along, and it stays a Parquet file like any other.
+
+use crate::without_number;
+use parquet::file::metadata::KeyValue;
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+/// The name of the note.
+const NAME: &str = "snapload.sha256";
+/// How many digits it has.
+const DIGITS: usize = 64;
+/// What stands between the name and the digits: the next field, a text, of 64 bytes.
+const BETWEEN: [u8; 2] = [0x18, 0x40];
+/// A Parquet file ends with the length of its notes in four bytes, and four letters.
+const END: &[u8; 4] = b"PAR1";
+
+/// The note of a file whose checksum is not known yet; it has to be the last one.
+pub(crate) fn blank() -> KeyValue {
+    KeyValue::new(NAME.to_owned(), "0".repeat(DIGITS))
+}
+
+/// Writes the checksum of a file with a blank note into it.
+pub(crate) fn seal(mut file: impl Read + Write + Seek) -> io::Result<()> {
+    let note = Note::find(&mut file)?;
+    let note = note.ok_or_else(|| io::Error::other("there is no room for its checksum"))?;
+    let digits = note.computed(&mut file)?;
+    file.seek(SeekFrom::Start(note.place))?;
+    file.write_all(digits.as_bytes())
+}
+
+/// Why a file is not as it was written; nothing if it is.
+pub(crate) fn flaw(path: &Path) -> Option<String> {
+    match File::open(path).and_then(flaw_of) {
+        Ok(flaw) => flaw.map(str::to_owned),
+        Err(error) => Some(without_number(&error)),
+    }
+}
+
+/// The same for bytes or a file that is open.
+pub(crate) fn flaw_of(mut file: impl Read + Seek) -> io::Result<Option<&'static str>> {
+    let Some(note) = Note::find(&mut file)? else {
+        return Ok(Some("it is damaged, or not a file of snapload sweep"));
+    };
+    let whole = note.computed(&mut file)?.as_bytes() == note.there;
+    Ok((!whole).then_some("it is damaged: its checksum is not that of its bytes"))
+}
+
+/// A checksum in a file: where, and its digits.
+struct Note {
+    place: u64,
+    there: [u8; DIGITS],
+}
+
+impl Note {
+    fn find(file: &mut (impl Read + Seek)) -> io::Result<Option<Self>> {
+        let size = file.seek(SeekFrom::End(0))?;
+        let Some(end) = size.checked_sub(8) else {
+            return Ok(None);
+        };
+        let mut last = [0; 8];
+        file.seek(SeekFrom::Start(end))?;
+        file.read_exact(&mut last)?;
+        let [a, b, c, d, letters @ ..] = last;
+        let length = u64::from(u32::from_le_bytes([a, b, c, d]));
+        let Some(start) = end.checked_sub(length).filter(|_| letters == *END) else {
+            return Ok(None);
+        };
+        let mut notes = vec![0; length as usize];
+        file.seek(SeekFrom::Start(start))?;
+        file.read_exact(&mut notes)?;
+        let mut names = notes.windows(NAME.len());
+        let found = names.rposition(|name| name == NAME.as_bytes());
+        let digits = found.and_then(|found| {
+            let value = found + NAME.len();
+            let place = value + BETWEEN.len();
+            let there = notes.get(place..place + DIGITS)?.try_into().ok()?;
+            (notes[value..place] == BETWEEN).then_some((place as u64, there))
+        });
+        Ok(digits.map(|(place, there)| Self {
+            place: start + place,
+            there,
+        }))
+    }
+
+    /// What its digits have to be.
+    fn computed(&self, file: &mut (impl Read + Seek)) -> io::Result<String> {
+        let mut sum = Sum::default();
+        file.rewind()?;
+        sum.add(file.take(self.place))?;
+        sum.add(&[b'0'; DIGITS][..])?;
+        file.seek(SeekFrom::Start(self.place + DIGITS as u64))?;
+        sum.add(file)?;
+        Ok(sum.digits())
+    }
+}
+
+/// A SHA-256 in the making.
+#[derive(Default)]
+pub(crate) struct Sum(Sha256);
+
+impl Sum {
+    /// Takes in all that there is to read.
+    pub(crate) fn add(&mut self, mut from: impl Read) -> io::Result<()> {
+        let mut buffer = vec![0; 1 << 16];
+        loop {
+            let length = from.read(&mut buffer)?;
+            if length == 0 {
+                return Ok(());
+            }
+            self.0.update(&buffer[..length]);
+        }
+    }
+
+    /// As `sha256sum` prints it.
+    pub(crate) fn digits(self) -> String {
+        let mut digits = String::with_capacity(DIGITS);
+        for byte in self.0.finalize() {
+            // Writing to a string can not fail.
+            let _ = write!(digits, "{byte:02x}");
+        }
+        digits
+    }
+}
