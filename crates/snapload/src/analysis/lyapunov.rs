@@ -32,12 +32,14 @@ impl Frame {
     }
 
     /// Carries it through one step.
+    #[inline(always)]
     pub fn follow(&mut self, map: &StepMap) {
         map.carry_at_one_time(&mut self.directions);
         self.make_orthogonal();
     }
 
     /// Gram and Schmidt's procedure.
+    #[inline(always)]
     fn make_orthogonal(&mut self) {
         let mut columns = [[0.0; 6]; 6];
         for (i, column) in columns.iter_mut().enumerate() {

@@ -41,6 +41,7 @@ pub(super) struct Flow {
 }
 
 impl Flow {
+    #[inline(always)]
     pub(super) fn carry<const M: usize>(&self, block: &mut Block<M>) {
         match &self.driven {
             None => {
@@ -68,11 +69,13 @@ impl StepMap {
     }
 
     /// Through the law of the event.
+    #[inline(always)]
     pub fn through(&self, deviation: &Deviation) -> Deviation {
         single(deviation, |block| self.carry_through(block))
     }
 
     /// [`StepMap::along`] of many.
+    #[inline(always)]
     pub(crate) fn carry_along<const M: usize>(&self, block: &mut Block<M>) {
         self.flow.carry(block);
         let tau = block[6];
@@ -82,6 +85,7 @@ impl StepMap {
     }
 
     /// [`StepMap::meet`] of many.
+    #[inline(always)]
     pub(crate) fn carry_to_meet<const M: usize>(&self, block: &mut Block<M>) {
         let later = combined(block, &self.delay);
         for (i, rate) in self.rate.iter().enumerate() {
@@ -91,14 +95,19 @@ impl StepMap {
     }
 
     /// [`StepMap::through`] of many.
+    #[inline(always)]
     pub(crate) fn carry_through<const M: usize>(&self, block: &mut Block<M>) {
         if let Some(law) = &self.law {
-            let velocities = law.map(|row| combined(block, &row));
+            let mut velocities = [[0.0; M]; 3];
+            for (velocity, row) in velocities.iter_mut().zip(law) {
+                *velocity = combined(block, row);
+            }
             block[3..6].copy_from_slice(&velocities);
         }
     }
 
     /// All of the step for many deviations at one time, at its start and at its end.
+    #[inline(always)]
     pub(crate) fn carry_at_one_time<const M: usize>(&self, block: &mut Block<M>) {
         block[6] = [0.0; M];
         self.carry_along(block);
@@ -136,6 +145,7 @@ impl StepMap {
 
     /// The length of (ż₊ − R' ż₋) ∇h/ḣ: by how much a deviation can grow because the event comes at
     /// another time.
+    #[inline(always)]
     pub(crate) fn magnification(&self) -> f64 {
         let through = self.through(&join(&self.rate, 0.0));
         let jump = add_scaled(&self.rate_after, &split(&through).0, -1.0);
@@ -159,6 +169,7 @@ impl StepMap {
 }
 
 /// Adds to a row of a block.
+#[inline(always)]
 fn add_row<const M: usize>(block: &mut Block<M>, to: usize, row: &[f64; M], factor: f64) {
     for (sum, entry) in block[to].iter_mut().zip(row) {
         *sum += factor * entry;
@@ -166,6 +177,7 @@ fn add_row<const M: usize>(block: &mut Block<M>, to: usize, row: &[f64; M], fact
 }
 
 /// A linear function of the state, of every deviation.
+#[inline(always)]
 pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
     let mut sum = [0.0; M];
     for (row, factor) in block.iter().zip(factors) {
@@ -177,12 +189,14 @@ pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> 
 }
 
 /// An operation on blocks, on one deviation.
+#[inline(always)]
 pub(super) fn single(deviation: &Deviation, carry: impl Fn(&mut Block<1>)) -> Deviation {
     let mut block = deviation.map(|component| [component]);
     carry(&mut block);
     block.map(|[component]| component)
 }
 
+#[inline(always)]
 pub(super) fn add_scaled(a: &[f64; 6], b: &[f64; 6], scale: f64) -> [f64; 6] {
     let mut sum = *a;
     for (sum, b) in sum.iter_mut().zip(b) {
@@ -191,15 +205,18 @@ pub(super) fn add_scaled(a: &[f64; 6], b: &[f64; 6], scale: f64) -> [f64; 6] {
     sum
 }
 
+#[inline(always)]
 pub(super) fn split(deviation: &Deviation) -> ([f64; 6], f64) {
     let [x, y, theta, vx, vy, vtheta, tau] = *deviation;
     ([x, y, theta, vx, vy, vtheta], tau)
 }
 
+#[inline(always)]
 pub(super) fn join(w: &[f64; 6], tau: f64) -> Deviation {
     [w[0], w[1], w[2], w[3], w[4], w[5], tau]
 }
 
+#[inline(always)]
 pub(crate) fn dot6(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

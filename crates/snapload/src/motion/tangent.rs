@@ -36,7 +36,7 @@ type Number = Dual<f64, 6>;
 const SUBSTEPS: f64 = 3.0;
 /// Near rest the motion has no time scale, but its deviations swing all the same: a step is no
 /// longer than this part of a radian of the fastest of them.
-const RADIANS: f64 = 0.25;
+const RADIANS: f64 = 0.5;
 
 /// The linearised motion along a run.
 #[derive(Clone, Debug)]

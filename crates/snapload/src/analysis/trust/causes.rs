@@ -8,25 +8,61 @@ use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
-use crate::motion::step_map::StepMap;
+use crate::motion::step_map::{Deviation, StepMap};
 
 /// Neighbours are held to reach this many standard deviations.
 const REACH: f64 = 3.0;
 
+/// How far neighbours are spread at some instant.
+pub(super) struct Spread<'a> {
+    covariance: &'a CovarianceFactor,
+    /// Standard deviation of each component.
+    pub(super) sizes: Deviation,
+}
+
+impl<'a> Spread<'a> {
+    #[inline(always)]
+    pub(super) fn of(covariance: &'a CovarianceFactor) -> Self {
+        Self {
+            covariance,
+            sizes: covariance.sizes(),
+        }
+    }
+
+    /// How far neighbours reach along a linear function of the state.
+    #[inline(always)]
+    fn reach(&self, direction: &[f64; 6]) -> f64 {
+        REACH * self.covariance.along(direction)
+    }
+
+    /// A bound on that for every function with derivatives of at most these sizes.
+    #[inline(always)]
+    fn at_most(&self, slopes: &[f64; 6]) -> f64 {
+        let mut sum = 0.0;
+        for (slope, size) in slopes.iter().zip(&self.sizes) {
+            // Nothing times what is lost is nothing.
+            sum += if *slope > 0.0 { slope * size } else { 0.0 };
+        }
+        REACH * sum
+    }
+}
+
 /// Where the neighbours of a step are just before its event.
 pub(super) struct Neighbours<'a> {
     /// At the time of the event before.
-    pub(super) along: &'a CovarianceFactor,
+    pub(super) along: Spread<'a>,
     /// Each at its own event.
-    pub(super) met: &'a CovarianceFactor,
+    pub(super) met: Spread<'a>,
     /// Standard deviation of the time at which rounding lets the event be located.
     pub(super) late: f64,
 }
 
 impl Neighbours<'_> {
-    /// Standard deviation of the time by which they have the event later or earlier.
-    fn delay(&self, map: &StepMap) -> f64 {
-        libm::hypot(self.along.along(map.delay()), self.late)
+    /// By how much time they reach before or after the event of the run.
+    #[inline(always)]
+    fn reach_in_time(&self, map: &StepMap) -> f64 {
+        let (along, late) = (self.along.covariance.along(map.delay()), self.late);
+        REACH * (along * along + late * late).sqrt()
     }
 }
 
@@ -61,7 +97,7 @@ pub(super) fn cause(
     }
     let may = may_stop(simulation, step, neighbours)
         || may_fall_short(simulation, step, map, neighbours)
-        || may_run_out_of_time(simulation, step, neighbours.met);
+        || may_run_out_of_time(simulation, step, &neighbours.met);
     may.then_some(HorizonCause::StopRule)
 }
 
@@ -91,19 +127,21 @@ pub(super) fn cause_at_start(
 }
 
 /// Whether a run that begins at a limit, or on its cables at the settling height, may stop there
-/// and a neighbour not.
-pub(super) fn may_stop_at_start(simulation: &Simulation, covariance: &CovarianceFactor) -> bool {
+/// and a neighbour not. No neighbour begins beyond a limit by more than the start's tolerance.
+pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> bool {
     let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
     let near = |place: f64, margin: f64| place.abs() <= margin;
     let limits = Limit::ALL.into_iter().any(|limit| {
         let above = |bound: f64| limit.quantity(system, state) - bound;
-        let margin = margin(&limit.slope_bounds(system), covariance);
+        let margin = spread
+            .at_most(&limit.slope_bounds(system))
+            .min(START_TOLERANCE);
         limit
             .bound(rules)
             .is_some_and(|bound| near(above(bound), margin))
     });
     let heights = [rules.settled_below, rules.sliding_above];
-    let margin = REACH * covariance.of_component(1);
+    let margin = REACH * spread.sizes[1];
     let settles = heights
         .into_iter()
         .flatten()
@@ -111,17 +149,12 @@ pub(super) fn may_stop_at_start(simulation: &Simulation, covariance: &Covariance
     limits || settles && !simulation.closed().is_empty()
 }
 
-/// How far neighbours reach in a quantity with derivatives of at most these sizes.
-fn margin(slopes: &[f64; 6], covariance: &CovarianceFactor) -> f64 {
-    let by = |i: usize| slopes[i] * REACH * covariance.of_component(i);
-    (0..6).filter(|&i| slopes[i] > 0.0).map(by).sum()
-}
-
 /// Whether the event comes so late that a neighbour, `met` just before the same event, may run out of
 /// time first.
-fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &CovarianceFactor) -> bool {
+#[inline(always)]
+fn may_run_out_of_time(simulation: &Simulation, step: &Step, met: &Spread) -> bool {
     let left = simulation.rules().t_end - step.t_end;
-    step.event.reached != Reached::default() && REACH * met.of_component(6) >= left
+    step.event.reached != Reached::default() && REACH * met.sizes[6] >= left
 }
 
 /// How a gap closes, just before the one impact of a step.
@@ -161,7 +194,7 @@ impl Closing {
 #[inline(always)]
 fn may_miss(map: &StepMap, neighbours: &Neighbours, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
-    alpha < 0.0 && REACH * neighbours.delay(map) * 2.0 * -alpha >= v_n
+    alpha < 0.0 && neighbours.reach_in_time(map) * 2.0 * -alpha >= v_n
 }
 
 /// Whether some neighbours snap slowly enough to stick and others do not: from there on their
@@ -184,15 +217,15 @@ fn may_or_may_not_stick(
     let tether = &system.cables[cable];
     let reach = tether.fairlead().length();
     let speed = before.velocity().length() + before.vtheta.abs() * reach;
-    let turns = speed * (1.0 + reach) / tether.length();
-    let sum = |i: [usize; 3]| -> f64 { i.map(|i| neighbours.met.of_component(i)).iter().sum() };
-    if off > REACH * (1.0 + reach) * (sum([3, 4, 5]) + turns * sum([0, 1, 2])) {
+    let turns = speed * (1.0 + reach) * (1.0 + reach) / tether.length();
+    let slopes = [turns, turns, turns, 1.0, 1.0, reach];
+    if off > neighbours.met.at_most(&slopes) {
         return false;
     }
     let (Normal { n, arm }, slopes) = tether.normal_and_slopes(before);
     let [x, y, theta] = slopes
         .map(|slopes| slopes[0] * before.vx + slopes[1] * before.vy + slopes[2] * before.vtheta);
-    off <= REACH * neighbours.met.along(&[x, y, theta, n.x, n.y, arm])
+    off <= neighbours.met.reach(&[x, y, theta, n.x, n.y, arm])
 }
 
 /// Whether a cable that stays slack comes within reach of being taut, along the stretch or at its
@@ -201,18 +234,18 @@ fn may_or_may_not_stick(
 fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable: usize) -> bool {
     let Neighbours { along, met, .. } = neighbours;
     let tether = &simulation.system().cables[cable];
-    let reach = 2.0 * tether.length() * REACH;
+    let per_place = 2.0 * tether.length();
     // A bound first: |n| = 1, and the arm is no longer than the lever.
     let [a, b] = tether.fairlead().components();
-    let sizes = [1.0, 1.0, a.abs() + b.abs()];
-    let most = reach * along.at_most(sizes).max(met.at_most(sizes));
+    let slopes = [1.0, 1.0, a.abs() + b.abs(), 0.0, 0.0, 0.0];
+    let most = per_place * along.at_most(&slopes).max(met.at_most(&slopes));
     if simulation.contact(cable).gap <= -most && !simulation.comes_near(step, cable, most) {
         return false;
     }
     let Normal { n, arm } = tether.normal(&step.before);
     let direction = [n.x, n.y, arm, 0.0, 0.0, 0.0];
-    let margin = reach * along.along(&direction);
-    let at_end = reach * met.along(&direction);
+    let margin = per_place * along.reach(&direction);
+    let at_end = per_place * met.reach(&direction);
     simulation.contact(cable).gap > -margin.max(at_end)
         || simulation.comes_near(step, cable, margin)
 }
@@ -225,13 +258,14 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
     let exceeds = Limit::ALL.into_iter().any(|limit| {
         limit.bound(rules).is_some_and(|bound| {
             let slopes = limit.slope_bounds(system);
-            let (margin, at_end) = (
-                margin(&slopes, neighbours.along),
-                margin(&slopes, neighbours.met),
-            );
+            let margin = neighbours.along.at_most(&slopes);
+            let at_end = neighbours.met.at_most(&slopes);
+            let within = |margin: f64| {
+                simulation.largest_within(step, limit, bound - margin) + margin >= bound
+            };
             !reached.limits.contains(limit)
-                && (limit.quantity(system, before) + at_end >= bound
-                    || simulation.largest_within(step, limit, bound - margin) + margin >= bound)
+                && within(margin.max(at_end))
+                && (limit.quantity(system, before) + at_end >= bound || within(margin))
         })
     });
     // One cable may stick as another leaves.
@@ -241,8 +275,7 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
         .into_iter()
         .flatten()
         .any(|height| {
-            let spread = |covariance: &CovarianceFactor| covariance.of_component(1);
-            let spread = spread(neighbours.along).max(spread(neighbours.met));
+            let spread = neighbours.along.sizes[1].max(neighbours.met.sizes[1]);
             sticks && (before.y - height).abs() <= REACH * spread
         });
     exceeds || settles
@@ -265,5 +298,5 @@ fn may_fall_short(
     let [.., x, y, theta] = *map.rate();
     let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
     slowing += delay[1] * limit.centripetal(simulation.system(), before);
-    REACH * neighbours.delay(map) * 2.0 * slowing >= 1.0
+    neighbours.reach_in_time(map) * 2.0 * slowing >= 1.0
 }

@@ -39,6 +39,7 @@ impl CovarianceFactor {
     }
 
     /// The same after a linear map of deviations, which the parameters' have been through already.
+    #[inline(always)]
     pub(super) fn carried(
         &self,
         map: impl FnOnce(&mut Block<COLUMNS>),
@@ -50,6 +51,7 @@ impl CovarianceFactor {
     }
 
     /// The same with one more part, in the column that is left free for it.
+    #[inline(always)]
     pub(super) fn with_part(mut self, part: &Deviation) -> Self {
         for (row, entry) in self.parts.iter_mut().zip(part) {
             row[PARTS] = *entry;
@@ -58,6 +60,7 @@ impl CovarianceFactor {
     }
 
     /// Adds independent parts.
+    #[inline(always)]
     pub(super) fn add_parts(&mut self, more: &Block<COLUMNS>) {
         if self.is_lost() {
             return;
@@ -70,12 +73,14 @@ impl CovarianceFactor {
             row[..COLUMNS].copy_from_slice(parts);
             row[COLUMNS..].copy_from_slice(more);
         }
-        for i in 0..PARTS {
-            let [pivot, below @ ..] = &mut all[i..] else {
-                break;
-            };
-            reflect(i, pivot, below);
-        }
+        // One after the other by hand: which is which is then known when it is compiled.
+        reflect::<0>(&mut all);
+        reflect::<1>(&mut all);
+        reflect::<2>(&mut all);
+        reflect::<3>(&mut all);
+        reflect::<4>(&mut all);
+        reflect::<5>(&mut all);
+        reflect::<6>(&mut all);
         for (parts, row) in self.parts.iter_mut().zip(&all) {
             parts[..PARTS].copy_from_slice(&row[..PARTS]);
             parts[PARTS] = 0.0;
@@ -83,6 +88,7 @@ impl CovarianceFactor {
     }
 
     /// Whether nothing is known any more.
+    #[inline(always)]
     pub(super) fn is_lost(&self) -> bool {
         let small = |component: &f64| component.abs() < LOST;
         let parts = self
@@ -93,22 +99,26 @@ impl CovarianceFactor {
         !(parts && self.columns.iter().flatten().all(small))
     }
 
-    /// Variance of component i.
-    pub(super) fn variance(&self, i: usize) -> f64 {
-        let columns: f64 = self
-            .columns
-            .iter()
-            .map(|column| column[i] * column[i])
-            .sum();
-        dot(&self.parts[i], &self.parts[i]) + columns
-    }
-
-    /// Standard deviation of component i.
-    pub(super) fn of_component(&self, i: usize) -> f64 {
-        self.variance(i).sqrt()
+    /// Standard deviation of each component.
+    #[inline(always)]
+    pub(super) fn sizes(&self) -> Deviation {
+        let mut squares = [0.0; 7];
+        for (square, parts) in squares.iter_mut().zip(&self.parts) {
+            *square = dot(parts, parts);
+        }
+        for column in &self.columns {
+            for (square, part) in squares.iter_mut().zip(column) {
+                *square += part * part;
+            }
+        }
+        for square in &mut squares {
+            *square = square.sqrt();
+        }
+        squares
     }
 
     /// Standard deviation of a linear function of the state.
+    #[inline(always)]
     pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {
         let parts = combined(&self.parts, direction);
         let along =
@@ -120,39 +130,39 @@ impl CovarianceFactor {
             .sum();
         (dot(&parts, &parts) + columns).sqrt()
     }
-
-    /// A bound on the standard deviation of a linear function of the position with coefficients of
-    /// these sizes.
-    pub(super) fn at_most(&self, coefficients: [f64; 3]) -> f64 {
-        (0..3).map(|i| coefficients[i] * self.of_component(i)).sum()
-    }
 }
 
-/// Turns the parts from the i-th on into each other, so that only the first of them has anything in
-/// row i.
-fn reflect(i: usize, pivot: &mut [f64; 2 * COLUMNS], below: &mut [[f64; 2 * COLUMNS]]) {
-    let mut mirror = *pivot;
-    mirror[..i].fill(0.0);
-    let length = dot(&mirror, &mirror).sqrt().copysign(-mirror[i]);
+/// Turns the parts from the I-th on into each other, so that only the first of them has anything in
+/// row I.
+#[inline(always)]
+fn reflect<const I: usize>(all: &mut [[f64; 2 * COLUMNS]; 7]) {
+    let mut mirror = all[I];
+    for component in &mut mirror[..I] {
+        *component = 0.0;
+    }
+    let first = mirror[I];
+    let length = dot(&mirror, &mirror).sqrt().copysign(-first);
     if length == 0.0 {
         return;
     }
-    for component in &mut mirror {
-        *component /= length;
+    // With the length taken off its first component the mirror's square is 2 length (length −
+    // first), and neither sum cancels.
+    mirror[I] = first - length;
+    let scale = 1.0 / (length * mirror[I]);
+    for component in &mut all[I][I..] {
+        *component = 0.0;
     }
-    mirror[i] -= 1.0;
-    let scale = 1.0 / mirror[i];
-    pivot[i..].fill(0.0);
-    pivot[i] = length;
-    for row in below {
-        let along = dot(&mirror, row) * scale;
-        for (entry, m) in row.iter_mut().zip(mirror) {
+    all[I][I] = length;
+    for row in I + 1..7 {
+        let along = dot(&mirror, &all[row]) * scale;
+        for (entry, m) in all[row].iter_mut().zip(mirror) {
             *entry += m * along;
         }
     }
 }
 
 /// Σ a_k b_k, as eight sums that a processor can do at once.
+#[inline(always)]
 fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     let mut sums = [0.0; 8];
     for (a, b) in a.chunks_exact(8).zip(b.chunks_exact(8)) {
@@ -160,8 +170,10 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
             sums[k] += a[k] * b[k];
         }
     }
-    let fours = [0, 1, 2, 3].map(|k| sums[k] + sums[k + 4]);
-    (fours[0] + fours[1]) + (fours[2] + fours[3])
+    for k in 0..4 {
+        sums[k] += sums[k + 4];
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::analysis::lyapunov::Frame;
 use crate::analysis::trust::causes::{
-    Closing, Neighbours, cause, cause_at_start, may_stop_at_start,
+    Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
 };
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::analysis::trust::rounding::{self, Rounding};
@@ -42,14 +42,17 @@ pub struct TrustMonitor {
     end: f64,
 }
 
-/// A step to be followed, by the best instructions for it.
-struct Following<'a>(&'a mut TrustMonitor, &'a Simulation, &'a Step);
+/// A step to be followed, with the exponents or without, by the best instructions for it.
+struct Following<'a, const EXPONENTS: bool>(&'a mut TrustMonitor, &'a Simulation, &'a Step);
 
-impl Kernel for Following<'_> {
-    type Output = StepMap;
+impl<const EXPONENTS: bool> Kernel for Following<'_, EXPONENTS> {
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> StepMap {
-        self.0.follow_here(self.1, self.2)
+    fn run(self) {
+        let map = self.0.follow_here(self.1, self.2);
+        if EXPONENTS {
+            self.0.frame.follow(&map);
+        }
     }
 }
 
@@ -88,7 +91,8 @@ impl TrustMonitor {
             simulation.closed(),
         ));
         let cause = cause.or_else(|| {
-            may_stop_at_start(simulation, &covariance).then_some(HorizonCause::StopRule)
+            may_stop_at_start(simulation, &Spread::of(&covariance))
+                .then_some(HorizonCause::StopRule)
         });
         let horizon = cause.map(|cause| Horizon {
             t: simulation.time(),
@@ -136,13 +140,12 @@ impl TrustMonitor {
 
     /// Takes in the step that `simulation` has just made.
     pub fn follow(&mut self, simulation: &Simulation, step: &Step) {
-        let map = self.follow_spread(simulation, step);
-        self.frame.follow(&map);
+        dispatch(Following::<true>(self, simulation, step));
     }
 
     /// Takes in the step, but for the exponents, which the horizon does not depend on.
-    pub(super) fn follow_spread(&mut self, simulation: &Simulation, step: &Step) -> StepMap {
-        dispatch(Following(self, simulation, step))
+    pub(super) fn follow_spread(&mut self, simulation: &Simulation, step: &Step) {
+        dispatch(Following::<false>(self, simulation, step));
     }
 
     #[inline(always)]
@@ -163,6 +166,7 @@ impl TrustMonitor {
     }
 
     /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    #[inline(always)]
     fn is_lost(&self) -> bool {
         let other_events = self
             .horizon
@@ -187,8 +191,8 @@ impl TrustMonitor {
             .carried(|w| map.carry_to_meet(w), column(1))
             .with_part(&rounding.location);
         let neighbours = Neighbours {
-            along: &along,
-            met: &met,
+            along: Spread::of(&along),
+            met: Spread::of(&met),
             late: rounding.late,
         };
         if let Some(cause) = cause(simulation, step, map, &neighbours, closing) {
@@ -196,13 +200,17 @@ impl TrustMonitor {
         }
         let mut after = met.carried(|w| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
-        let error =
-            relative(&met, &step.before, step.t_end).max(relative(&after, &step.after, step.t_end));
+        let sizes = after.sizes();
+        let error = relative(&neighbours.met.sizes, &step.before, step.t_end).max(relative(
+            &sizes,
+            &step.after,
+            step.t_end,
+        ));
         self.covariance = after;
         self.end_error = if step.stop == Some(Stop::EndTime) {
             0.0
         } else {
-            ERROR * self.covariance.of_component(6)
+            ERROR * sizes[6]
         };
         if error > self.tolerance || self.covariance.is_lost() {
             self.lose(step, HorizonCause::Tolerance);
@@ -211,6 +219,7 @@ impl TrustMonitor {
     }
 
     /// Trust ends once.
+    #[inline(always)]
     fn lose(&mut self, step: &Step, cause: HorizonCause) {
         self.horizon.get_or_insert(Horizon {
             t: step.t_end,
@@ -300,11 +309,12 @@ impl UncertainKey {
 }
 
 /// The largest error of time and state, of each relative to its value where that is above 1.
-fn relative(covariance: &CovarianceFactor, state: &State, t: f64) -> f64 {
+#[inline(always)]
+fn relative(sizes: &Deviation, state: &State, t: f64) -> f64 {
     let [x, y, theta, vx, vy, vtheta] = state.components();
     let mut largest = 0.0_f64;
-    for (i, value) in [x, y, theta, vx, vy, vtheta, t].into_iter().enumerate() {
-        largest = largest.max(covariance.variance(i) / (value * value).max(1.0));
+    for (size, value) in sizes.iter().zip([x, y, theta, vx, vy, vtheta, t]) {
+        largest = largest.max(size / value.abs().max(1.0));
     }
-    ERROR * largest.sqrt()
+    ERROR * largest
 }

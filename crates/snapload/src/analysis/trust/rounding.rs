@@ -110,15 +110,14 @@ fn location(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> 
         square += known * known + turned * turned;
     }
     let late = square.sqrt();
-    let rate = map.rate().map(|rate| rate * late);
-    let [vx, vy, vtheta, ax, ay, atheta] = rate;
-    let mut place = [vx, vy, vtheta];
+    let [vx, vy, vtheta, ax, ay, atheta] = *map.rate();
+    let mut place = [vx * late, vy * late, vtheta * late];
     if let Some(cable) = struck {
         let (system, metric) = (simulation.system(), Metric::of_step(simulation));
         Constraints::of(system, last, TautSet::only(cable), metric).keep(&mut place);
     }
     let [x, y, theta] = place;
-    let location = [x, y, theta, ax, ay, atheta, late];
+    let location = [x, y, theta, ax * late, ay * late, atheta * late, late];
     (late, location)
 }
 
@@ -160,6 +159,7 @@ fn stored(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Bl
 }
 
 /// A part for each component and for the time, which is rounded as such and as the forcing's phase.
+#[inline(always)]
 fn diagonal(sizes: [f64; 6], t: f64) -> Block<COLUMNS> {
     let mut parts = [[0.0; COLUMNS]; 7];
     for (i, size) in sizes.into_iter().enumerate() {
@@ -211,6 +211,7 @@ fn keep_known_gap(
 
 /// Standard deviation of a place across a cable's end, of a bound on the error of its gap: g = |d|² −
 /// r² changes by 2r times it, and the bound is a sum of about eight roundings at their worst.
+#[inline(always)]
 fn across(error: f64, length: f64) -> f64 {
     error / (8.0 * 2.0 * length)
 }
@@ -221,11 +222,13 @@ struct Metric([f64; 3]);
 
 impl Metric {
     /// Each as a force would move it.
+    #[inline(always)]
     fn of_masses(system: &System) -> Self {
         Self([1.0, 1.0, system.body.inverse_inertia()])
     }
 
     /// As the step that `simulation` has just made does it: a bounce does not turn the body.
+    #[inline(always)]
     fn of_step(simulation: &Simulation) -> Self {
         if simulation.has_bounced() {
             Self([1.0, 1.0, 0.0])
@@ -234,8 +237,9 @@ impl Metric {
         }
     }
 
+    #[inline(always)]
     fn product(self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
-        (0..3).map(|i| self.0[i] * a[i] * b[i]).sum()
+        self.0[0] * a[0] * b[0] + self.0[1] * a[1] * b[1] + self.0[2] * a[2] * b[2]
     }
 }
 
@@ -247,6 +251,7 @@ struct Constraints {
 }
 
 impl Constraints {
+    #[inline(always)]
     fn of(system: &System, state: &State, set: TautSet, metric: Metric) -> Self {
         let mut all = Self {
             normals: [[0.0; 3]; 3],
@@ -261,6 +266,7 @@ impl Constraints {
     }
 
     /// Adds a normal, if it is independent of the others; returns the length of its part that is.
+    #[inline(always)]
     fn add(&mut self, mut normal: [f64; 3]) -> Option<f64> {
         let whole = self.metric.product(&normal, &normal);
         for earlier in &self.normals[..self.count] {
@@ -272,32 +278,45 @@ impl Constraints {
             return None;
         }
         let left = left.sqrt();
-        self.normals[self.count] = normal.map(|component| component / left);
+        for component in &mut normal {
+            *component /= left;
+        }
+        self.normals[self.count] = normal;
         self.count += 1;
         Some(left)
     }
 
     /// Moves a displacement back to where it stretches no cable of the set.
+    #[inline(always)]
     fn keep(&self, displacement: &mut [f64; 3]) {
         for normal in &self.normals[..self.count] {
-            let across: f64 = (0..3).map(|i| displacement[i] * normal[i]).sum();
-            let yields = [0, 1, 2].map(|i| self.metric.0[i] * normal[i]);
-            subtract(displacement, &yields, across);
+            let mut across = 0.0;
+            for i in 0..3 {
+                across += displacement[i] * normal[i];
+            }
+            for i in 0..3 {
+                displacement[i] -= across * self.metric.0[i] * normal[i];
+            }
         }
     }
 
     /// The same for what rounding displaces, or adds to the velocity, in the three rows from `row`.
+    #[inline(always)]
     fn keep_parts(&self, parts: &mut Block<COLUMNS>, row: usize) {
         for column in row..row + 3 {
-            let mut part = [0, 1, 2].map(|i| parts[row + i][column]);
+            let mut part = [0.0; 3];
+            for i in 0..3 {
+                part[i] = parts[row + i][column];
+            }
             self.keep(&mut part);
-            for (i, entry) in part.into_iter().enumerate() {
-                parts[row + i][column] = entry;
+            for i in 0..3 {
+                parts[row + i][column] = part[i];
             }
         }
     }
 }
 
+#[inline(always)]
 fn subtract(vector: &mut [f64; 3], direction: &[f64; 3], length: f64) {
     for (component, along) in vector.iter_mut().zip(direction) {
         *component -= length * along;
