@@ -136,7 +136,10 @@ impl CovarianceFactor {
 /// row I.
 #[inline(always)]
 fn reflect<const I: usize>(all: &mut [[f64; 2 * COLUMNS]; 7]) {
-    let mut mirror = all[I];
+    let [.., pivot] = &mut all[..=I] else {
+        return;
+    };
+    let mut mirror = *pivot;
     for component in &mut mirror[..I] {
         *component = 0.0;
     }
@@ -146,16 +149,16 @@ fn reflect<const I: usize>(all: &mut [[f64; 2 * COLUMNS]; 7]) {
         return;
     }
     // With the length taken off its first component the mirror's square is 2 length (length −
-    // first), and neither sum cancels.
+    // first), and neither difference cancels.
     mirror[I] = first - length;
     let scale = 1.0 / (length * mirror[I]);
-    for component in &mut all[I][I..] {
+    for component in &mut pivot[I..] {
         *component = 0.0;
     }
-    all[I][I] = length;
-    for row in I + 1..7 {
-        let along = dot(&mirror, &all[row]) * scale;
-        for (entry, m) in all[row].iter_mut().zip(mirror) {
+    pivot[I] = length;
+    for row in &mut all[I + 1..] {
+        let along = dot(&mirror, row) * scale;
+        for (entry, m) in row.iter_mut().zip(mirror) {
             *entry += m * along;
         }
     }

@@ -24,7 +24,7 @@ use crate::model::taut_set::TautSet;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap};
 
-/// Standard deviation of a number that is rounded, relative to it.
+/// Standard deviation of a number that is rounded three times on its way, relative to it.
 const ROUNDING: f64 = 0.43 * f64::EPSILON;
 
 /// What rounding does in one step.
@@ -194,9 +194,8 @@ fn keep_known_gap(
     let Normal { n, arm } = system.cables[cable].normal(after);
     let normal = [n.x, n.y, arm];
     let mut square = 0.0;
-    for part in 0..3 {
-        let along: f64 = (0..3).map(|i| parts[i][part] * normal[i]).sum();
-        square += along * along;
+    for part in across_parts(parts, &normal) {
+        square += part * part;
     }
     if size * size < square
         && let Some(left) = constraints.add(normal)
@@ -291,11 +290,12 @@ impl Constraints {
     fn keep(&self, displacement: &mut [f64; 3]) {
         for normal in &self.normals[..self.count] {
             let mut across = 0.0;
-            for i in 0..3 {
-                across += displacement[i] * normal[i];
+            for (component, n) in displacement.iter().zip(normal) {
+                across += component * n;
             }
-            for i in 0..3 {
-                displacement[i] -= across * self.metric.0[i] * normal[i];
+            for ((component, n), yielding) in displacement.iter_mut().zip(normal).zip(self.metric.0)
+            {
+                *component -= across * yielding * n;
             }
         }
     }
@@ -303,17 +303,28 @@ impl Constraints {
     /// The same for what rounding displaces, or adds to the velocity, in the three rows from `row`.
     #[inline(always)]
     fn keep_parts(&self, parts: &mut Block<COLUMNS>, row: usize) {
-        for column in row..row + 3 {
-            let mut part = [0.0; 3];
-            for i in 0..3 {
-                part[i] = parts[row + i][column];
-            }
-            self.keep(&mut part);
-            for i in 0..3 {
-                parts[row + i][column] = part[i];
+        let rows = &mut parts[row..row + 3];
+        for normal in &self.normals[..self.count] {
+            let across = across_parts(rows, normal);
+            for ((row, n), yielding) in rows.iter_mut().zip(normal).zip(self.metric.0) {
+                for (entry, across) in row.iter_mut().zip(across) {
+                    *entry -= across * yielding * n;
+                }
             }
         }
     }
+}
+
+/// What each part displaces along a normal, of which three rows are given.
+#[inline(always)]
+fn across_parts(rows: &[[f64; COLUMNS]], normal: &[f64; 3]) -> [f64; COLUMNS] {
+    let mut across = [0.0; COLUMNS];
+    for (row, n) in rows.iter().zip(normal) {
+        for (sum, entry) in across.iter_mut().zip(row) {
+            *sum += n * entry;
+        }
+    }
+    across
 }
 
 #[inline(always)]
