@@ -111,12 +111,8 @@ fn with_words<const WORDS: usize>(
         .into_iter()
         .flatten()
         .min();
-    if let Some(stop) = simulation.stop() {
-        let ours = run.end();
-        let alike = stop == ours.reason && relative(ours.t, simulation.time()) <= tolerance;
-        if run.impacts().len() != impacts || !alike {
-            first_wrong = first_wrong.or(Some(impacts + 1));
-        }
+    if ends_otherwise(&run, &simulation, impacts, tolerance) {
+        first_wrong = first_wrong.or(Some(impacts + 1));
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,
@@ -128,6 +124,21 @@ fn with_words<const WORDS: usize>(
         end: simulation.stop(),
         t: simulation.time().to_f64(),
         impacts,
+    })
+}
+
+/// Whether a run ends in another way, later or sooner than the one with many digits, which has so
+/// many impacts; nothing is known where that has not come to its end.
+fn ends_otherwise<T: Real>(
+    run: &Trajectory,
+    exact: &Simulation<T>,
+    impacts: usize,
+    tolerance: f64,
+) -> bool {
+    let ours = run.end();
+    exact.stop().is_some_and(|stop| {
+        let alike = stop == ours.reason && relative(ours.t, exact.time()) <= tolerance;
+        run.impacts().len() != impacts || !alike
     })
 }
 

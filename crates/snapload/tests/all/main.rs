@@ -20,3 +20,4 @@ mod linearised_motion;
 mod many_cables;
 mod same_bits;
 mod trust;
+mod trust_causes;

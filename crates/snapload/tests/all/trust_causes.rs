@@ -1,0 +1,194 @@
+//! What ends trust: events that neighbours may not share, each in a case made for it.
+
+use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched, verify};
+use snapload::{Case, Parameters, Rules, Simulation, Stop, Value, named_case};
+
+fn case(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Case {
+    Parameters::from_entries(entries)
+        .and_then(Case::new)
+        .expect("a legal case")
+}
+
+/// A neighbour has its impact later, and has turned further by then, although it has turned as far
+/// at any one time.
+#[test]
+fn a_limit_may_be_met_on_the_way_to_a_later_impact() {
+    let number = |key, value| (key, Value::Number(value));
+    let turning = |y| {
+        let numbers = [
+            ("theta", 1.0),
+            ("f_o", 0.0),
+            ("e", 0.5),
+            ("y", y),
+            ("vtheta", 0.86437),
+        ];
+        case(numbers.map(|(key, value)| number(key, value)))
+    };
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("y", 1e-5).expect("a key in doubt");
+    let (run, trust) = trusted_run(&turning(0.4), &uncertainty, &unwatched).expect("legal");
+    assert_ne!(run.end().reason, turning(0.400009).run().end().reason);
+    let cause = trust.horizon.map(|horizon| horizon.cause);
+    assert_eq!(cause, Some(HorizonCause::StopRule));
+    assert!(trust.end_error.is_infinite());
+}
+
+/// The bound on the rotation is set just above what a run reaches while a cable is taut.
+#[test]
+fn a_limit_that_taut_motion_all_but_reaches_ends_trust() {
+    let named = named_case("sliding-example").expect("a name");
+    let sliding = Case::new(named.parameters).expect("legal").simulation();
+    let (mut simulation, mut farthest) = (sliding.clone(), None);
+    while let Some(step) = simulation.step() {
+        let ends = step.start.theta.abs().max(step.before.theta.abs());
+        if !step.taut.is_empty() && simulation.theta_max() > ends + 1e-4 {
+            farthest = Some((simulation.theta_max(), step.t_end));
+            break;
+        }
+    }
+    let (theta_max, t_end) = farthest.expect("a maximum within taut motion");
+    let cause = |above: f64| {
+        let rules = Rules {
+            rotation_limit: Some(theta_max + above),
+            t_end: t_end + 1e-3,
+            ..*sliding.rules()
+        };
+        let (system, start) = (sliding.system().clone(), *sliding.state());
+        let mut simulation = Simulation::new(system, rules, 0.0, start).expect("legal");
+        let mut monitor = TrustMonitor::new(&simulation, &[1e-13; 6], 1.0);
+        while let Some(step) = simulation.step() {
+            monitor.follow(&simulation, &step);
+        }
+        monitor.verdict().horizon.map(|horizon| horizon.cause)
+    };
+    assert_eq!(cause(1e-13), Some(HorizonCause::StopRule));
+    assert_eq!(cause(1e-4), None);
+}
+
+#[test]
+fn a_start_on_a_limit_is_not_certain() {
+    let number = |key, value| (key, Value::Number(value));
+    let at = |theta| case([number("theta", theta), number("y", 0.3)]);
+    let cause = |theta| {
+        let (_, trust) =
+            trusted_run(&at(theta), &Uncertainty::default(), &unwatched).expect("legal");
+        trust.horizon.map(|horizon| (horizon.impact, horizon.cause))
+    };
+    assert_eq!(
+        cause(std::f64::consts::FRAC_PI_2),
+        Some((1, HorizonCause::StopRule))
+    );
+}
+
+#[test]
+fn the_end_of_the_time_asked_for_has_no_error() {
+    let end = |t_end| {
+        let case = case([
+            ("t_end", Value::Number(t_end)),
+            ("f_o", Value::Number(0.31)),
+        ]);
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched).expect("legal");
+        assert!(trust.horizon.is_none());
+        (run.end().reason, trust.end_error)
+    };
+    assert_eq!(end(1.0), (Stop::EndTime, 0.0));
+    let (reason, error) = end(100.0);
+    assert!(reason == Stop::RotationLimit && error > 0.0 && error < 1e-9);
+}
+
+/// A slow snap that pulls, with v_stick at about its velocity.
+#[test]
+fn a_snap_about_as_slow_as_sticks_ends_trust() {
+    let number = |key, value| (key, Value::Number(value));
+    let falling = |v_stick| {
+        let entries = [
+            ("f_o", 0.0),
+            ("e", 0.5),
+            ("theta", 0.02),
+            ("v_stick", v_stick),
+        ];
+        case(entries.map(|(key, value)| number(key, value)))
+    };
+    let run = falling(1e-9).run();
+    let slow = run
+        .impacts()
+        .iter()
+        .position(|impact| impact.v_n < 1e-4)
+        .expect("slow");
+    let v_n = run.impacts()[slow].v_n;
+    let cause = |v_stick| {
+        let uncertainty = Uncertainty {
+            tolerance: 1.0,
+            ..Uncertainty::of_start(1e-9)
+        };
+        let trust = trusted_run(&falling(v_stick), &uncertainty, &unwatched)
+            .expect("legal")
+            .1;
+        let here = trust.horizon.filter(|horizon| horizon.impact == slow + 1);
+        here.map(|horizon| horizon.cause)
+    };
+    let cable = run.impacts()[slow].cable;
+    assert_eq!(
+        cause(v_n * (1.0 + 1e-9)),
+        Some(HorizonCause::Sticking { cable })
+    );
+    assert_eq!(
+        cause(v_n * (1.0 - 1e-9)),
+        Some(HorizonCause::Sticking { cable })
+    );
+    assert_eq!(cause(v_n * 0.9), None);
+}
+
+/// A case of which an earlier model of rounding, with half the noise that there is, said that it is
+/// certain.
+#[test]
+fn nothing_is_certain_that_is_wrong() {
+    let numbers = [
+        ("r", 1.1404),
+        ("e", 0.9492),
+        ("a", 0.4623),
+        ("b", 0.5549),
+        ("f_o", -0.2629),
+        ("nu", 0.4265),
+        ("omega", 2.0485),
+        ("x", 0.1868),
+        ("y", 0.3585),
+        ("theta", -0.1361),
+        ("vx", -0.2463),
+        ("vy", -0.0173),
+        ("vtheta", -0.0864),
+        ("t_end", 60.0),
+    ];
+    let case = case(numbers.map(|(key, value)| (key, Value::Number(value))));
+    let found = verify(&case, 60, 1e-3, &unwatched).expect("legal");
+    let (wrong, told) = (
+        found.first_wrong,
+        found.trust.horizon.map(|horizon| horizon.impact),
+    );
+    assert!(told.is_some() && told <= wrong, "{told:?} {wrong:?}");
+}
+
+/// Cables hardly longer than they have to be: an impact of both takes the difference of large
+/// impulses, and its digits are lost there and then.
+#[test]
+fn digits_that_an_impact_cancels_are_not_told() {
+    let numbers = [
+        ("r", 1.0000001),
+        ("x", 1e-8),
+        ("y", 2e-4),
+        ("e", 0.5),
+        ("t_end", 0.5),
+    ];
+    let numbers = numbers.map(|(key, value)| (key, Value::Number(value)));
+    let flags = [
+        ("body", Value::from("point")),
+        ("stop_when_settled", Value::Bool(false)),
+    ];
+    let case = case(numbers.into_iter().chain(flags));
+    let found = verify(&case, 60, 1e-3, &unwatched).expect("legal");
+    for (difference, error) in found.differences.iter().zip(&found.trust.errors) {
+        println!("{difference:e} {error:e}");
+        assert!(*difference < 3.0 * error, "{difference:e} {error:e}");
+    }
+    assert!(!found.differences.is_empty());
+}
