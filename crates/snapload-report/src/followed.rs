@@ -20,7 +20,7 @@ impl Followed {
     /// [`Cancelled`] if it is to end before.
     pub fn run(case: &Case, on_progress: OnProgress) -> Result<Self, Cancelled> {
         let simulation = case.simulation();
-        let mut monitor = TrustMonitor::of_exact_case(case);
+        let mut monitor = TrustMonitor::of_exact_case(case, &simulation);
         let run = record(simulation, on_progress, |simulation, step| {
             // Past it the run goes on by itself, three times as fast.
             if monitor.horizon().is_none() {

@@ -11,12 +11,13 @@ use snapload::analysis::{Trust, Uncertainty, trusted_run, unwatched};
 use snapload::{Case, CaseError, Impact, Parameters, Precise, Real, Simulation, Trajectory, Value};
 use std::fmt::Write;
 
-type Digits = Precise<4>;
+pub type Digits = Precise<4>;
 
 const TOLERANCES: [f64; 2] = [1e-3, 1e-6];
 /// The run with many digits is followed for so many impacts at most.
 const MOST_IMPACTS: usize = 300;
-/// And for so many expansions of taut motion, of which many digits need a hundred times as many.
+/// And for so many expansions of taut motion, of which many digits need a hundred times as many as
+/// doubles.
 const MOST_EXPANSIONS: usize = 30;
 
 const STRATA: [&str; 8] = [
@@ -136,7 +137,7 @@ impl Judged {
             trusted_run(&case, &uncertainty, &unwatched).expect("legal")
         });
         let exact = case.simulation_over(|_, number| Digits::from_decimal(number));
-        let (differences, parted) = compared(&run, exact.expect("a legal start"));
+        let (differences, parted) = compared(&run, exact.expect("a legal start"), MOST_EXPANSIONS);
         Self {
             index,
             trusts: [coarse, fine],
@@ -183,7 +184,11 @@ impl Judged {
 
 /// The differences from the run with many digits, as far as that is followed, and where the two no
 /// longer have the same events.
-fn compared(run: &Trajectory, mut exact: Simulation<Digits>) -> (Vec<f64>, Option<usize>) {
+pub fn compared(
+    run: &Trajectory,
+    mut exact: Simulation<Digits>,
+    most_expansions: usize,
+) -> (Vec<f64>, Option<usize>) {
     let (mut differences, mut expansions) = (Vec::new(), 0);
     while let Some(step) = exact.step() {
         expansions += usize::from(!step.taut.is_empty());
@@ -197,7 +202,7 @@ fn compared(run: &Trajectory, mut exact: Simulation<Digits>) -> (Vec<f64>, Optio
             }
         }
         let lost = differences.last().is_some_and(|d| *d > 0.1);
-        if lost || differences.len() > MOST_IMPACTS || expansions > MOST_EXPANSIONS {
+        if lost || differences.len() > MOST_IMPACTS || expansions > most_expansions {
             return (differences, None);
         }
     }

@@ -15,7 +15,7 @@ impl Certainty {
     /// Of a case; the run is followed as far as its horizon.
     pub fn of(case: &Case) -> Self {
         let mut simulation = case.simulation();
-        let mut monitor = TrustMonitor::of_exact_case(case);
+        let mut monitor = TrustMonitor::of_exact_case(case, &simulation);
         while monitor.horizon().is_none()
             && let Some(step) = simulation.step()
         {

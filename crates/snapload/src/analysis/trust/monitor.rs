@@ -121,8 +121,10 @@ impl TrustMonitor {
     /// A [`CaseError`] if a key that is in doubt has no value in this case.
     pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
         let start = uncertainty.of_start_of(case.parameters());
-        let mut monitor = Self::new(&case.simulation(), &start, uncertainty.tolerance);
-        monitor.slant = rounding::slant(case);
+        let mut monitor = Self {
+            slant: rounding::slant(case),
+            ..Self::new(&case.simulation(), &start, uncertainty.tolerance)
+        };
         for (name, size) in &uncertainty.keys {
             monitor.keys.push(UncertainKey::new(case, name, *size)?);
         }
@@ -130,12 +132,13 @@ impl TrustMonitor {
         Ok(monitor)
     }
 
-    /// Of a case whose values are exact, so that rounding alone is in doubt.
-    pub fn of_exact_case(case: &Case) -> Self {
+    /// Of the simulation of a case whose values are exact, so that rounding alone is in doubt.
+    pub fn of_exact_case(case: &Case, simulation: &Simulation) -> Self {
         let tolerance = Uncertainty::default().tolerance;
-        let mut monitor = Self::new(&case.simulation(), &[0.0; 6], tolerance);
-        monitor.slant = rounding::slant(case);
-        monitor
+        Self {
+            slant: rounding::slant(case),
+            ..Self::new(simulation, &[0.0; 6], tolerance)
+        }
     }
 
     /// Takes in the step that `simulation` has just made.

@@ -24,7 +24,7 @@ use crate::model::taut_set::TautSet;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap};
 
-/// Standard deviation of a number that is rounded three times on its way, relative to it.
+/// Standard deviation of a number that is rounded three times on its way, relative to it: √3 ε/4.
 const ROUNDING: f64 = 0.43 * f64::EPSILON;
 
 /// What rounding does in one step.
@@ -42,11 +42,14 @@ impl Rounding {
     /// Of the step that `simulation` has just made.
     #[inline(always)]
     pub(super) fn of_step(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Self {
-        let (late, location) = location(simulation, step, map, slant);
+        // Where the event leaves the body: a position does not change in it.
+        let (system, metric) = (simulation.system(), Metric::of_step(simulation));
+        let closed = Constraints::of(system, &step.before, step.event.closed, metric);
+        let (late, location) = location(simulation, step, map, &closed, slant);
         Self {
             late,
             location,
-            parts: stored(simulation, step, map, slant),
+            parts: stored(simulation, step, map, closed, slant),
         }
     }
 }
@@ -70,9 +73,15 @@ pub(super) fn of_start(system: &System, state: &State, t: f64, closed: TautSet) 
 }
 
 /// By how much a step is late, and where it is then: gone on along its motion, and put back onto the
-/// cable that it has reached the end of.
+/// cables that are closed there.
 #[inline(always)]
-fn location(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> (f64, Deviation) {
+fn location(
+    simulation: &Simulation,
+    step: &Step,
+    map: &StepMap,
+    closed: &Constraints,
+    slant: f64,
+) -> (f64, Deviation) {
     let struck = step.event.reached.gaps.iter().next();
     let s = step.t_end - step.t_start;
     let (first, last) = (&step.start, &step.before);
@@ -112,10 +121,7 @@ fn location(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> 
     let late = square.sqrt();
     let [vx, vy, vtheta, ax, ay, atheta] = *map.rate();
     let mut place = [vx * late, vy * late, vtheta * late];
-    if let Some(cable) = struck {
-        let (system, metric) = (simulation.system(), Metric::of_step(simulation));
-        Constraints::of(system, last, TautSet::only(cable), metric).keep(&mut place);
-    }
+    closed.keep(&mut place);
     let [x, y, theta] = place;
     let location = [x, y, theta, ax * late, ay * late, atheta * late, late];
     (late, location)
@@ -123,7 +129,13 @@ fn location(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> 
 
 /// What the rounding of the law's result, and of what it is computed from, leaves.
 #[inline(always)]
-fn stored(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Block<COLUMNS> {
+fn stored(
+    simulation: &Simulation,
+    step: &Step,
+    map: &StepMap,
+    mut closed: Constraints,
+    slant: f64,
+) -> Block<COLUMNS> {
     let system = simulation.system();
     let (first, before, after) = (&step.start, &step.before, &step.after);
     let s = step.t_end - step.t_start;
@@ -140,10 +152,8 @@ fn stored(simulation: &Simulation, step: &Step, map: &StepMap, slant: f64) -> Bl
         spin,
     ];
     let mut parts = diagonal(sizes, step.t_end);
-    let metric = Metric::of_step(simulation);
-    let mut constraints = Constraints::of(system, after, step.event.closed, metric);
-    constraints.keep_parts(&mut parts, 0);
-    keep_known_gap(simulation, step, &mut constraints, &mut parts);
+    closed.keep_parts(&mut parts, 0);
+    keep_known_gap(simulation, step, &mut closed, &mut parts);
     Constraints::of(system, after, step.taut_after, Metric::of_masses(system))
         .keep_parts(&mut parts, 3);
     if let (Some(law), Some(cable)) = (map.slopes_of_law(), step.event.closed.iter().next()) {
