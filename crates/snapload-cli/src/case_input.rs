@@ -32,6 +32,11 @@ pub(crate) struct Input {
 }
 
 impl Input {
+    /// A number of the case as it was typed, if it was.
+    pub(crate) fn written(&self, key: &str) -> Option<&str> {
+        self.entries.written(key)
+    }
+
     /// The same case with one key changed; what follows from it, such as the inertia, follows anew.
     pub(crate) fn with(&self, key: &'static str, value: Value) -> Result<Parameters, CaseError> {
         Parameters::from_entries(self.entries.values("case").chain([(key, value)]))
@@ -98,15 +103,21 @@ fn read_file(schema: &'static Schema, path: &Path) -> Result<Entries, Failure> {
 
 /// The text of a case file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    read_up_to(
+        path,
+        LARGEST_FILE,
+        "larger than 1 MiB, which no case file is",
+    )
+}
+
+/// The text of a file of no more bytes than `largest`, or `too_large`.
+pub(crate) fn read_up_to(path: &Path, largest: u64, too_large: &str) -> Result<String, Failure> {
     let shown = path.display();
     let bad = |what: &str| Failure::BadInput(format!("{shown}: {what}"));
     let mut bytes = Vec::new();
-    let read =
-        File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+    let read = File::open(path).and_then(|file| file.take(largest + 1).read_to_end(&mut bytes));
     match read {
-        Ok(length) if length as u64 > LARGEST_FILE => {
-            Err(bad("larger than 1 MiB, which no case file is"))
-        }
+        Ok(length) if length as u64 > largest => Err(bad(too_large)),
         Ok(_) => String::from_utf8(bytes).map_err(|error| {
             let at = error.utf8_error().valid_up_to();
             bad(&format!(
@@ -123,7 +134,7 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
             Err(bad(&format!("there is no such file{hint}")))
         }
         Err(error) if error.kind() == ErrorKind::IsADirectory => {
-            Err(bad("a directory, not a case file"))
+            Err(bad("a directory, not a file"))
         }
         Err(error) => Err(bad(&format!("can not be read: {}", plain(&error)))),
     }

@@ -19,6 +19,8 @@ pub(crate) enum Failure {
     Interrupted(String),
     /// Whoever read our output has read enough; no failure at all.
     ReaderLeft,
+    /// An answer that is told by the exit status, and was printed.
+    Answered(u8),
 }
 
 impl Failure {
@@ -35,6 +37,7 @@ impl Failure {
             Self::Failed(words) => Self::Failed(before(words)),
             Self::Interrupted(words) => Self::Interrupted(before(words)),
             Self::ReaderLeft => Self::ReaderLeft,
+            Self::Answered(status) => Self::Answered(status),
         }
     }
 
@@ -92,6 +95,7 @@ impl From<StudyError> for Failure {
 pub(crate) fn exit_code(result: Result<(), Failure>) -> ExitCode {
     let (kind, message, status) = match result {
         Ok(()) | Err(Failure::ReaderLeft) => return ExitCode::SUCCESS,
+        Err(Failure::Answered(status)) => return ExitCode::from(status),
         Err(Failure::BadInput(message)) => ("error", message, 2),
         Err(Failure::Failed(message)) => ("error", message, 1),
         Err(Failure::Interrupted(message)) => ("interrupted", message, 130),

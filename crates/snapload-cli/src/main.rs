@@ -4,6 +4,7 @@ mod assess;
 mod bar;
 mod case_input;
 mod cases;
+mod certify;
 mod completions;
 mod critical;
 #[cfg(feature = "structure")]
@@ -70,6 +71,8 @@ enum Verb {
     Critical(critical::Args),
     /// Run one case again with many digits, and say where the ordinary run goes wrong
     Verify(verify::Args),
+    /// Prove a run, impact by impact, and write the proof's claim as a certificate; or check one
+    Certify(certify::Args),
     /// Run a study: every case of a grid, of random points or of a list, a row each
     Sweep(sweep::Args),
     /// Join the parts of a study that was swept on several machines
@@ -107,6 +110,7 @@ fn main() -> ExitCode {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
         Verb::Verify(args) => verify::run(&args),
+        Verb::Certify(args) => certify::run(&args),
         Verb::Sweep(args) => sweep::run(&args),
         Verb::Merge(args) => merge::run(&args),
         #[cfg(feature = "reproduce")]

@@ -15,6 +15,8 @@ struct Entry {
     path: String,
     /// Where its value stands.
     place: String,
+    /// A number as it is written there, which may have more digits than a double.
+    written: Option<String>,
 }
 
 /// The keys that a case gives: each known, of the right type and within its range, and there once.
@@ -71,8 +73,24 @@ impl Entries {
             value,
             path,
             place,
+            written: None,
         });
         Ok(())
+    }
+
+    /// Keeps the number that was given last as it is written.
+    #[cfg(feature = "toml")]
+    pub(crate) fn keep_written(&mut self, written: Option<String>) {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.written = written;
+        }
+    }
+
+    /// A number of a key as it was written, if it was given as text; `path` is how errors call the
+    /// key.
+    pub fn written(&self, path: &str) -> Option<&str> {
+        let entry = self.entries.iter().find(|entry| entry.path == path);
+        entry.and_then(|entry| entry.written.as_deref())
     }
 
     /// Makes sure that there are so many tables of a name.

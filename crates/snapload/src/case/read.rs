@@ -46,7 +46,11 @@ impl Entries {
         place: &str,
     ) -> Result<(), CaseError> {
         match value_of(value) {
-            Ok(value) => self.give(table.name, index, key, value, place),
+            Ok(read) => {
+                self.give(table.name, index, key, read, place)?;
+                self.keep_written(digits_of(value));
+                Ok(())
+            }
             Err(shown) => Err(refuse(table, &table.path(index, key), key, shown).at(place)),
         }
     }
@@ -61,10 +65,16 @@ impl Entries {
         let (path, value) = (path.trim(), value.trim());
         let mut change = || -> Result<(), CaseError> {
             let (table, mut indices, key) = self.meant(path)?;
+            let written = DeValue::parse(value).ok();
+            let written = written.and_then(|value| digits_of(value.get_ref()));
             let value = parse_value(value).map_err(|shown| refuse(table, path, key, shown))?;
             let known = table.key(path, key);
             known.map_err(|error| error.given(&value))?;
-            indices.try_for_each(|index| self.give(table.name, index, key, value.clone(), "--set"))
+            indices.try_for_each(|index| {
+                self.give(table.name, index, key, value.clone(), "--set")?;
+                self.keep_written(written.clone());
+                Ok(())
+            })
         };
         change().map_err(|error| error.at("--set"))
     }
@@ -183,6 +193,15 @@ fn value_of(value: &DeValue<'_>) -> Result<Value, &'static str> {
         DeValue::Table(_) => return Err("(a table)"),
         DeValue::Datetime(_) => return Err("(a date or time)"),
     })
+}
+
+/// The digits of a number as they are written.
+fn digits_of(value: &DeValue<'_>) -> Option<String> {
+    match value {
+        DeValue::Float(digits) => Some(digits.as_str().to_owned()),
+        DeValue::Integer(digits) if digits.radix() == 10 => Some(digits.as_str().to_owned()),
+        _ => None,
+    }
 }
 
 fn line_of(text: &str, at: usize) -> usize {

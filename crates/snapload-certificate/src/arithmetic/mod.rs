@@ -1,0 +1,11 @@
+//! Numbers that are enclosed: a midpoint of many digits and a bound on how far the true one is from
+//! it. Each operation stands below the proof that its result encloses every true one.
+
+pub(crate) mod ball;
+pub(crate) mod decimal;
+pub(crate) mod elementary;
+pub(crate) mod number;
+pub(crate) mod radius;
+
+#[cfg(test)]
+mod tests;

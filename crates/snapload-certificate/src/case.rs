@@ -1,0 +1,153 @@
+//! The case that a theorem is about: decimals, each an exact rational number.
+
+use crate::arithmetic::decimal::Decimal;
+use snapload::Parameters;
+
+/// The keys that hold a number, in the order in which a certificate has them.
+pub const NUMBERS: [&str; 15] = [
+    "r", "e", "a", "b", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy", "vtheta", "t_end",
+    "v_stick",
+];
+
+/// A case of decimals.
+#[derive(Clone, Debug)]
+pub struct ExactCase {
+    numbers: [Decimal; NUMBERS.len()],
+    /// The inertia where it is given; else that of the size.
+    pub(crate) inertia: Option<Decimal>,
+    /// Whether the body is a point mass.
+    pub(crate) is_point: bool,
+    pub(crate) stop_when_settled: bool,
+    pub(crate) stop_when_sliding: bool,
+    pub(crate) max_impacts: u64,
+}
+
+impl ExactCase {
+    /// A case out of its decimals, in the order of [`NUMBERS`].
+    ///
+    /// # Errors
+    /// What the model does not allow, in words.
+    pub fn new(
+        numbers: [Decimal; NUMBERS.len()],
+        inertia: Option<Decimal>,
+        is_point: bool,
+        stops: [bool; 2],
+        max_impacts: u64,
+    ) -> Result<Self, String> {
+        let case = Self {
+            numbers,
+            inertia,
+            is_point,
+            stop_when_settled: stops[0],
+            stop_when_sliding: stops[1],
+            max_impacts,
+        };
+        case.check()?;
+        Ok(case)
+    }
+
+    /// The case of values that came as doubles: of each the shortest decimal that gives it, or what
+    /// `typed` knows to have been written for it.
+    ///
+    /// # Errors
+    /// What the model does not allow, in words.
+    pub fn of(
+        parameters: &Parameters,
+        mut typed: impl FnMut(&str) -> Option<Decimal>,
+    ) -> Result<Self, String> {
+        let mut decimal = |key: &str, value: f64| {
+            typed(key)
+                .or_else(|| Decimal::shortest(value))
+                .ok_or_else(|| format!("{key} = {value} is no decimal"))
+        };
+        let mut numbers = Vec::new();
+        for key in NUMBERS {
+            let value = parameters.get(key).and_then(|value| value.number());
+            numbers.push(decimal(key, value.unwrap_or(0.0))?);
+        }
+        let natural = snapload::natural_inertia(parameters.a, parameters.b);
+        let inertia = match parameters.inertia {
+            Some(inertia) if Some(inertia) != natural => Some(decimal("inertia", inertia)?),
+            _ => None,
+        };
+        let numbers = numbers.try_into().map_err(|_| "a key is missing")?;
+        Self::new(
+            numbers,
+            inertia,
+            parameters.is_point(),
+            [parameters.stop_when_settled, parameters.stop_when_sliding],
+            parameters.max_impacts,
+        )
+    }
+
+    /// The decimal of a key; zero for what is no key.
+    pub fn number(&self, key: &str) -> Decimal {
+        let at = NUMBERS.iter().position(|name| *name == key);
+        at.map_or_else(|| Decimal::integer(0), |k| self.numbers[k].clone())
+    }
+
+    /// The start x, y, θ and its velocities.
+    pub(crate) fn start(&self) -> &[Decimal] {
+        &self.numbers[7..13]
+    }
+
+    fn check(&self) -> Result<(), String> {
+        let number = |key| self.number(key);
+        let one = Decimal::integer(1);
+        let not_negative = |d: &Decimal| d.is_positive() || d.is_zero();
+        let allowed = [
+            (
+                not_negative(&number("e")) && not_negative(&one.minus(&number("e"))),
+                "0 <= e <= 1",
+            ),
+            (
+                not_negative(&number("a")) && not_negative(&number("b")),
+                "a, b >= 0",
+            ),
+            (number("v_stick").is_positive(), "v_stick > 0"),
+            (number("t_end").is_positive(), "t_end > 0"),
+            (
+                number("r")
+                    .minus(&one.minus(&number("a")).abs())
+                    .is_positive(),
+                "r > |1 - a|",
+            ),
+        ];
+        for (holds, what) in allowed {
+            if !holds {
+                return Err(format!("the case has not {what}"));
+            }
+        }
+        if self.is_point {
+            let still = ["a", "b", "theta", "vtheta"];
+            let nothing = self.inertia.is_none() && still.iter().all(|key| number(key).is_zero());
+            return if nothing {
+                Ok(())
+            } else {
+                Err("a point mass has no size, rotation or inertia".to_owned())
+            };
+        }
+        let heavy = match &self.inertia {
+            Some(inertia) => inertia.is_positive(),
+            None => !(number("a").is_zero() && number("b").is_zero()),
+        };
+        if heavy {
+            Ok(())
+        } else {
+            Err("a rigid body has an inertia above 0".to_owned())
+        }
+    }
+
+    /// The moment of inertia times three, exactly; nothing for a point mass. A circle is a thin
+    /// ring, I = a², a rectangle is solid, I = (a² + b²)/3.
+    pub(crate) fn inertia_times_three(&self) -> Option<Decimal> {
+        let (a, b) = (self.number("a"), self.number("b"));
+        let three = Decimal::integer(3);
+        match &self.inertia {
+            _ if self.is_point => None,
+            Some(inertia) => Some(inertia.times(&three)),
+            None if b.is_zero() => Some(a.times(&a).times(&three)),
+            None => Some(a.times(&a).plus(&b.times(&b))),
+        }
+    }
+}

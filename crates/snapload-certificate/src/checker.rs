@@ -1,0 +1,216 @@
+//! From a certificate to a verdict. Of the certificate the case is taken, and nothing else: the
+//! proof is made anew from the start, finds every impact by itself, and is then compared with what
+//! is claimed. The bits are where it begins.
+
+use crate::arithmetic::ball::Ball;
+use crate::case::ExactCase;
+use crate::format::{FORMAT, MODEL, UNDECIDED, Written, decimal};
+use crate::proof::{ProvedEnd, ProvedImpact, Reason, prove};
+use crate::verdict::{Trouble, with_more_bits};
+use std::ops::ControlFlow;
+
+/// The bits that a certificate may name.
+const BITS: std::ops::RangeInclusive<u64> = 64..=3000;
+
+/// What a checker finds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// Every obligation and every number.
+    Proved {
+        /// How many impacts.
+        impacts: usize,
+        /// How the run ends.
+        reason: Reason,
+        /// When, as the certificate has it.
+        t: String,
+        /// Bits that it took.
+        bits: usize,
+    },
+    /// All impacts of a certificate that says of itself that it comes to no end.
+    ProvedInPart {
+        /// How many impacts.
+        impacts: usize,
+        /// Bits that it took.
+        bits: usize,
+    },
+    /// A number or an event is wrong.
+    Refused(String),
+    /// Some obligation had no sign up to the limit of bits.
+    Undecided(String),
+    /// Not a certificate: shape, keys, decimals, a case that is not legal.
+    Malformed(String),
+}
+
+impl Verdict {
+    /// The exit status of a program that says so: 0 proved, 1 refused, 2 undecided (or proved in
+    /// part), 3 no certificate.
+    pub fn status(&self) -> u8 {
+        match self {
+            Self::Proved { .. } => 0,
+            Self::Refused(_) => 1,
+            Self::ProvedInPart { .. } | Self::Undecided(_) => 2,
+            Self::Malformed(_) => 3,
+        }
+    }
+}
+
+/// Checks a certificate.
+pub fn check(text: &str) -> Verdict {
+    let certificate: Written = match serde_json::from_str(text) {
+        Ok(certificate) => certificate,
+        Err(error) => return Verdict::Malformed(error.to_string()),
+    };
+    match shape(&certificate) {
+        Ok(case) => compare(&certificate, &case),
+        Err(what) => Verdict::Malformed(what),
+    }
+}
+
+/// Whether it is a certificate of this format, with a legal case and decimals where they belong.
+fn shape(certificate: &Written) -> Result<ExactCase, String> {
+    if certificate.format != FORMAT || certificate.model != MODEL {
+        return Err(format!(
+            "format {:?} of model {:?} is not known",
+            certificate.format, certificate.model
+        ));
+    }
+    if !BITS.contains(&certificate.bits) {
+        return Err(format!("bits = {} is not allowed", certificate.bits));
+    }
+    for (cable, t, v_n) in &certificate.impacts {
+        if !(1..=2).contains(cable) {
+            return Err(format!("there is no cable {cable}"));
+        }
+        decimal("the time", t)?;
+        decimal("v_n", v_n)?;
+    }
+    let end = &certificate.end;
+    match (&end.t, &end.state) {
+        (Some(t), Some(state)) if Reason::named(&end.reason).is_some() => {
+            decimal("the time", t)?;
+            state
+                .iter()
+                .try_for_each(|s| decimal("the state", s).map(|_| ()))?;
+        }
+        (None, None) if end.reason == UNDECIDED => {}
+        _ => return Err(format!("an end of the reason {:?} is not so", end.reason)),
+    }
+    certificate.case.exact()
+}
+
+fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
+    let claims = &certificate.impacts;
+    let is_partial = certificate.end.reason == UNDECIDED;
+    let first = certificate.bits.div_ceil(64) as usize;
+    let result = with_more_bits(Some(first), |limbs| {
+        if is_partial && claims.is_empty() {
+            return Ok(());
+        }
+        let mut seen = 0;
+        let proved = prove(case, limbs, &mut |impact| {
+            seen += 1;
+            let enough = is_partial && seen == claims.len();
+            match (agrees(impact, seen, claims.get(seen - 1)), enough) {
+                (Err(trouble), _) => ControlFlow::Break(trouble),
+                (Ok(()), true) => ControlFlow::Break(Trouble::Enough),
+                (Ok(()), false) => ControlFlow::Continue(()),
+            }
+        });
+        match proved {
+            Err(Trouble::Enough) => Ok(()),
+            Err(trouble) => Err(trouble),
+            Ok(_) if seen != claims.len() => Err(Trouble::False(format!(
+                "there are {seen} impacts, and {} are claimed",
+                claims.len()
+            ))),
+            Ok(end) => end_agrees(&end, certificate),
+        }
+    });
+    let impacts = claims.len();
+    match (result, Reason::named(&certificate.end.reason)) {
+        (Ok((_, limbs)), Some(reason)) => Verdict::Proved {
+            impacts,
+            reason,
+            t: certificate.end.t.clone().unwrap_or_default(),
+            bits: 64 * limbs,
+        },
+        (Ok((_, limbs)), None) => Verdict::ProvedInPart {
+            impacts,
+            bits: 64 * limbs,
+        },
+        (Err(Trouble::False(what)), _) => Verdict::Refused(what),
+        (Err(Trouble::Undecided { what, t }), _) => {
+            let at = t.map_or_else(String::new, |t| format!(", after t = {t}"));
+            Verdict::Undecided(format!("{what}{at}"))
+        }
+        (Err(Trouble::Enough | Trouble::Cancelled), _) => {
+            Verdict::Undecided("the proof was given up".to_owned())
+        }
+    }
+}
+
+/// Whether an impact is the one that is claimed.
+fn agrees(
+    impact: &ProvedImpact,
+    nth: usize,
+    claim: Option<&(u8, String, String)>,
+) -> Result<(), Trouble> {
+    let Some((cable, t, v_n)) = claim else {
+        return Err(Trouble::False(format!(
+            "there is an impact {nth}, which is not claimed"
+        )));
+    };
+    if impact.cable + 1 != usize::from(*cable) {
+        return Err(Trouble::False(format!(
+            "impact {nth} is of cable {}, and cable {cable} is claimed",
+            impact.cable + 1
+        )));
+    }
+    equals(&format!("the time of impact {nth}"), &impact.t, t)?;
+    equals(&format!("v_n of impact {nth}"), &impact.v_n, v_n)
+}
+
+fn end_agrees(end: &ProvedEnd, certificate: &Written) -> Result<(), Trouble> {
+    let claim = &certificate.end;
+    if end.reason.name() != claim.reason {
+        return Err(Trouble::False(format!(
+            "the run ends as {}, and {} is claimed",
+            end.reason.name(),
+            claim.reason
+        )));
+    }
+    let (Some(t), Some(state)) = (&claim.t, &claim.state) else {
+        return Err(Trouble::False(
+            "an end without a time and a state".to_owned(),
+        ));
+    };
+    equals("the time of the end", &end.t, t)?;
+    for (k, (ball, text)) in end.state.iter().zip(state).enumerate() {
+        equals(
+            &format!("component {} of the state at the end", k + 1),
+            ball,
+            text,
+        )?;
+    }
+    Ok(())
+}
+
+/// Whether the printed number is the true one, rounded to nearest: |true − printed| ≤ half a unit
+/// of the last place that is printed.
+fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), Trouble> {
+    let printed = decimal(what, text).map_err(Trouble::False)?;
+    let limbs = ball.mid().limbs.len().max(2);
+    let off = (ball - &printed.ball(limbs)).abs();
+    let half = printed.half_unit().ball(limbs);
+    let room = half - off;
+    if room.is_positive() {
+        Ok(())
+    } else if room.is_negative() {
+        Err(Trouble::False(format!(
+            "{what}: {text} is claimed, and it is {}",
+            ball.to_f64()
+        )))
+    } else {
+        Err(Trouble::undecided(format!("the last digit of {what}")))
+    }
+}

@@ -1,0 +1,137 @@
+//! Certificates as JSON, read strictly.
+
+use crate::arithmetic::decimal::Decimal;
+use crate::case::{ExactCase, NUMBERS};
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The format of certificates of slack flight.
+pub(crate) const FORMAT: &str = "snapload-certificate-1";
+/// The model that they speak of.
+pub(crate) const MODEL: &str = "snapload model 1";
+/// The end of a certificate that proves the beginning of a run.
+pub(crate) const UNDECIDED: &str = "undecided";
+
+/// A certificate: all of it is claimed, and its case is what it claims it of.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Written {
+    pub(crate) format: String,
+    pub(crate) model: String,
+    pub(crate) bits: u64,
+    pub(crate) case: WrittenCase,
+    /// Cable from 1, time, normal velocity.
+    pub(crate) impacts: Vec<(u8, String, String)>,
+    pub(crate) end: WrittenEnd,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WrittenEnd {
+    pub(crate) reason: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) t: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) state: Option<[String; 6]>,
+}
+
+/// Every key of the case, none of them left to a default.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WrittenCase {
+    r: String,
+    e: String,
+    a: String,
+    b: String,
+    #[serde(deserialize_with = "present")]
+    inertia: Option<String>,
+    f_o: String,
+    nu: String,
+    omega: String,
+    x: String,
+    y: String,
+    theta: String,
+    vx: String,
+    vy: String,
+    vtheta: String,
+    t_end: String,
+    v_stick: String,
+    stop_when_settled: bool,
+    stop_when_sliding: bool,
+    max_impacts: u64,
+    body: String,
+}
+
+/// A key that may be null and must be there.
+fn present<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<String>, D::Error> {
+    Option::deserialize(deserializer)
+}
+
+impl WrittenCase {
+    pub(crate) fn of(case: &ExactCase) -> Self {
+        let text = |key: &str| case.number(key).text().to_owned();
+        Self {
+            r: text("r"),
+            e: text("e"),
+            a: text("a"),
+            b: text("b"),
+            inertia: case.inertia.as_ref().map(|d| d.text().to_owned()),
+            f_o: text("f_o"),
+            nu: text("nu"),
+            omega: text("omega"),
+            x: text("x"),
+            y: text("y"),
+            theta: text("theta"),
+            vx: text("vx"),
+            vy: text("vy"),
+            vtheta: text("vtheta"),
+            t_end: text("t_end"),
+            v_stick: text("v_stick"),
+            stop_when_settled: case.stop_when_settled,
+            stop_when_sliding: case.stop_when_sliding,
+            max_impacts: case.max_impacts,
+            body: if case.is_point { "point" } else { "rigid" }.to_owned(),
+        }
+    }
+
+    pub(crate) fn exact(&self) -> Result<ExactCase, String> {
+        let is_point = match self.body.as_str() {
+            "rigid" => false,
+            "point" => true,
+            other => return Err(format!("body {other:?} is neither rigid nor point")),
+        };
+        let texts: [&String; NUMBERS.len()] = [
+            &self.r,
+            &self.e,
+            &self.a,
+            &self.b,
+            &self.f_o,
+            &self.nu,
+            &self.omega,
+            &self.x,
+            &self.y,
+            &self.theta,
+            &self.vx,
+            &self.vy,
+            &self.vtheta,
+            &self.t_end,
+            &self.v_stick,
+        ];
+        let mut numbers = Vec::new();
+        for (key, text) in NUMBERS.iter().zip(texts) {
+            numbers.push(decimal(key, text)?);
+        }
+        let inertia = self.inertia.as_deref().map(|text| decimal("inertia", text));
+        ExactCase::new(
+            numbers.try_into().map_err(|_| "a key is missing")?,
+            inertia.transpose()?,
+            is_point,
+            [self.stop_when_settled, self.stop_when_sliding],
+            self.max_impacts,
+        )
+    }
+}
+
+/// A decimal of a certificate.
+pub(crate) fn decimal(what: &str, text: &str) -> Result<Decimal, String> {
+    Decimal::parse(text).ok_or_else(|| format!("{what} {text:?} is no decimal"))
+}

@@ -1,0 +1,164 @@
+//! From a case to a certificate: only what was proved is written.
+
+use crate::arithmetic::ball::Ball;
+use crate::arithmetic::decimal::{fixed, significant};
+use crate::case::ExactCase;
+use crate::format::{FORMAT, MODEL, UNDECIDED, Written, WrittenCase, WrittenEnd};
+use crate::proof::{ProvedImpact, Reason, prove};
+use crate::verdict::{Trouble, with_more_bits};
+use serde::{Serialize, Serializer};
+use std::ops::ControlFlow;
+
+/// Places after the point of times and of the state at the end.
+const PLACES: i64 = 25;
+/// Significant digits of normal velocities.
+const DIGITS: i64 = 17;
+
+/// What became of a proof.
+#[derive(Clone, Debug)]
+pub struct Certification {
+    /// How many impacts were proved.
+    pub impacts: usize,
+    /// When the last thing that was proved happened: the end, or the last impact.
+    pub t: String,
+    /// How the run ends, or what could not be decided.
+    pub end: Ended,
+    /// Bits of the numbers that it took.
+    pub bits: usize,
+    written: Written,
+}
+
+/// How far a proof came.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    /// To the end of the run, or to the first cable that stays taut.
+    Proved(Reason),
+    /// No further than this.
+    Undecided {
+        /// What could not be decided.
+        what: String,
+        /// After the impact or start at this time.
+        t: f64,
+    },
+}
+
+impl Certification {
+    /// The certificate as compact JSON. That of a proof that came to no end says so as its reason.
+    pub fn text(&self) -> String {
+        // Strings, whole numbers and flags can always be written.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+impl Serialize for Certification {
+    /// The certificate.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.written.serialize(serializer)
+    }
+}
+
+/// The proof was given up by whoever watched it.
+#[derive(Clone, Copy, Debug)]
+pub struct Cancelled;
+
+/// What is to be written of impacts.
+type Lines = Vec<(u8, String, String)>;
+/// The reason, time and state of an end as they are to be written.
+type PrintedEnd = (Reason, String, [String; 6]);
+
+/// Proves the run of a case; `on_impact` is told the time of each impact and may end the work.
+///
+/// # Errors
+/// A case without a motion, in words; or [`Cancelled`].
+pub fn certify(
+    case: &ExactCase,
+    on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Result<Certification, String>, Cancelled> {
+    // Of all attempts the longest.
+    let (mut best, mut bits) = (Lines::new(), 0);
+    let found = with_more_bits(None, |limbs| {
+        let mut impacts = Lines::new();
+        let end = attempt(case, limbs, &mut impacts, on_impact);
+        if impacts.len() >= best.len() {
+            (best, bits) = (impacts, 64 * limbs);
+        }
+        end
+    });
+    let last = best.last().map(|(_, t, _)| t.clone());
+    let (end, t, written) = match found {
+        Ok(((reason, t, state), _)) => {
+            let written = WrittenEnd {
+                reason: reason.name().to_owned(),
+                t: Some(t.clone()),
+                state: Some(state),
+            };
+            (Ended::Proved(reason), t, written)
+        }
+        Err(Trouble::Undecided { what, t }) => {
+            let written = WrittenEnd {
+                reason: UNDECIDED.to_owned(),
+                t: None,
+                state: None,
+            };
+            let t = t.unwrap_or(0.0);
+            let last = last.unwrap_or_else(|| "0".to_owned());
+            (Ended::Undecided { what, t }, last, written)
+        }
+        Err(Trouble::False(what)) => return Ok(Err(what)),
+        Err(Trouble::Cancelled | Trouble::Enough) => return Err(Cancelled),
+    };
+    Ok(Ok(Certification {
+        impacts: best.len(),
+        t,
+        end,
+        bits,
+        written: Written {
+            format: FORMAT.to_owned(),
+            model: MODEL.to_owned(),
+            bits: bits as u64,
+            case: WrittenCase::of(case),
+            impacts: best,
+            end: written,
+        },
+    }))
+}
+
+/// One proof with numbers of so many limbs, and what of it can be printed.
+fn attempt(
+    case: &ExactCase,
+    limbs: usize,
+    impacts: &mut Lines,
+    on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<PrintedEnd, Trouble> {
+    let end = prove(case, limbs, &mut |impact| {
+        if on_impact(impact.t.to_f64()).is_break() {
+            return ControlFlow::Break(Trouble::Cancelled);
+        }
+        match written(impact) {
+            Some(line) => {
+                impacts.push(line);
+                ControlFlow::Continue(())
+            }
+            None => ControlFlow::Break(digits(impact)),
+        }
+    })?;
+    let printed = fixed(&end.t, PLACES).zip(printed(&end.state));
+    let trouble = || Trouble::undecided("the digits of the end").at(end.t.to_f64());
+    let (t, state) = printed.ok_or_else(trouble)?;
+    Ok((end.reason, t, state))
+}
+
+fn written(impact: &ProvedImpact) -> Option<(u8, String, String)> {
+    let t = fixed(&impact.t, PLACES)?;
+    let v_n = significant(&impact.v_n, DIGITS)?;
+    Some((impact.cable as u8 + 1, t, v_n))
+}
+
+fn digits(impact: &ProvedImpact) -> Trouble {
+    Trouble::undecided("the digits of an impact").at(impact.t.to_f64())
+}
+
+fn printed(state: &[Ball; 6]) -> Option<[String; 6]> {
+    let printed: Option<Vec<String>> = state.iter().map(|ball| fixed(ball, PLACES)).collect();
+    printed?.try_into().ok()
+}

@@ -1,0 +1,226 @@
+//! A certificate that is altered anywhere is not passed.
+use crate::common::{case_of, proof};
+use serde_json::{Value, json};
+use snapload::{Case, Parameters};
+use snapload_certificate::{Verdict, check};
+
+/// A decimal changed by `units` of the place `places` after the point.
+fn moved(text: &Value, units: i128, places: usize) -> Value {
+    let text = text.as_str().expect("a decimal");
+    let (digits, power) = text.split_once('e').unwrap_or((text, ""));
+    let own = digits
+        .split_once('.')
+        .map_or(0, |(_, fraction)| fraction.len());
+    let longer = own.max(places);
+    let mut integer: i128 = digits.replace('.', "").parse().expect("digits");
+    integer =
+        integer * 10i128.pow((longer - own) as u32) + units * 10i128.pow((longer - places) as u32);
+    let sign = if integer < 0 { "-" } else { "" };
+    let width = longer + 1;
+    let digits = format!("{:0>width$}", integer.unsigned_abs());
+    let (whole, fraction) = digits.split_at(digits.len() - longer);
+    let point = if longer > 0 { "." } else { "" };
+    let e = if power.is_empty() {
+        String::new()
+    } else {
+        format!("e{power}")
+    };
+    json!(format!("{sign}{whole}{point}{fraction}{e}"))
+}
+
+fn last_digit(text: &Value) -> Value {
+    let digits = text
+        .as_str()
+        .expect("a decimal")
+        .split('e')
+        .next()
+        .expect("digits")
+        .to_owned();
+    moved(
+        text,
+        1,
+        digits
+            .split_once('.')
+            .map_or(0, |(_, fraction)| fraction.len()),
+    )
+}
+
+fn refused(certificate: &Value, what: &str) {
+    let verdict = check(&certificate.to_string());
+    let passed = matches!(
+        verdict,
+        Verdict::Proved { .. } | Verdict::ProvedInPart { .. }
+    );
+    assert!(!passed, "{what}: {verdict:?}");
+}
+
+/// Twenty-one impacts: e = 0.5.
+fn certificate() -> Value {
+    let proof = proof(&case_of("e=0.5"));
+    assert!(matches!(check(&proof.text()), Verdict::Proved { .. }));
+    serde_json::from_str(&proof.text()).expect("JSON")
+}
+
+#[test]
+fn altered_numbers_are_refused() {
+    let true_one = certificate();
+    for k in [0, 7, 20] {
+        for places in [3, 6, 9, 12] {
+            for units in [1, -1] {
+                let mut altered = true_one.clone();
+                altered["impacts"][k][1] = moved(&altered["impacts"][k][1], units, places);
+                refused(&altered, "a time");
+            }
+        }
+        for field in [1, 2] {
+            let mut altered = true_one.clone();
+            altered["impacts"][k][field] = last_digit(&altered["impacts"][k][field]);
+            refused(&altered, "a last digit");
+        }
+        let mut altered = true_one.clone();
+        altered["impacts"][k][2] = moved(&altered["impacts"][k][2], 3, 9);
+        refused(&altered, "v_n");
+        let cable = altered["impacts"][k][0].as_u64().expect("a cable");
+        let mut altered = true_one.clone();
+        altered["impacts"][k][0] = json!(3 - cable);
+        refused(&altered, "a cable");
+    }
+    for k in 0..6 {
+        let mut altered = true_one.clone();
+        altered["end"]["state"][k] = last_digit(&altered["end"]["state"][k]);
+        refused(&altered, "the state at the end");
+    }
+    let mut altered = true_one.clone();
+    altered["end"]["t"] = last_digit(&altered["end"]["t"]);
+    refused(&altered, "the time of the end");
+}
+
+#[test]
+fn altered_lists_are_refused() {
+    let true_one = certificate();
+    for k in [0, 9, 20] {
+        let list = true_one["impacts"].as_array().expect("impacts");
+        for what in ["dropped", "doubled", "exchanged", "added"] {
+            let mut list = list.clone();
+            match what {
+                "dropped" => drop(list.remove(k)),
+                "doubled" => list.insert(k, list[k].clone()),
+                "exchanged" => list.swap(k, (k + 1) % 21),
+                _ => list.insert(k, json!([1, "0.5", "1e-3"])),
+            }
+            let mut altered = true_one.clone();
+            altered["impacts"] = Value::Array(list);
+            refused(&altered, what);
+        }
+    }
+}
+
+#[test]
+fn altered_cases_are_refused() {
+    let true_one = certificate();
+    let keys = [
+        "r", "e", "a", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy", "vtheta",
+    ];
+    for key in keys {
+        for places in [4, 16] {
+            let mut altered = true_one.clone();
+            altered["case"][key] = moved(&altered["case"][key], 1, places);
+            refused(&altered, key);
+        }
+    }
+    for (key, value) in [
+        ("inertia", json!("0.0100000000000001")),
+        ("b", json!("0.001")),
+        ("t_end", json!("0.8")),
+        ("v_stick", json!("1e-4")),
+        ("v_stick", json!("1e-7")),
+        ("stop_when_settled", json!(false)),
+        ("max_impacts", json!(19)),
+        ("max_impacts", json!(-1)),
+        ("body", json!("point")),
+        ("e", json!("1.5")),
+        ("r", json!("0.5")),
+        ("r", json!(1.5)),
+        ("r", json!("+1.5")),
+        ("r", json!("nan")),
+    ] {
+        let mut altered = true_one.clone();
+        altered["case"][key] = value.clone();
+        refused(&altered, &format!("{key} = {value}"));
+    }
+}
+
+#[test]
+fn other_shapes_are_no_certificates() {
+    let true_one = certificate();
+    for (place, value) in [
+        ("format", json!("snapload-certificate-3")),
+        ("model", json!("another")),
+        ("bits", json!(32)),
+        ("bits", json!(1_000_000)),
+        ("bits", json!("256")),
+        ("more", json!(1)),
+        ("impacts", json!({})),
+        ("end", json!({"reason": "settled"})),
+        ("case", json!({})),
+    ] {
+        let mut altered = true_one.clone();
+        altered[place] = value;
+        let verdict = check(&altered.to_string());
+        assert!(
+            matches!(verdict, Verdict::Malformed(_)),
+            "{place}: {verdict:?}"
+        );
+    }
+    for key in ["inertia", "r", "max_impacts"] {
+        let mut altered = true_one.clone();
+        altered["case"].as_object_mut().expect("keys").remove(key);
+        let verdict = check(&altered.to_string());
+        assert!(
+            matches!(verdict, Verdict::Malformed(_)),
+            "{key}: {verdict:?}"
+        );
+    }
+    for reason in [
+        "rotation_limit",
+        "upper_bound",
+        "end_time",
+        "sticks",
+        "sliding_start",
+        "undecided",
+        "x",
+    ] {
+        let mut altered = true_one.clone();
+        altered["end"]["reason"] = json!(reason);
+        refused(&altered, reason);
+    }
+    let twice = true_one
+        .to_string()
+        .replacen("\"bits\"", "\"bits\":256,\"bits\"", 1);
+    for text in [&twice, "", "[]", "null"] {
+        assert!(matches!(check(text), Verdict::Malformed(_)), "{text}");
+    }
+}
+
+/// The times of the ordinary run, however few of their decimals are printed, are not those of the
+/// standard case.
+#[test]
+fn times_of_the_ordinary_run_are_refused() {
+    let run = Case::new(Parameters::STANDARD).expect("a case").run();
+    let true_one: Value = serde_json::from_str(&proof(&case_of("")).text()).expect("JSON");
+    for places in [3, 5, 8, 12] {
+        let mut altered = true_one.clone();
+        for (line, impact) in altered["impacts"]
+            .as_array_mut()
+            .expect("impacts")
+            .iter_mut()
+            .zip(run.impacts())
+        {
+            line[1] = json!(format!("{:.places$}", impact.t));
+        }
+        let Verdict::Refused(why) = check(&altered.to_string()) else {
+            panic!("{places} decimals");
+        };
+        assert!(why.contains("time of impact"), "{why}");
+    }
+}

@@ -1,0 +1,5 @@
+//! What certificates must hold, by the authority that each agrees with.
+mod alterations;
+mod common;
+mod grazes;
+mod oracle;

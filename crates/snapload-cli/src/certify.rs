@@ -1,0 +1,176 @@
+//! `snapload certify`: a run as a theorem, proved and written down, and checked again.
+use crate::bar::Bar;
+use crate::case_input::{CaseArgs, Input, read_up_to};
+use crate::failure::{Failure, print};
+use crate::json::Json;
+use crate::stage::Stage;
+use serde::Serialize;
+use snapload::analysis::Progress;
+use snapload_certificate::{
+    Cancelled, Certification, Decimal, Ended, ExactCase, Verdict, certify, check,
+};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const EXAMPLES: &str = "\
+The case is taken as the decimals that it is written in. Its motion is enclosed from impact to impact in
+numbers of many digits: that each one exists, comes next, and is of that cable, and how the run ends.
+Only what was proved is written, each number rounded to nearest at its last digit. The proof covers slack
+flight, impacts and stops; where a cable stays taut it ends.
+
+Examples:
+  snapload certify
+      the standard case: 290 impacts, proved
+  snapload certify --case 1922001000-359 --out square.cert
+      a built-in case, with its certificate
+  snapload certify --set v_stick=1e-9 --json - | jq .end
+      the certificate, for the next program
+  snapload certify --check square.cert
+      check it again, from nothing but the case in it
+
+Exit status: 0 proved, 1 not proved to the end (nothing is written then without --partial), 2 bad input.
+With --check: 0 proved, 1 refused, 2 undecided or proved in part, 3 no certificate.";
+
+/// The largest certificate: ten million impacts have less than a hundred bytes each.
+const LARGEST: u64 = 1 << 30;
+
+/// Which case, and where the certificate goes; or which certificate to check.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// Write the certificate to a file
+    #[arg(long, value_name = "FILE.cert")]
+    out: Option<PathBuf>,
+    /// Write the certificate, or what --check finds, as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+    /// Write the certificate of a proof that came to no end, too
+    #[arg(long)]
+    partial: bool,
+    /// Check a certificate instead
+    #[arg(long, value_name = "FILE.cert", conflicts_with_all = ["out", "partial", "set", "case", "file"])]
+    check: Option<PathBuf>,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    match &args.check {
+        Some(path) => run_check(args, path),
+        None => run_certify(args),
+    }
+}
+
+fn run_certify(args: &Args) -> Result<(), Failure> {
+    let input = args.case.read()?;
+    let case = exact(&input)?;
+    let mut stage = Stage::default();
+    let out = Json::open(&mut stage, args.out.as_deref())?;
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let begun = Instant::now();
+    let bar = Bar::new();
+    let t_end = input.case.parameters().t_end;
+    let proof = certify(&case, &mut |t| bar.show(Progress::new("proving", t, t_end)));
+    drop(bar);
+    let proof =
+        proof.map_err(|Cancelled| Failure::Interrupted("nothing was written".to_owned()))?;
+    let proof = proof.map_err(Failure::BadInput)?;
+    let words = in_words(&proof, begun.elapsed().as_secs_f64());
+    let is_proved = matches!(proof.end, Ended::Proved(_));
+    if !is_proved && !args.partial {
+        return Err(Failure::Failed(words));
+    }
+    // The certificate itself first: it is one file, put in its place whole.
+    let written = out.write(stage, &proof)?;
+    let printed = json.write(Stage::default(), &proof)?;
+    if let (Some(files), Some(more)) = (written, printed) {
+        let mut text = words + "\n";
+        for path in files.iter().chain(&more) {
+            let _ = writeln!(text, "Written   {}", path.display());
+        }
+        print(&text)?;
+    }
+    if is_proved {
+        Ok(())
+    } else {
+        Err(Failure::Answered(1))
+    }
+}
+
+/// The case as decimals: what was typed stays as typed.
+fn exact(input: &Input) -> Result<ExactCase, Failure> {
+    let typed = |key: &str| input.written(key).and_then(Decimal::parse);
+    ExactCase::of(input.case.parameters(), typed).map_err(Failure::BadInput)
+}
+
+fn in_words(proof: &Certification, seconds: f64) -> String {
+    let (impacts, bits) = (proof.impacts, proof.bits);
+    let s = if impacts == 1 { "" } else { "s" };
+    match &proof.end {
+        Ended::Proved(reason) => {
+            let reason = reason.name().replace('_', " ");
+            format!(
+                "proved: {impacts} impact{s}, {reason} at t = {} ({bits} bits, {seconds:.1} s)",
+                proof.t
+            )
+        }
+        Ended::Undecided { what, t } => format!(
+            "proved up to t = {}, {impacts} impact{s}, then undecided: {what}, after t = {t}",
+            proof.t
+        ),
+    }
+}
+
+/// A verdict for the next program.
+#[derive(Serialize)]
+struct Row<'a> {
+    verdict: &'a str,
+    impacts: Option<usize>,
+    bits: Option<usize>,
+    why: Option<&'a str>,
+}
+
+fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
+    let mut stage = Stage::default();
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let begun = Instant::now();
+    let verdict = match read_up_to(path, LARGEST, "larger than 1 GiB") {
+        Ok(text) => check(&text),
+        Err(Failure::BadInput(why)) => Verdict::Malformed(why),
+        Err(other) => return Err(other),
+    };
+    let seconds = begun.elapsed().as_secs_f64();
+    let (word, impacts, bits, why) = match &verdict {
+        Verdict::Proved { impacts, bits, .. } => ("proved", Some(*impacts), Some(*bits), None),
+        Verdict::ProvedInPart { impacts, bits } => {
+            ("proved in part", Some(*impacts), Some(*bits), None)
+        }
+        Verdict::Refused(why) => ("refused", None, None, Some(why.as_str())),
+        Verdict::Undecided(why) => ("undecided", None, None, Some(why.as_str())),
+        Verdict::Malformed(why) => ("no certificate", None, None, Some(why.as_str())),
+    };
+    let row = Row {
+        verdict: word,
+        impacts,
+        bits,
+        why,
+    };
+    if json.write(stage, &row)?.is_some() {
+        let mut words = match (impacts, bits) {
+            (Some(impacts), Some(bits)) => {
+                format!("{word}: {impacts} impacts ({bits} bits, {seconds:.1} s)")
+            }
+            _ => format!("{word}: {}", why.unwrap_or_default()),
+        };
+        if let Verdict::Proved { reason, t, .. } = &verdict {
+            let _ = write!(words, ", {} at t = {t}", reason.name().replace('_', " "));
+        }
+        print(&(words + "\n"))?;
+    }
+    match verdict.status() {
+        0 => Ok(()),
+        status => Err(Failure::Answered(status)),
+    }
+}
