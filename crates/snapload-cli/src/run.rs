@@ -6,8 +6,8 @@ use crate::json::{Json, refuse_directory};
 use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
+use snapload::Case;
 use snapload::analysis::{DEFAULT_MEMBERS, Progress};
-use snapload::{Case, Trajectory};
 use snapload_report::{Report, Sampling, Trusted, case_in_words, summary, tables, write_json};
 use std::path::{Path, PathBuf};
 
@@ -56,10 +56,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     let input = args.case.read()?;
+    // A run may end before its time is up, but how soon only the run could tell.
+    let longest = input.case.parameters().t_end;
+    args.sample
+        .map(|dt| sampling(dt, longest, "; or a lower t_end"))
+        .transpose()?;
     let mut outputs = Outputs::open(args)?;
     let trusted = trusted(args, &input.case)?;
     let trajectory = &trusted.run;
-    let sampling = args.sample.map(|dt| sampling(dt, trajectory)).transpose()?;
+    let sampling = args
+        .sample
+        .map(|dt| sampling(dt, trajectory.end().t, ""))
+        .transpose()?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let report = Report::new(input.case.parameters(), &trusted, sampling, &on_progress);
@@ -99,10 +107,11 @@ fn step(text: &str) -> Result<f64, &'static str> {
     }
 }
 
-fn sampling(dt: f64, trajectory: &Trajectory) -> Result<Sampling, Failure> {
-    Sampling::every(dt, trajectory.end().t).map_err(|allowed| {
+/// The times of a run up to `end`; `instead` is what else would do.
+fn sampling(dt: f64, end: f64, instead: &str) -> Result<Sampling, Failure> {
+    Sampling::every(dt, end).map_err(|allowed| {
         Failure::BadInput(format!(
-            "--sample {dt:e} is not allowed; allowed: {allowed}"
+            "--sample {dt:e} is not allowed; allowed: {allowed}{instead}"
         ))
     })
 }

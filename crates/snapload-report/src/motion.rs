@@ -33,8 +33,8 @@ impl Sampling {
         }
         let least = end / most as f64 * 1.05;
         Err(format!(
-            "a number above 0 that gives no more than {MOST_ROWS:e} rows for this run, which ends at \
-             t = {end}: {least:.1e} or above"
+            "a number above 0 that gives no more than {MOST_ROWS:e} rows for a run up to t = {end}: \
+             {least:.1e} or above"
         ))
     }
 

@@ -15,6 +15,7 @@ pub(crate) mod limits;
 pub(crate) mod outcome;
 pub(crate) mod playback;
 pub(crate) mod projection;
+pub(crate) mod segments;
 pub(crate) mod simulation;
 pub(crate) mod start;
 pub(crate) mod step_map;

@@ -3,9 +3,10 @@
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
-use crate::motion::active_set::{ActiveSet, tensions};
+use crate::motion::active_set::tensions;
 use crate::motion::contact::Contact;
 use crate::motion::flight::Flight;
+use crate::motion::segments::Segment;
 use crate::motion::taut_series::Series;
 use crate::motion::trajectory::Trajectory;
 
@@ -36,7 +37,9 @@ impl Trajectory {
 #[derive(Clone, Debug)]
 pub struct Playback<'a> {
     run: &'a Trajectory,
-    segment: Option<usize>,
+    /// The kept segment that the motion was computed from, by index, and the one of its chain that
+    /// it has come to.
+    reached: Option<(usize, Segment)>,
     flight: Flight<f64>,
     series: Series<f64>,
 }
@@ -48,7 +51,7 @@ impl<'a> Playback<'a> {
         let rules = Rules::until(f64::INFINITY);
         Self {
             run,
-            segment: None,
+            reached: None,
             flight: Flight::new(run.system(), &rules),
             series: Series::new(run.system(), &rules),
         }
@@ -56,18 +59,17 @@ impl<'a> Playback<'a> {
 
     /// State, taut set, tensions and energy at time t, held to the run's span.
     pub fn at(&mut self, t: f64) -> Motion {
+        let t = t.min(self.run.end().t);
         let segments = self.run.segments();
         let after = segments.partition_point(|segment| segment.t <= t);
         // A run has at least the segment of its end; before the start it is the start that counts.
         let index = after.saturating_sub(1);
-        let segment = &segments[index];
-        let s = (t - segment.t).clamp(0.0, (self.run.end().t - segment.t).max(0.0));
-        if self.segment != Some(index) {
-            self.begin(index);
-        }
+        let segment = self.come_to(index, t);
+        let s = (t - segment.t).max(0.0);
+        let taut = segment.active.taut;
         let state = if s <= 0.0 {
             segment.start
-        } else if self.run.system().flies_freely(segment.taut) {
+        } else if self.run.system().flies_freely(taut) {
             self.flight.state(s)
         } else {
             self.series.state(s)
@@ -76,26 +78,86 @@ impl<'a> Playback<'a> {
         Motion {
             t,
             state,
-            taut: segment.taut,
-            tensions: tensions(system, t, &state, segment.taut),
+            taut,
+            tensions: tensions(system, t, &state, taut),
             energy: system.energy(&state),
         }
     }
 
-    fn begin(&mut self, index: usize) {
-        let segment = &self.run.segments()[index];
+    /// Expands the motion about the latest start of an expansion up to time `t`, in the chain of a
+    /// kept segment.
+    fn come_to(&mut self, index: usize, t: f64) -> Segment {
+        let kept = self.run.segments();
+        let system = self.run.system();
+        let next = kept.get(index + 1).map_or(f64::INFINITY, |next| next.t);
+        let mut segment = match self.reached {
+            Some((known, segment)) if known == index && segment.t <= t => segment,
+            _ => {
+                self.begin(&kept[index]);
+                kept[index]
+            }
+        };
+        if !system.flies_freely(segment.active.taut) {
+            let mut later = segment.t + self.series.step();
+            while segment.t < later && later <= t && later < next {
+                segment = segment.following(system, &self.series);
+                segment.expand(system, &mut self.series);
+                later = segment.t + self.series.step();
+            }
+        }
+        self.reached = Some((index, segment));
+        segment
+    }
+
+    fn begin(&mut self, segment: &Segment) {
         let (system, t, start) = (self.run.system(), segment.t, &segment.start);
-        // Gaps are not looked at here, so nothing need be known of them.
-        let contacts = [Contact::RESTING; MAX_CABLES];
-        if system.flies_freely(segment.taut) {
+        if system.flies_freely(segment.active.taut) {
+            // Gaps are not looked at here, so nothing need be known of them.
+            let contacts = [Contact::RESTING; MAX_CABLES];
             self.flight.begin(system, t, start, start, &contacts);
         } else {
-            let active = ActiveSet {
-                taut: segment.taut,
-                carrying: segment.carrying,
-            };
-            self.series.begin(system, t, start, &contacts, active);
+            segment.expand(system, &mut self.series);
         }
-        self.segment = Some(index);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::case::error::CaseError;
+    use crate::case::named::named_case;
+    use crate::case::parameters::Parameters;
+
+    /// Expansions that were not kept are computed again to the bit, whatever is asked for first.
+    #[test]
+    fn a_motion_is_the_same_however_little_of_it_is_kept() -> Result<(), CaseError> {
+        let long = Parameters {
+            stop_when_settled: false,
+            omega: 30.0,
+            t_end: 40.0,
+            ..Parameters::STANDARD
+        };
+        let cases = ["sliding-example", "rocking-example"].map(named_case);
+        let [sliding, rocking] = cases;
+        for parameters in [sliding?.parameters, rocking?.parameters, long] {
+            let run = Case::new(parameters)?.run();
+            let all = run.segments().len();
+            for most in [0, 1, 7] {
+                let mut thin = run.clone();
+                thin.keep_links(most);
+                let kept = thin.segments().len();
+                assert!(kept + 20 < all, "{kept} of {all}");
+                let (mut whole, mut playback) = (Playback::new(&run), Playback::new(&thin));
+                let starts = run.segments().iter().map(|segment| segment.t);
+                let mut times: Vec<f64> = starts.step_by(5).collect();
+                times.extend((0..50).map(|k| run.end().t * f64::from(k * 37 % 50) / 49.0));
+                times.extend([-1.0, f64::INFINITY]);
+                for t in times {
+                    assert_eq!(playback.at(t), whole.at(t), "{t} with {most}");
+                }
+            }
+        }
+        Ok(())
     }
 }

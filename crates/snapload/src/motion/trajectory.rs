@@ -5,6 +5,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::impact::Impact;
+use crate::motion::segments::{Segment, Segments};
 use crate::motion::simulation::{Simulation, Step};
 use std::ops::ControlFlow;
 
@@ -47,21 +48,11 @@ pub struct Norms {
     pub theta_max: f64,
 }
 
-/// A stretch of motion with one taut set, from which the state at any time in it is computed.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Segment {
-    pub(crate) t: f64,
-    pub(crate) start: State,
-    pub(crate) taut: TautSet,
-    /// Of the taut cables those that make up the motion.
-    pub(crate) carrying: TautSet,
-}
-
 /// A finished run.
 #[derive(Clone, Debug)]
 pub struct Trajectory {
     system: System,
-    segments: Vec<Segment>,
+    segments: Segments,
     impacts: Vec<Impact>,
     modes: Vec<ModeInterval>,
     end: End,
@@ -72,7 +63,7 @@ pub struct Trajectory {
 pub(crate) const RHO2_UNTIL: f64 = 10.0;
 
 impl Trajectory {
-    /// Runs a simulation to its end and keeps all of it.
+    /// Runs a simulation to its end, and keeps what the motion at any time is computed from.
     pub fn record(simulation: Simulation) -> Self {
         Self::record_until(simulation, |_, _| ControlFlow::Continue(())).0
     }
@@ -95,7 +86,7 @@ impl Trajectory {
     ) -> (Self, ControlFlow<()>) {
         let mut run = Self {
             system: simulation.system().clone(),
-            segments: Vec::new(),
+            segments: Segments::new(),
             impacts: Vec::new(),
             modes: Vec::new(),
             end: End::of(&simulation),
@@ -108,25 +99,16 @@ impl Trajectory {
             }
         }
         run.end = End::of(&simulation);
-        run.segments.push(Segment {
-            t: run.end.t,
-            start: run.end.state,
-            taut: simulation.taut(),
-            carrying: simulation.taut(),
-        });
+        run.segments
+            .end(run.end.t, run.end.state, simulation.taut());
         run.norms.y_max = simulation.y_max();
         run.norms.theta_max = simulation.theta_max();
         (run, ControlFlow::Continue(()))
     }
 
     fn take(&mut self, step: &Step) {
+        self.segments.take(step, &self.system);
         if step.t_end > step.t_start {
-            self.segments.push(Segment {
-                t: step.t_start,
-                start: step.start,
-                taut: step.taut,
-                carrying: step.carrying,
-            });
             match self.modes.last_mut() {
                 Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,
                 _ => self.modes.push(ModeInterval {
@@ -168,7 +150,12 @@ impl Trajectory {
     }
 
     pub(crate) fn segments(&self) -> &[Segment] {
-        &self.segments
+        self.segments.kept()
+    }
+
+    #[cfg(test)]
+    pub(crate) fn keep_links(&mut self, most: usize) {
+        self.segments.keep_links(most);
     }
 }
 

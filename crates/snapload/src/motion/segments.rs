@@ -1,0 +1,139 @@
+//! The stretches of a run, from which its motion is computed again, in bounded memory.
+//!
+//! Taut motion is a chain of Taylor expansions: where one ends without an event, the next begins at
+//! the state that it ends with. So the first of a chain is enough to compute all that follow, to the
+//! bit. Up to [`MOST_LINKS`] of those that follow are kept to come to any time quickly; a longer run
+//! keeps every second, then every fourth, and so on, and its memory grows with its events alone.
+
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, TautSet};
+use crate::motion::active_set::ActiveSet;
+use crate::motion::contact::Contact;
+use crate::motion::events::Reached;
+use crate::motion::projection::{project_position, project_velocity};
+use crate::motion::simulation::Step;
+use crate::motion::taut_series::Series;
+
+/// A stretch of motion with one taut set, from which the state at any time in it is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment {
+    pub(crate) t: f64,
+    pub(crate) start: State,
+    pub(crate) active: ActiveSet,
+    /// The cables whose gap is zero where the first expansion ends.
+    closed: TautSet,
+    /// How many expansions of its chain lie before it.
+    link: u64,
+}
+
+/// So many expansions are kept that could be computed from an earlier one: 25 MB.
+const MOST_LINKS: usize = 1 << 18;
+
+/// The stretches of a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Segments {
+    kept: Vec<Segment>,
+    /// Every so many links of a chain are kept.
+    stride: u64,
+    /// How many are.
+    links: usize,
+    /// The latest stretch, if no event ended it.
+    unbroken: Option<Segment>,
+}
+
+impl Segment {
+    /// Its first expansion.
+    pub(crate) fn expand(&self, system: &System, series: &mut Series<f64>) {
+        // Gaps are not looked at here, so nothing need be known of them.
+        let contacts = [Contact::RESTING; MAX_CABLES];
+        series.begin(system, self.t, &self.start, &contacts, self.active);
+    }
+
+    /// The next of the chain, by the arithmetic of the run.
+    pub(crate) fn following(&self, system: &System, series: &Series<f64>) -> Self {
+        let mut start = series.state(series.step());
+        project_position(system, &mut start, self.closed);
+        project_velocity(system, &mut start, self.active.taut);
+        Self {
+            t: self.t + series.step(),
+            start,
+            link: self.link + 1,
+            ..*self
+        }
+    }
+}
+
+impl Segments {
+    pub(crate) fn new() -> Self {
+        Self {
+            kept: Vec::new(),
+            stride: 1,
+            links: 0,
+            unbroken: None,
+        }
+    }
+
+    /// In order of time.
+    pub(crate) fn kept(&self) -> &[Segment] {
+        &self.kept
+    }
+
+    /// The stretch of a step.
+    pub(crate) fn take(&mut self, step: &Step, system: &System) {
+        let mut segment = Segment {
+            t: step.t_start,
+            start: step.start,
+            active: ActiveSet {
+                taut: step.taut,
+                carrying: step.carrying,
+            },
+            closed: step.event.closed,
+            link: 0,
+        };
+        if let Some(before) = &self.unbroken
+            && (before.active, before.closed) == (segment.active, segment.closed)
+            && !system.flies_freely(step.taut)
+        {
+            segment.link = before.link + 1;
+        }
+        let eventless = step.event.reached == Reached::default();
+        self.unbroken = Some(segment).filter(|_| eventless);
+        if step.t_end > step.t_start {
+            self.keep(segment);
+        }
+    }
+
+    /// The end of the run, which is a stretch of no length.
+    pub(crate) fn end(&mut self, t: f64, state: State, taut: TautSet) {
+        self.keep(Segment {
+            t,
+            start: state,
+            active: ActiveSet {
+                taut,
+                carrying: taut,
+            },
+            closed: taut,
+            link: 0,
+        });
+    }
+
+    fn keep(&mut self, segment: Segment) {
+        if !segment.link.is_multiple_of(self.stride) {
+            return;
+        }
+        self.kept.push(segment);
+        self.links += usize::from(segment.link > 0);
+        self.keep_links(MOST_LINKS);
+    }
+
+    /// Keeps no more than so many links.
+    pub(crate) fn keep_links(&mut self, most: usize) {
+        while self.links > most {
+            self.stride *= 2;
+            let stride = self.stride;
+            self.kept.retain(|s| s.link.is_multiple_of(stride));
+            self.links = self.kept.iter().filter(|s| s.link > 0).count();
+        }
+    }
+}
