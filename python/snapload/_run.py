@@ -102,6 +102,8 @@ class Trust:
         What was taken to be in doubt, beside rounding.
     end_error : float or None
         Error of the time of the end [T], two standard deviations; 0 at the end time; None past the horizon.
+    norm_errors : dict of str to float or None
+        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T]; None where impacts past the horizon enter the norm.
     exponents : tuple of float or None
         Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
     grazes : tuple of dict
@@ -116,6 +118,7 @@ class Trust:
     tolerance: float
     uncertainty: dict[str, float]
     end_error: float | None
+    norm_errors: dict[str, float | None]
     exponents: tuple[float | None, ...]
     grazes: tuple[dict[str, Any], ...]
     sensitivity: tuple[dict[str, Any], ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,9 @@ class Verification:
         How many impacts it has.
     differences : numpy.ndarray, shape (compared,)
         The largest difference of time and states at each impact, relative where a value is above 1.
+    exact : tuple of dict
+        The impacts of the run with many digits: ``t``, ``v_n`` and ``impulse`` as decimals in a str, which
+        `decimal.Decimal` reads, with the digits that are left there; and ``cable``.
     tolerance : float
         The difference that counts as wrong.
     """
@@ -56,6 +59,7 @@ class Verification:
     t: float
     impacts: int
     differences: NDArray[np.float64]
+    exact: tuple[dict[str, Any], ...]
     tolerance: float
     _told: str
 
@@ -129,6 +133,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
         **{key: found[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},
         **{key: found[key] for key in ("end", "t", "impacts")},
         differences=np.array(found["differences"], dtype=np.float64),
+        exact=tuple(found["exact"]),
         tolerance=tolerance,
         _told=told,
     )

@@ -1,5 +1,6 @@
 //! A run in a few lines, for a person.
 use crate::{Trusted, outcome_in_words, trust_in_words};
+use snapload::analysis::{NormErrors, digits_within};
 use snapload::{Impact, Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -35,7 +36,7 @@ pub fn summary_lines(
     let run = &trusted.run;
     let mut lines = vec![
         ("Case", case_in_words(name, parameters)),
-        ("End", end_in_words(run, parameters)),
+        ("End", end_known(trusted, parameters)),
     ];
     if let Some(limit) = run.end().t_limit {
         let limit = digits(limit);
@@ -44,13 +45,16 @@ pub fn summary_lines(
     lines.push(("Outcome", outcome_in_words(trusted)));
     lines.push(("Trust", trust_in_words(trusted)));
     lines.push(("Impacts", impacts(run.impacts())));
-    lines.extend(hardest(run.impacts()).map(|hardest| ("Hardest", hardest)));
-    let norms = run.norms();
-    let (rho1, rho2, rho3) = (digits(norms.rho1), digits(norms.rho2), digits(norms.rho3));
-    lines.push((
-        "Norms",
-        format!("rho1 = {rho1}, rho2 = {rho2}, rho3 = {rho3}"),
-    ));
+    lines.extend(hardest(trusted).map(|hardest| ("Hardest", hardest)));
+    let (norms, errors) = (run.norms(), NormErrors::of(run, &trusted.trust));
+    let norm = |name: &str, value: f64, error| {
+        let known = known(value, error);
+        format!("{name} = {} ({known})", digits(value))
+    };
+    let rho1 = norm("rho1", norms.rho1, errors.rho1);
+    let rho2 = norm("rho2", norms.rho2, errors.rho2);
+    let rho3 = norm("rho3", norms.rho3, errors.rho3);
+    lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
     let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
     lines.push(("", format!("y_max = {y_max}, theta_max = {theta_max} rad")));
     lines.push(("Modes", modes(run.modes())));
@@ -93,6 +97,29 @@ fn rounded(value: &Value) -> String {
         Value::Number(number) if text.len() > 12 => digits(*number),
         _ => text,
     }
+}
+
+/// How many decimal digits of a value are known, of its fraction where it is below 1; nothing where
+/// there is no error to tell it from.
+fn known(value: f64, error: Option<f64>) -> String {
+    let Some(error) = error else {
+        return "not certain".to_owned();
+    };
+    let digits = digits_within(error / value.abs().max(1.0)).floor();
+    let plural = if digits == 1.0 { "" } else { "s" };
+    format!("{digits} digit{plural}")
+}
+
+/// How a run ended, and how well it is known when.
+fn end_known(trusted: &Trusted, parameters: &Parameters) -> String {
+    let (end, trust) = (trusted.run.end(), &trusted.trust);
+    let words = end_in_words(&trusted.run, parameters);
+    if end.reason == Stop::EndTime {
+        return words;
+    }
+    let error = Some(trust.end_error).filter(|error| error.is_finite());
+    let at = format!("t = {}", digits(end.t));
+    words.replacen(&at, &format!("{at} ({})", known(end.t, error)), 1)
 }
 
 /// How a run ended, and when.
@@ -146,17 +173,22 @@ fn impacts(impacts: &[Impact]) -> String {
     text
 }
 
-fn hardest(impacts: &[Impact]) -> Option<String> {
-    let hardest = impacts
-        .iter()
-        .filter(|i| i.v_n > 0.0)
-        .max_by(|p, q| p.v_n.total_cmp(&q.v_n))?;
+/// The hardest snap, and how many digits are known of it; of one past the horizon none are.
+fn hardest(trusted: &Trusted) -> Option<String> {
+    let (impacts, errors) = (trusted.run.impacts(), &trusted.trust.errors);
+    let rows = impacts.iter().zip(errors).zip(1..);
+    let snaps = rows.filter(|((impact, _), _)| impact.v_n > 0.0);
+    let ((hardest, error), number) =
+        snaps.max_by(|((p, _), _), ((q, _), _)| p.v_n.total_cmp(&q.v_n))?;
+    let horizon = trusted.trust.horizon;
+    let certain = horizon.is_none_or(|horizon| number < horizon.impact);
     Some(format!(
-        "v_n = {}, impulse {}, at t = {} in cable {}",
+        "v_n = {}, impulse {}, at t = {} in cable {} ({})",
         digits(hardest.v_n),
         digits(hardest.impulse),
         digits(hardest.t),
-        hardest.cable + 1
+        hardest.cable + 1,
+        known(1.0, Some(*error).filter(|_| certain))
     ))
 }
 

@@ -3,7 +3,7 @@ use crate::Trusted;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use snapload::Stop;
-use snapload::analysis::{Horizon, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
+use snapload::analysis::{Horizon, NormErrors, START_KEYS, Sensitivity, Share, Trust, Uncertainty};
 
 /// Where trust ends, in JSON: nulls where it goes to the end of the run.
 #[derive(Serialize)]
@@ -32,6 +32,7 @@ pub struct TrustRow<'a> {
     tolerance: f64,
     uncertainty: UncertaintyJson<'a>,
     end_error: Option<f64>,
+    norm_errors: NormErrorRow,
     exponents: [f64; 6],
     grazes: Vec<GrazeRow>,
     sensitivity: Vec<SensitivityRow<'a>>,
@@ -52,6 +53,7 @@ impl<'a> TrustRow<'a> {
             tolerance: trusted.uncertainty.tolerance,
             uncertainty: UncertaintyJson(&trusted.uncertainty),
             end_error: Some(*end_error).filter(|error| error.is_finite()),
+            norm_errors: NormErrorRow::new(NormErrors::of(&trusted.run, &trusted.trust)),
             exponents: *exponents,
             grazes: grazes
                 .iter()
@@ -63,6 +65,20 @@ impl<'a> TrustRow<'a> {
                 .collect(),
             sensitivity: trusted.sensitivity.iter().map(SensitivityRow).collect(),
         }
+    }
+}
+
+/// Errors of the norms; null where impacts past the horizon enter them.
+#[derive(Serialize)]
+struct NormErrorRow {
+    rho1: Option<f64>,
+    rho2: Option<f64>,
+    rho3: Option<f64>,
+}
+
+impl NormErrorRow {
+    fn new(NormErrors { rho1, rho2, rho3 }: NormErrors) -> Self {
+        Self { rho1, rho2, rho3 }
     }
 }
 

@@ -3,7 +3,7 @@ use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
 use serde::Serialize;
 use snapload::Stop;
-use snapload::analysis::{Uncertainty, Verification, sensitivity};
+use snapload::analysis::{ExactImpact, Uncertainty, Verification, sensitivity};
 use std::fmt::Write;
 
 /// An ordinary run beside the same run with many digits.
@@ -27,7 +27,28 @@ pub struct VerifiedRow<'a> {
     impacts: usize,
     ordinary: Ordinary,
     differences: &'a [f64],
+    exact: Vec<ExactRow<'a>>,
     trust: TrustRow<'a>,
+}
+
+/// An impact with many digits: decimals as words, as a number of JSON is read as a double.
+#[derive(Serialize)]
+struct ExactRow<'a> {
+    t: &'a str,
+    cable: usize,
+    v_n: &'a str,
+    impulse: &'a str,
+}
+
+impl<'a> ExactRow<'a> {
+    fn new(impact: &'a ExactImpact) -> Self {
+        Self {
+            t: &impact.t,
+            cable: impact.cable + 1,
+            v_n: &impact.v_n,
+            impulse: &impact.impulse,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -75,7 +96,8 @@ impl Verified {
             compared: differences.len(),
             end: end.map(Stop::name),
             t: *t,
-            impacts: *impacts,
+            impacts: impacts.len(),
+            exact: impacts.iter().map(ExactRow::new).collect(),
             ordinary: Ordinary {
                 end: run.end().reason.name(),
                 t: run.end().t,
@@ -106,14 +128,14 @@ impl Verified {
             "{:<9} {end} at t = {:.6}, {} impacts",
             format!("{} dig.", found.digits),
             found.t,
-            found.impacts
+            found.impacts.len()
         );
         let tolerance = self.trusted.uncertainty.tolerance;
         let _ = match found.first_wrong {
-            Some(impact) if impact > found.impacts => writeln!(
+            Some(impact) if impact > found.impacts.len() => writeln!(
                 text,
                 "Proven    right to {tolerance:e} at all {} impacts, and wrong at the end",
-                found.impacts
+                found.impacts.len()
             ),
             Some(impact) => writeln!(
                 text,

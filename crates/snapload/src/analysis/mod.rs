@@ -1,8 +1,10 @@
 //! Questions asked of many runs: one file a question, public items of the library only.
 
 mod critical;
+mod digits;
 mod ensemble;
 mod exceedance;
+mod known;
 mod lyapunov;
 mod outcomes;
 mod progress;
@@ -12,8 +14,10 @@ mod trust;
 mod verify;
 
 pub use critical::{CriticalForce, Exceedance, ForceScan};
+pub use digits::digits_within;
 pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, Share, Tally};
 pub use exceedance::{ExceedanceCurve, Exceeding};
+pub use known::NormErrors;
 pub use lyapunov::Frame;
 pub use outcomes::{on_all_threads, outcomes};
 pub use progress::{
@@ -25,4 +29,4 @@ pub use trust::{
     Certainty, Graze, Horizon, HorizonCause, START_KEYS, Trust, TrustMonitor, UNCERTAIN_KEYS,
     Uncertainty, trusted_run,
 };
-pub use verify::{MOST_DIGITS, Verification, verify};
+pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};

@@ -38,8 +38,22 @@ pub struct Verification {
     pub end: Option<Stop>,
     /// When it ends.
     pub t: f64,
-    /// How many impacts it has.
-    pub impacts: usize,
+    /// Its impacts.
+    pub impacts: Vec<ExactImpact>,
+}
+
+/// An impact of the run with many digits: numbers with as many decimals as the growth of its own
+/// errors leaves, and two less, as that is an estimate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ExactImpact {
+    /// Time \[T\].
+    pub t: String,
+    /// The cable, by index from 0.
+    pub cable: usize,
+    /// Normal velocity just before \[L/T\].
+    pub v_n: String,
+    /// Impulse in the cable \[m L/T\].
+    pub impulse: String,
 }
 
 /// Runs a case with at least `digits` decimal digits beside the ordinary run.
@@ -85,20 +99,22 @@ fn with_words<const WORDS: usize>(
     })?;
     let mut differences = Vec::new();
     let mut first_wrong = None;
-    let mut impacts = 0;
+    let mut impacts = Vec::new();
+    let mut decimals = Decimals::of(&trust, Precise::<WORDS>::DIGITS);
     let t_end = case.parameters().t_end;
     while let Some(step) = simulation.step() {
         let stuck = simulation.stop().is_none() && !step.taut_after.is_empty();
         for exact in step.impacts() {
-            match run.impacts().get(impacts) {
+            match run.impacts().get(impacts.len()) {
                 Some(ours) if ours.cable == exact.cable => {
                     differences.push(difference(ours, &exact))
                 }
                 _ => {
-                    first_wrong.get_or_insert(impacts + 1);
+                    first_wrong.get_or_insert(impacts.len() + 1);
                 }
             }
-            impacts += 1;
+            let left = decimals.at(impacts.len(), exact.t.to_f64());
+            impacts.push(ExactImpact::new(&exact, left));
         }
         let t = simulation.time().to_f64();
         Progress::new("computing with many digits", t, t_end).tell(on_progress)?;
@@ -111,8 +127,8 @@ fn with_words<const WORDS: usize>(
         .into_iter()
         .flatten()
         .min();
-    if ends_otherwise(&run, &simulation, impacts, tolerance) {
-        first_wrong = first_wrong.or(Some(impacts + 1));
+    if ends_otherwise(&run, &simulation, impacts.len(), tolerance) {
+        first_wrong = first_wrong.or(Some(impacts.len() + 1));
     }
     Ok(Verification {
         digits: Precise::<WORDS>::DIGITS,
@@ -142,6 +158,47 @@ fn ends_otherwise<T: Real>(
     })
 }
 
+/// How many decimals the growth of errors leaves of a run with many digits.
+struct Decimals<'a> {
+    trust: &'a Trust,
+    digits: f64,
+    lost: f64,
+}
+
+impl<'a> Decimals<'a> {
+    fn of(trust: &'a Trust, digits: u32) -> Self {
+        let digits = f64::from(digits);
+        let lost = 0.0;
+        Self {
+            trust,
+            digits,
+            lost,
+        }
+    }
+
+    /// At an impact, by its index: what the ordinary run lost up to there, the run with many digits
+    /// has lost as well; where the ordinary one has lost all, by the mean growth.
+    fn at(&mut self, impact: usize, t: f64) -> usize {
+        let errors = &self.trust.errors;
+        let known = errors.get(impact).filter(|error| error.is_finite());
+        let growth = known.map_or(0.0, |error| (error / f64::EPSILON).log10());
+        let mean = self.trust.exponents[0] * t * std::f64::consts::LOG10_E;
+        self.lost = self.lost.max(growth).max(mean);
+        (self.digits - self.lost - 2.0).max(0.0) as usize
+    }
+}
+
+impl ExactImpact {
+    fn new<const WORDS: usize>(impact: &Impact<Precise<WORDS>>, decimals: usize) -> Self {
+        Self {
+            t: impact.t.to_decimals(decimals),
+            cable: impact.cable,
+            v_n: impact.v_n.to_decimals(decimals),
+            impulse: impact.impulse.to_decimals(decimals),
+        }
+    }
+}
+
 /// The digits that the growth of errors leaves at the end.
 fn digits_left<const WORDS: usize>(trust: &Trust, simulation: &Simulation<Precise<WORDS>>) -> f64 {
     let growth = trust.exponents[0].max(0.0) * simulation.time().to_f64();
@@ -161,4 +218,45 @@ fn difference<T: Real>(ours: &Impact, exact: &Impact<T>) -> f64 {
 fn relative<T: Real>(ours: f64, exact: T) -> f64 {
     let difference = (T::from_f64(ours) - exact).to_f64().abs();
     difference / exact.to_f64().abs().max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::progress::unwatched;
+    use crate::case::parameters::Parameters;
+
+    /// With twice the digits each decimal is the same, but for a rounding of the last one.
+    #[test]
+    fn decimals_that_are_told_are_right() -> Result<(), Unfinished> {
+        let case = Case::new(Parameters::STANDARD)?;
+        let few = verify(&case, 60, 1e-3, &unwatched)?;
+        let many = verify(&case, 150, 1e-3, &unwatched)?;
+        assert_eq!(few.impacts.len(), many.impacts.len());
+        let units = |text: &str, decimals: usize| {
+            let (whole, fraction) = text.split_once('.').expect("decimals");
+            format!("{whole}{}", &fraction[..decimals])
+        };
+        for (few, many) in few.impacts.iter().zip(&many.impacts) {
+            assert_eq!(few.cable, many.cable);
+            let pairs = [
+                (&few.t, &many.t),
+                (&few.v_n, &many.v_n),
+                (&few.impulse, &many.impulse),
+            ];
+            for (few, many) in pairs {
+                let decimals = few
+                    .split_once('.')
+                    .map_or(0, |(_, fraction)| fraction.len());
+                assert!(decimals >= 30 && many.len() > few.len(), "{few} {many}");
+                // The last 30 places of both, as far as numbers hold them.
+                let last = |text: &str| -> i128 {
+                    let units = units(text, decimals);
+                    units[units.len() - 30..].parse().expect("digits")
+                };
+                assert!((last(few) - last(many)).abs() <= 1, "{few} {many}");
+            }
+        }
+        Ok(())
+    }
 }

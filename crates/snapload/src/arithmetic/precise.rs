@@ -7,6 +7,8 @@ use dashu_int::{IBig, Sign, UBig};
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+mod decimals;
+
 /// A number with a significand of 64 `WORDS` − 2 bits, rounded to nearest after every operation.
 ///
 /// The arithmetic is that of the crate `dashu-float`. Its numbers live on the heap and are cloned,
@@ -19,8 +21,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 ///
 /// What has no value, such as 0/0 or a number past the exponents, is like a NaN.
 ///
-/// No operation is inlined: each takes far longer than the call, and a motion has thousands of them,
-/// which would be most of the time that this library takes to compile.
+/// No operation is inlined: each takes far longer than the call, and a motion has thousands of
+/// them, which would be most of the time that this library takes to compile.
 #[derive(Clone, Copy, Debug)]
 pub struct Precise<const WORDS: usize> {
     /// The significand, an integer, least significant byte first.

@@ -82,7 +82,7 @@ fn horizons_are_where_the_oracle_has_them() {
         let id = truth["id"].as_str().unwrap_or_default();
         let found = verify(&of_oracle(truth), 60, TOLERANCE, &unwatched).expect("a legal start");
         let theirs = truth["horizon_double"]["first_impact_rel_gt_1e_6"].as_u64();
-        let theirs = theirs.map_or(found.impacts + 1, |impact| impact as usize);
+        let theirs = theirs.map_or(found.impacts.len() + 1, |impact| impact as usize);
         println!(
             "{id}: predicted {}, first_wrong {}, oracle {theirs}",
             predicted(&found),
@@ -179,7 +179,8 @@ fn a_crowd_of_neighbours_spreads_as_predicted() {
                 .collect();
             for k in 0..15.min(run.impacts().len()) {
                 let ratio = 2.0 * spread(&crowd, k) / trust.errors[k];
-                // An error is two standard deviations. Of 600 draws the deviation is known to 3 %: four times that.
+                // An error is two standard deviations. Of 600 draws the deviation is known to 3 %:
+                // four times that.
                 assert!(
                     (0.88..1.12).contains(&ratio),
                     "{uncertain:?} impact {}: {ratio}",
