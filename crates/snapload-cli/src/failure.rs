@@ -1,10 +1,11 @@
 //! How a command fails, what it says then, and with which exit status.
+use crate::standard_output::standard_output;
 use snapload::CaseError;
 use snapload::analysis::{Cancelled, Unfinished};
 use snapload_study::StudyError;
 pub(crate) use snapload_study::without_number as plain;
 use std::fmt::Display;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -107,8 +108,8 @@ pub(crate) fn exit_code(result: Result<(), Failure>) -> ExitCode {
 
 /// Writes text to standard output.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
-        .and_then(|()| out.flush())
+    let write = |mut out: StdoutLock| out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    standard_output()
+        .and_then(write)
         .map_err(|error| Failure::write("standard output", &error))
 }

@@ -1,11 +1,12 @@
 //! Where `--json` writes to, and how.
 use crate::failure::Failure;
 use crate::stage::{Room, Stage};
+use crate::standard_output::standard_output;
 use serde::Serialize;
 use snapload_report::write_json;
 use snapload_study::parent_of;
 use std::fs::OpenOptions;
-use std::io::{self, BufWriter, Write};
+use std::io::{BufWriter, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
 /// The place that `--json` names.
@@ -52,9 +53,12 @@ impl Json {
         let mut written = stage.commit()?;
         match self {
             Self::Stdout => {
-                let mut out = BufWriter::new(io::stdout().lock());
-                write_json(value, &mut out)
-                    .and_then(|()| out.flush())
+                let write = |out: StdoutLock| {
+                    let mut out = BufWriter::new(out);
+                    write_json(value, &mut out).and_then(|()| out.flush())
+                };
+                standard_output()
+                    .and_then(write)
                     .map_err(|error| Failure::write("standard output", &error))?;
                 return Ok(None);
             }

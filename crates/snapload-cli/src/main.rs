@@ -25,6 +25,7 @@ mod run;
 #[cfg(feature = "structure")]
 mod seas;
 mod stage;
+mod standard_output;
 #[cfg(feature = "structure")]
 mod structure_input;
 mod study_input;

@@ -88,6 +88,37 @@ fn devices_are_written_into_and_links_followed() {
     assert_eq!(listing(d.path()), ["link.json", "target.json"]);
 }
 
+/// What can not be written is an error, also where standard output was closed from the start.
+#[test]
+#[cfg(target_os = "linux")]
+fn standard_output_that_takes_nothing_is_an_error() {
+    let d = directory();
+    let program = assert_cmd::cargo::cargo_bin!("snapload")
+        .display()
+        .to_string();
+    let places = [
+        (">&-", "it is closed"),
+        ("> /dev/full", "No space left on device"),
+    ];
+    for (place, why) in places {
+        for verb in ["cases", "run --set t_end=1", "run --set t_end=1 --json -"] {
+            let line = format!("exec {program} {verb} {place}");
+            let mut shell = Command::new("sh");
+            let done = shell
+                .args(["-c", &line])
+                .current_dir(d.path())
+                .output()
+                .unwrap();
+            assert_eq!(done.status.code(), Some(1), "{line}");
+            let said = String::from_utf8(done.stderr).unwrap();
+            assert_eq!(
+                said,
+                format!("error: can not write standard output: {why}\n")
+            );
+        }
+    }
+}
+
 #[test]
 #[cfg(target_os = "linux")]
 fn an_interruption_leaves_nothing_behind() {

@@ -146,10 +146,17 @@ impl<'a> Tally<'a> {
         for (line, slack) in self.lines.iter_mut().zip(&self.slack) {
             line.slack_fraction = if end > 0.0 { slack / end } else { 0.0 };
         }
+        let Prepared {
+            structure, model, ..
+        } = self.prepared;
         Outcome {
             lines: self.lines,
             stop,
-            end_s: end * self.prepared.model.scales.time_s,
+            // As it was asked for, not as it comes back from the engine's units.
+            end_s: match stop {
+                Stop::EndTime => structure.duration_s,
+                _ => end * model.scales.time_s,
+            },
             peaks_n: self.peaks_n,
             speeds_m_s: self.speeds_m_s,
         }
