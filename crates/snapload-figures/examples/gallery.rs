@@ -97,6 +97,7 @@ fn odd_plots() -> Vec<(&'static str, Plot)> {
             cells: side.iter().flat_map(at).collect(),
             value_label: "sin *xy*".to_string(),
             classes: ["first", "second", "third"].map(String::from).to_vec(),
+            ..Map::default()
         };
         Plot {
             x: Axis::new("*x*", Range::Auto),

@@ -5,7 +5,7 @@ use crate::axis::{Span, Ticks, resolve, ticks, union};
 use crate::error::FigureError;
 use crate::layers::draw_layers;
 use crate::legend::Legend;
-use crate::map::{BESIDE, Bar, range};
+use crate::map::{BESIDE, Bar, has_doubts, range};
 use crate::picture::Picture;
 use crate::plot::{self, Axis, Layer, Plot, Width, drawable};
 use crate::svg::{Anchor, FRAME, Sheet};
@@ -39,6 +39,9 @@ pub fn draw(name: &str, page: Width, panels: &[Plot]) -> Result<Picture, FigureE
     let mut sheet = Sheet::default();
     if maps().next().is_some() {
         sheet.define_hatch();
+    }
+    if maps().any(has_doubts) {
+        sheet.define_doubt();
     }
     let mut legend = Legend::default();
     let mut top = RIM;

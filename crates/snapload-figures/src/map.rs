@@ -107,36 +107,57 @@ fn values_of(map: &Map) -> Option<Span> {
     Some(resolve(Range::Fixed(low, high), std::iter::once(low)))
 }
 
-/// One path for all the cells of a colour; neighbours above one another are one rectangle.
+/// One path for all the cells of a colour, and one for those in doubt on top.
 pub(crate) fn draw_cells(sheet: &mut Sheet, map: &Map, area: Area) {
-    let mut of_fill: BTreeMap<Fill, Vec<Rect>> = BTreeMap::new();
     let values = values_of(map).unwrap_or_default();
-    let (across, up) = (edges(&map.x), edges(&map.y));
-    let cell = |i: usize, j: usize| {
-        let cell = map.cells.get(i * map.y.len() + j);
-        fill(cell.copied().unwrap_or_default(), values)
+    let colour = |k: usize| {
+        let cell = map.cells.get(k).copied();
+        Some(fill(cell.unwrap_or_default(), values))
     };
-    for i in 0..map.x.len() {
-        let mut start = 0;
-        for j in 0..map.y.len() {
-            let this = cell(i, j);
-            if j + 1 == map.y.len() || cell(i, j + 1) != this {
-                let from = area.to_page([across[i], up[start]]);
-                let to = area.to_page([across[i + 1], up[j + 1]]);
-                of_fill
-                    .entry(this)
-                    .or_default()
-                    .push(Rect::from_points(from, to));
-                start = j + 1;
-            }
-        }
+    let doubt = |k: usize| is_doubtful(map, k).then_some(Fill::Doubt);
+    for (fill, rects) in rects(map, area, colour) {
+        sheet.rects(&rects, fill);
     }
-    for (fill, rects) in of_fill {
+    for (fill, rects) in rects(map, area, doubt) {
         sheet.rects(&rects, fill);
     }
 }
 
-/// The classes that occur, and what is no value, for the legend.
+/// The cells of each fill, by their number; neighbours above one another are one rectangle.
+fn rects(map: &Map, area: Area, fill: impl Fn(usize) -> Option<Fill>) -> BTreeMap<Fill, Vec<Rect>> {
+    let mut of_fill: BTreeMap<Fill, Vec<Rect>> = BTreeMap::new();
+    let (across, up) = (edges(&map.x), edges(&map.y));
+    let rows = map.y.len();
+    for i in 0..map.x.len() {
+        let mut start = 0;
+        for j in 0..rows {
+            let this = fill(i * rows + j);
+            if j + 1 == rows || fill(i * rows + j + 1) != this {
+                let from = area.to_page([across[i], up[start]]);
+                let to = area.to_page([across[i + 1], up[j + 1]]);
+                if let Some(this) = this {
+                    let rects = of_fill.entry(this).or_default();
+                    rects.push(Rect::from_points(from, to));
+                }
+                start = j + 1;
+            }
+        }
+    }
+    of_fill
+}
+
+/// Whether a cell, by its number, is in doubt; where there is nothing, there is no doubt.
+fn is_doubtful(map: &Map, k: usize) -> bool {
+    let something = matches!(map.cells.get(k), Some(Cell::Value(_) | Cell::Class(_)));
+    something && map.doubtful.get(k) == Some(&true)
+}
+
+/// Whether any cell is in doubt.
+pub(crate) fn has_doubts(map: &Map) -> bool {
+    (0..map.cells.len()).any(|k| is_doubtful(map, k))
+}
+
+/// The classes that occur, what is no value, and what is in doubt, for the legend.
 pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
     let classes = map.classes.iter().enumerate();
     let classes = classes.map(|(index, name)| (Cell::Class(index), name.as_str()));
@@ -145,7 +166,8 @@ pub(crate) fn samples(map: &Map) -> Vec<(Fill, String)> {
         .chain(others)
         .filter(|(cell, _)| map.cells.contains(cell));
     let sample = |(cell, words): (Cell, &str)| (fill(cell, (0.0, 1.0)), words.to_owned());
-    occurring.map(sample).collect()
+    let doubt = has_doubts(map).then(|| (Fill::Doubt, "not certain".to_owned()));
+    occurring.map(sample).chain(doubt).collect()
 }
 
 /// The colour bar beside a map of values.

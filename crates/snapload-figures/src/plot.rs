@@ -108,6 +108,9 @@ pub struct Map {
     pub value_label: String,
     /// The names of the classes.
     pub classes: Vec<String>,
+    /// Which cells are in doubt, in the order of the cells; these are hatched. Those that are left
+    /// out are not.
+    pub doubtful: Vec<bool>,
 }
 
 /// What a cell of a [`Map`] holds.

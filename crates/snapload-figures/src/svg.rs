@@ -37,6 +37,8 @@ pub(crate) enum Fill {
     Blank,
     /// Grey lines, told from every colour in print, too.
     Hatch,
+    /// Thin lines on top of a colour, black beside white, so that they are seen on every one.
+    Doubt,
 }
 
 /// What has been drawn so far.
@@ -132,6 +134,17 @@ impl Sheet {
         )));
     }
 
+    /// The lines of [`Fill::Doubt`], which lean the other way.
+    pub(crate) fn define_doubt(&mut self) {
+        self.push(format_args!(concat!(
+            r#"<pattern id="doubt" width="3.6" height="3.6" patternUnits="userSpaceOnUse" "#,
+            r#"patternTransform="rotate(-45)">"#,
+            r##"<rect width=".5" height="3.6" fill="#fff"/>"##,
+            r##"<rect x=".5" width=".5" height="3.6" fill="#000"/>"##,
+            "</pattern>"
+        )));
+    }
+
     /// One path for rectangles of one fill, without seams between neighbours.
     pub(crate) fn rects(&mut self, rects: &[Rect], fill: Fill) {
         let mut d = String::new();
@@ -144,6 +157,7 @@ impl Sheet {
             Fill::Colour(colour) => hex(colour),
             Fill::Blank => SHADE.to_string(),
             Fill::Hatch => "url(#hatch)".to_string(),
+            Fill::Doubt => "url(#doubt)".to_string(),
         };
         self.push(format_args!(
             r#"<path d="{d}" fill="{paint}" shape-rendering="crispEdges"/>"#

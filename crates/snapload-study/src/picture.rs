@@ -76,7 +76,7 @@ impl StudyPicture {
     fn line(&self, file: &Path, x: &Axis) -> Result<Plot, StudyError> {
         let thinned = Thinned::of(x, MOST_CELLS);
         let mut cells = Vec::new();
-        self.read(file, |row, cell| {
+        self.read(file, |row, cell, _| {
             if row.is_multiple_of(thinned.step) {
                 cells.push(cell);
             }
@@ -105,11 +105,15 @@ impl StudyPicture {
         // An axis that needs less than its share leaves the rest to the other.
         let of_x = Thinned::of(x, side.max(MOST_CELLS / y.count().min(side)));
         let of_y = Thinned::of(y, MOST_CELLS / of_x.values.len() as u64);
-        let mut cells = Vec::new();
-        self.read(file, |row, cell| {
+        let (mut cells, mut doubtful) = (Vec::new(), Vec::new());
+        // Whether and where trust ends is no result that it could leave in doubt.
+        let of_trust = ["certain", "horizon_t", "horizon_impact"];
+        let of_motion = !of_trust.contains(&self.column.name);
+        self.read(file, |row, cell, doubt| {
             let (i, j) = (row / y.count(), row % y.count());
             if i.is_multiple_of(of_x.step) && j.is_multiple_of(of_y.step) {
                 cells.push(cell);
+                doubtful.push(doubt && of_motion);
             }
         })?;
         let words = self.column.words().into_iter();
@@ -119,6 +123,7 @@ impl StudyPicture {
             cells,
             value_label: self.label(),
             classes: words.map(|word| word.replace('_', " ")).collect(),
+            doubtful,
         };
         Ok(Plot {
             description: format!("{} over {} and {}", self.column.name, x.key(), y.key()),
@@ -129,9 +134,9 @@ impl StudyPicture {
         })
     }
 
-    fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell)) -> Result<(), StudyError> {
+    fn read(&self, file: &Path, mut visit: impl FnMut(u64, Cell, bool)) -> Result<(), StudyError> {
         let words = self.column.words();
-        read_shown(file, self.column, |row, shown| {
+        read_shown(file, self.column, |row, shown, doubtful| {
             let cell = match shown {
                 Shown::Number(value) => Cell::Value(value),
                 Shown::Word(word) => {
@@ -141,7 +146,7 @@ impl StudyPicture {
                 Shown::Nothing => Cell::Empty,
                 Shown::Fault => Cell::Fault,
             };
-            visit(row, cell);
+            visit(row, cell, doubtful);
         })
     }
 

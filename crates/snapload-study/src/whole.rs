@@ -277,18 +277,19 @@ pub enum Shown<'a> {
     Fault,
 }
 
-/// Shows one column of a file, row by row from its first one, which counts as 0.
+/// Shows one column of a file, row by row from its first one, which counts as 0, and whether trust
+/// in the run ends before the run does.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
 pub fn read_shown(
     path: &Path,
     column: &Column,
-    mut visit: impl FnMut(u64, Shown),
+    mut visit: impl FnMut(u64, Shown, bool),
 ) -> Result<(), StudyError> {
     let mut row = 0;
-    read_columns(path, &[column.name, "error"], |columns| {
-        let [values, Values::Words(errors)] = columns else {
+    read_columns(path, &[column.name, "error", "certain"], |columns| {
+        let [values, Values::Words(errors), Values::Flags(certain)] = columns else {
             return;
         };
         for (k, error) in errors.iter().enumerate() {
@@ -301,7 +302,8 @@ pub fn read_shown(
                 }
                 Values::Words(list) => list[k].as_deref().map(Shown::Word),
             };
-            visit(row, shown.unwrap_or(Shown::Nothing));
+            let doubtful = certain[k] == Some(false);
+            visit(row, shown.unwrap_or(Shown::Nothing), doubtful);
             row += 1;
         }
     })

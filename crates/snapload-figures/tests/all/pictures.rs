@@ -255,6 +255,7 @@ fn map(cells: Vec<Cell>) -> Plot {
         cells,
         classes: vec!["settled".to_string(), "upper bound".to_string()],
         value_label: "*t* (T)".to_string(),
+        ..Map::default()
     };
     Plot {
         layers: vec![Layer::Map(map)],
@@ -293,6 +294,32 @@ fn values_have_a_bar_and_classes_a_legend() {
             .any(|text| text == "upper bound" || text == "no data")
     );
     assert!(!classes.svg().contains("#440154"));
+}
+
+/// What is in doubt keeps its colour, and is hatched on top; where there is nothing, there is no
+/// doubt.
+#[test]
+fn cells_in_doubt_are_hatched() {
+    use Cell::{Class, Empty, Fault};
+    let doubt = |cells: Vec<Cell>, doubtful: Vec<bool>| {
+        let mut plot = map(cells);
+        if let Layer::Map(map) = &mut plot.layers[0] {
+            map.doubtful = doubtful;
+        }
+        picture(plot)
+    };
+    let some = doubt(vec![Class(0); 6], vec![false, true, true]);
+    assert!(letters(&some).iter().any(|text| text == "not certain"));
+    // The cells, and the sample of the legend.
+    assert_eq!(some.svg().matches("fill=\"url(#doubt)\"").count(), 2);
+    let certain = doubt(vec![Class(0); 6], Vec::new());
+    // All that is drawn without doubt is drawn with it.
+    for line in certain.svg().lines() {
+        assert!(some.svg().contains(line), "{line}");
+    }
+    let nothing = doubt([Empty, Fault].repeat(3), vec![true; 6]);
+    assert!(!nothing.svg().contains("doubt"));
+    assert!(!letters(&nothing).iter().any(|text| text == "not certain"));
 }
 
 #[test]
