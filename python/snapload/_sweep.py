@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+import warnings
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -51,7 +52,7 @@ def sweep(
     trust : bool
         Whether to say how far each run can be trusted, which takes about as long again.
     threads : int, optional
-        Threads to use; as many as the machine has if left out.
+        Threads to use; as many as the machine has if left out, and at the most four times as many.
     client : distributed.Client, optional
         A client of Dask whose workers compute the rows instead of this machine: the same rows, bits and `resume`.
         A worker that dies costs its chunk, which another one computes again.
@@ -90,7 +91,9 @@ def sweep(
     """
     spec = [(key, values if isinstance(values, str) else np.ravel(np.asarray(values))) for key, values in axes.items()]
     if threads is not None:
-        threads = whole("threads", threads, 1, 65535)
+        threads, fewer = _engine.threads_for(asked := whole("threads", threads, 1, 65535))
+        if fewer:
+            warnings.warn(f"threads={asked}: {fewer}", stacklevel=2)
     study = _engine.Study(case._engine, spec, trust)
     with tempfile.TemporaryDirectory(prefix="snapload-", ignore_cleanup_errors=True) as scratch:
         path = Path(scratch) / "study.parquet" if out is None else Path(fspath(out))

@@ -26,7 +26,7 @@ mod _engine {
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases};
     #[pymodule_export]
-    use super::study::{Store, Study, evenly, read};
+    use super::study::{Store, Study, evenly, read, threads_for};
     #[pymodule_export]
     use super::table::Table;
 

@@ -162,6 +162,12 @@ fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     Axis::listed(key, values).map_err(of_study)
 }
 
+/// As many threads as asked for, up to what helps; and where these are fewer, why.
+#[pyfunction]
+pub(crate) fn threads_for(asked: usize) -> (usize, Option<String>) {
+    snapload_study::threads_for(asked)
+}
+
 /// On so many threads, or on as many as the machine has.
 fn on_threads<T: Send>(
     threads: Option<usize>,

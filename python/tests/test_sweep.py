@@ -144,6 +144,12 @@ def test_after_ctrl_c_the_same_process_goes_on(tmp_path: Path):
     assert snapload.open_study(out).sizes == {"f_o": 400, "e": 400}
 
 
+def test_more_threads_than_help_are_capped_with_a_word():
+    with pytest.warns(UserWarning, match=r"^threads=60000: this machine runs \d+ at a time.* are used$"):
+        study = snapload.sweep(snapload.Case(), f_o=[0.3, 0.31], threads=60_000)
+    assert study.sizes["f_o"] == 2
+
+
 def test_other_threads_run_meanwhile():
     work = threading.Thread(target=snapload.sweep, args=[snapload.Case()], kwargs=dict(e="0.5:0.9:3000"))
     begun = time.monotonic()

@@ -86,15 +86,16 @@ impl<'a> Summary<'a> {
         text
     }
 
-    /// Where a row stands in the list that it comes from, as a text editor counts.
+    /// Where a row stands in the list that it comes from: lines as a text editor counts, and rows
+    /// of a table as whatever reads one.
     fn line(&self, row: u64) -> String {
         let Some(Plan::List(list)) = self.plan else {
             return String::new();
         };
-        let line = list.line(row);
-        line.map_or(String::new(), |line| {
-            format!(", line {line} of {}", list.name())
-        })
+        match list.line(row) {
+            Some(line) => format!(", line {line} of {}", list.name()),
+            None => format!(" of {}, counted from 0", list.name()),
+        }
     }
 }
 

@@ -7,8 +7,7 @@ use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
-use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, sweep};
-use std::num::NonZero;
+use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, sweep, threads_for};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -30,9 +29,6 @@ Examples:
       the cases of a table with a column a key
   snapload sweep study.toml --shard 3/8 --out part-3.parquet
       the third of eight parts, for one of eight machines; snapload merge joins them";
-
-/// Threads for each that the machine runs at a time: enough for whatever it says of itself.
-const MOST_THREADS: usize = 4;
 
 /// Which study, and where its rows go.
 #[derive(clap::Args)]
@@ -99,13 +95,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// As many threads as asked for, up to a few for each that the machine runs at a time.
 fn start_threads(asked: u16) -> Result<(), Failure> {
-    let at_a_time = std::thread::available_parallelism().map_or(1, NonZero::get);
-    let most = at_a_time.saturating_mul(MOST_THREADS);
-    let threads = most.min(asked.into());
-    if threads < asked.into() {
-        say(&format!(
-            "--threads {asked}: this machine runs {at_a_time} at a time, and more only wait; {threads} are used"
-        ));
+    let (threads, fewer) = threads_for(asked.into());
+    if let Some(why) = fewer {
+        say(&format!("--threads {asked}: {why}"));
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     let built = pool.build_global();

@@ -24,6 +24,7 @@ mod store;
 mod study;
 mod sweep;
 mod table;
+mod threads;
 mod whole;
 
 pub use error::{Occupied, StudyError, without_number};
@@ -40,4 +41,5 @@ pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
 pub use study::{Drawn, Study};
 pub use sweep::{Ending, sweep};
 pub use table::{Column, Run, Take, columns};
+pub use threads::threads_for;
 pub use whole::{Shown, Tally, columns_of_files, ends, identity_of, merge, read_all, read_shown};
