@@ -3,19 +3,24 @@
 //! The Parquet project's own readers and writers of columns do this without Arrow, whose code for
 //! every type there is takes longer to compile than all else that the command line depends on.
 
+use bytes::Bytes;
 use half::f16;
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, get_typed_column_reader};
+use parquet::column::writer::{
+    ColumnCloseResult, ColumnWriter, get_column_writer, get_typed_column_writer_mut,
+};
 use parquet::data_type::{
-    BoolType, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType, Int32Type,
-    Int64Type,
+    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType,
+    Int32Type, Int64Type,
 };
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::FileMetaData;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
-use parquet::schema::types::{Type, TypePtr};
+use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use parquet::schema::types::{ColumnDescPtr, Type, TypePtr};
+use rayon::prelude::*;
 use std::fs::File;
 use std::io::Write;
 use std::ops::Range;
@@ -135,24 +140,22 @@ impl<W: Write + Send> Writer<W> {
         SerializedFileWriter::new(out, schema(fields)?, Arc::new(properties)).map(Self)
     }
 
-    /// Writes a group of rows, given by its columns.
+    /// Writes a group of rows, given by its columns. They are encoded on the threads that there are,
+    /// and written one after the other.
     pub(crate) fn write(&mut self, columns: &[Values]) -> Result<()> {
+        let places = self.0.schema_descr().columns();
+        if places.len() != columns.len() {
+            return Err(refused("a group has not the columns of the file"));
+        }
+        let properties = self.0.properties();
+        let encode = |(place, values): (&ColumnDescPtr, &Values)| {
+            encoded(Arc::clone(place), Arc::clone(properties), values)
+        };
+        let encoded: Vec<_> = places.par_iter().zip(columns).map(encode).collect();
         let mut group = self.0.next_row_group()?;
-        for values in columns {
-            let column = group.next_column()?;
-            let mut column =
-                column.ok_or_else(|| ParquetError::General("too many columns".to_owned()))?;
-            match values {
-                Values::Numbers(list) => put::<DoubleType, _>(&mut column, list, |n| *n)?,
-                Values::Counts(list) => put::<Int64Type, _>(&mut column, list, |n| *n)?,
-                Values::Flags(list) => put::<BoolType, _>(&mut column, list, |flag| *flag)?,
-                Values::Words(list) => {
-                    put::<ByteArrayType, _>(&mut column, list, |word| {
-                        word.as_bytes().to_vec().into()
-                    })?;
-                }
-            }
-            column.close()?;
+        for column in encoded {
+            let (bytes, close) = column?;
+            group.append_column(&bytes, close)?;
         }
         group.close()?;
         Ok(())
@@ -164,19 +167,45 @@ impl<W: Write + Send> Writer<W> {
     }
 }
 
+/// A column of a group by itself, as bytes.
+fn encoded(
+    place: ColumnDescPtr,
+    properties: WriterPropertiesPtr,
+    values: &Values,
+) -> Result<(Bytes, ColumnCloseResult)> {
+    let mut bytes = TrackedWrite::new(Vec::new());
+    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
+    let mut column = get_column_writer(place, properties, pages);
+    match values {
+        Values::Numbers(list) => put::<DoubleType, _>(&mut column, list, |n| *n)?,
+        Values::Counts(list) => put::<Int64Type, _>(&mut column, list, |n| *n)?,
+        Values::Flags(list) => put::<BoolType, _>(&mut column, list, |flag| *flag)?,
+        Values::Words(list) => {
+            // Most words are those of the row before: they share its bytes.
+            let mut latest = ByteArray::from("");
+            put::<ByteArrayType, _>(&mut column, list, |word| {
+                if latest.data() != word.as_bytes() {
+                    latest = word.as_bytes().to_vec().into();
+                }
+                latest.clone()
+            })?;
+        }
+    }
+    let close = column.close()?;
+    Ok((bytes.into_inner()?.into(), close))
+}
+
 fn put<D: DataType, V>(
-    column: &mut SerializedColumnWriter<'_>,
+    column: &mut ColumnWriter<'_>,
     list: &[Option<V>],
-    write: impl Fn(&V) -> D::T,
+    write: impl FnMut(&V) -> D::T,
 ) -> Result<()> {
     let values: Vec<D::T> = list.iter().flatten().map(write).collect();
     let there: Vec<i16> = list
         .iter()
         .map(|value| i16::from(value.is_some()))
         .collect();
-    column
-        .typed::<D>()
-        .write_batch(&values, Some(&there), None)?;
+    get_typed_column_writer_mut::<D>(column).write_batch(&values, Some(&there), None)?;
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use crate::table::{columns_of, fields};
 use crate::{Column, Row, StudyError};
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::errors::{ParquetError, Result as ParquetResult};
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, Cursor, Write};
@@ -23,7 +23,7 @@ const MOST_NAMES: usize = 10;
 /// Rows as the bytes of a file of their own.
 pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>> {
     let write = || {
-        let mut writer = Writer::new(Vec::new(), &fields(), properties(identity)?)?;
+        let mut writer = Writer::new(Vec::new(), &fields(), quick_properties(identity)?)?;
         writer.write(&columns_of(rows))?;
         writer.into_inner()
     };
@@ -32,14 +32,26 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>>
     Ok(bytes)
 }
 
+/// Of a file that is kept.
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
+    Ok(described(identity, 3)?.build())
+}
+
+/// Of a file that is soon read again and joined with others: quick to write, and hardly larger.
+fn quick_properties(identity: &Identity) -> ParquetResult<WriterProperties> {
+    let quick = described(identity, 1)?
+        .set_dictionary_enabled(false)
+        .set_statistics_enabled(EnabledStatistics::None);
+    Ok(quick.build())
+}
+
+fn described(identity: &Identity, level: i32) -> ParquetResult<WriterPropertiesBuilder> {
     let mut notes = identity.to_metadata();
     notes.push(blank());
     Ok(WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(level)?))
         .set_created_by(format!("snapload {}", identity.version))
-        .set_key_value_metadata(Some(notes))
-        .build())
+        .set_key_value_metadata(Some(notes)))
 }
 
 /// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it
