@@ -7,7 +7,8 @@
 //! Where numbers would take different turns, both are computed and one is selected.
 //!
 //! Everything on the way is `#[inline(always)]`: the vectors' instructions exist only in the
-//! functions that were compiled for a processor which has them.
+//! functions that were compiled for a processor which has them. What is large is `apart!` over
+//! numbers that have no instructions of their own.
 
 use crate::arithmetic::real::Real;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -49,6 +50,8 @@ pub trait Lane:
     type Mask: Mask;
     /// Spacing of the numbers next to 1.
     const EPSILON: Self;
+    /// See [`Real::FUSES`].
+    const FUSES: bool = true;
     /// See [`Real::CARRIES_SLOPES`].
     const CARRIES_SLOPES: bool = false;
     /// Zero.
@@ -128,6 +131,7 @@ pub(crate) fn select_each<L: Lane, const N: usize>(
 impl<T: Real> Lane for T {
     type Mask = bool;
     const EPSILON: Self = <T as Real>::EPSILON;
+    const FUSES: bool = <T as Real>::FUSES;
     const CARRIES_SLOPES: bool = <T as Real>::CARRIES_SLOPES;
     const ZERO: Self = <T as Real>::ZERO;
     const ONE: Self = <T as Real>::ONE;

@@ -6,7 +6,9 @@
 //! function, which takes longer than a multiplication and an addition.
 //!
 //! All functions that such work spends its time in are `#[inline(always)]`: one that is only called
-//! would be compiled for every processor, without the instruction.
+//! would be compiled for every processor, without the instruction. Over numbers that have no
+//! instructions of their own, what is large or called from many places is compiled by itself
+//! (`apart!`).
 #![cfg_attr(
     target_arch = "x86_64",
     expect(
@@ -56,6 +58,28 @@ pub(crate) fn dispatch_over<T: Real, W: Kernel>(kernel: W) -> W::Output {
     } else {
         kernel.run()
     }
+}
+
+/// The body of a function that is inlined everywhere over doubles, and over numbers without
+/// instructions of their own compiled once, by itself.
+///
+/// There a call costs nothing beside what it does, while the whole motion inlined into one function
+/// takes far longer to compile than its pieces.
+macro_rules! apart {
+    ($number:ty, $work:block) => {
+        if <$number as $crate::arithmetic::lane::Lane>::FUSES {
+            $work
+        } else {
+            $crate::arithmetic::processor::by_itself(|| $work)
+        }
+    };
+}
+pub(crate) use apart;
+
+/// Does the work; see `apart!`.
+#[inline(never)]
+pub(crate) fn by_itself<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }
 
 /// Other processors need one compilation: 64-bit Arm always fuses, on the rest `mul_add` is a call.

@@ -3,6 +3,7 @@
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 
 /// One frequency of the forcing: f(t) = c cos Ωt + d sin Ωt, with c and d vectors, so that any
@@ -159,21 +160,23 @@ impl<L: Lane> Push<L> {
     /// z − z² S, and its rate Ω (d cos z − c sin z).
     #[inline(always)]
     pub(crate) fn with_harmonic(self, harmonic: &Harmonic<L>, s: L) -> Self {
-        let z = harmonic.omega * s;
-        let (even, odd) = z.versines();
-        let (c, d) = (harmonic.cosine, harmonic.sine);
-        let drift = Vector2::combined(even, c, odd, d);
-        let gain = Vector2::combined((-z).mul_add(odd, L::ONE), c, z * even, d);
-        let square = -(z * z);
-        let (sine, cosine) = (square.mul_add(odd, z), square.mul_add(even, L::ONE));
-        let force = Vector2::combined(cosine, c, sine, d);
-        let rate = Vector2::combined(cosine, d, -sine, c);
-        Self {
-            drift: self.drift.plus_scaled(drift, s * s),
-            gain: self.gain.plus_scaled(gain, s),
-            force: self.force + force,
-            rate: self.rate.plus_scaled(rate, harmonic.omega),
-        }
+        apart!(L, {
+            let z = harmonic.omega * s;
+            let (even, odd) = z.versines();
+            let (c, d) = (harmonic.cosine, harmonic.sine);
+            let drift = Vector2::combined(even, c, odd, d);
+            let gain = Vector2::combined((-z).mul_add(odd, L::ONE), c, z * even, d);
+            let square = -(z * z);
+            let (sine, cosine) = (square.mul_add(odd, z), square.mul_add(even, L::ONE));
+            let force = Vector2::combined(cosine, c, sine, d);
+            let rate = Vector2::combined(cosine, d, -sine, c);
+            Self {
+                drift: self.drift.plus_scaled(drift, s * s),
+                gain: self.gain.plus_scaled(gain, s),
+                force: self.force + force,
+                rate: self.rate.plus_scaled(rate, harmonic.omega),
+            }
+        })
     }
 }
 

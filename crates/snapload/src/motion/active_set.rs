@@ -1,5 +1,6 @@
 //! Which cables stay taut, and what they carry.
 
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -34,36 +35,38 @@ pub(crate) fn taut_next<T: Real>(
     state: &State<T>,
     candidates: TautSet,
 ) -> ActiveSet {
-    if candidates.is_empty() {
-        return ActiveSet::default();
-    }
-    let (w, load) = problem(system, t, state, candidates);
-    let (tension, pulling) = complementary(candidates, w, &load);
-    let stays_closed = |&cable: &usize| {
-        let pulls = |j: usize| w(cable, j) * tension[j];
-        let left = pulling.iter().fold(load[cable], |sum, j| sum - pulls(j));
-        let size = pulling
-            .iter()
-            .fold(load[cable].abs(), |sum, j| sum + pulls(j).abs());
-        left.abs() <= size * T::from_decimal(SHARED)
-    };
-    let others: TautSet = candidates
-        .iter()
-        .filter(|&cable| !pulling.contains(cable))
-        .filter(stays_closed)
-        .collect();
-    let taut = pulling.union(others);
-    if pulling.is_empty() || others.is_empty() || independent(taut, w) {
-        return ActiveSet {
-            taut: pulling,
-            carrying: pulling,
+    apart!(T, {
+        if candidates.is_empty() {
+            return ActiveSet::default();
+        }
+        let (w, load) = problem(system, t, state, candidates);
+        let (tension, pulling) = complementary(candidates, w, &load);
+        let stays_closed = |&cable: &usize| {
+            let pulls = |j: usize| w(cable, j) * tension[j];
+            let left = pulling.iter().fold(load[cable], |sum, j| sum - pulls(j));
+            let size = pulling
+                .iter()
+                .fold(load[cable].abs(), |sum, j| sum + pulls(j).abs());
+            left.abs() <= size * T::from_decimal(SHARED)
         };
-    }
-    let carrying = others.iter().fold(pulling, |carrying, cable| {
-        let more = carrying.with(cable);
-        if independent(more, w) { more } else { carrying }
-    });
-    ActiveSet { taut, carrying }
+        let others: TautSet = candidates
+            .iter()
+            .filter(|&cable| !pulling.contains(cable))
+            .filter(stays_closed)
+            .collect();
+        let taut = pulling.union(others);
+        if pulling.is_empty() || others.is_empty() || independent(taut, w) {
+            return ActiveSet {
+                taut: pulling,
+                carrying: pulling,
+            };
+        }
+        let carrying = others.iter().fold(pulling, |carrying, cable| {
+            let more = carrying.with(cable);
+            if independent(more, w) { more } else { carrying }
+        });
+        ActiveSet { taut, carrying }
+    })
 }
 
 /// The tensions of the taut cables: W T = b.

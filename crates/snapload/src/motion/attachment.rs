@@ -2,6 +2,7 @@
 
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::plane::{Rotation, Vector2};
+use crate::arithmetic::processor::apart;
 use crate::model::cable::Cable;
 use crate::model::forcing::{Harmonic, Push};
 use crate::model::state::State;
@@ -64,28 +65,30 @@ impl<L: Lane> Attachment<L> {
         speed: L,
         force: [L; 3],
     ) -> Self {
-        let span = cable.span_moved(cable.moved(state, rotation));
-        let lever = cable.lever(rotation.sine, rotation.cosine);
-        let spin = state.vtheta;
-        let velocity = state.velocity().plus_scaled(lever.quarter_turn(), spin);
-        let turning = spin.abs();
-        let centripetal = spin * spin * reach;
-        let jerk = centripetal * turning;
-        Self {
-            span,
-            lever,
-            velocity,
-            gap,
-            gap_rate: span.dot(velocity) * 2.0,
-            gap_error,
-            length: cable.length(),
-            speed,
-            bounds: [
-                (force[0] + centripetal) * INFLATION,
-                (force[1] + jerk) * INFLATION,
-                jerk.mul_add(turning, force[2]) * INFLATION,
-            ],
-        }
+        apart!(L, {
+            let span = cable.span_moved(cable.moved(state, rotation));
+            let lever = cable.lever(rotation.sine, rotation.cosine);
+            let spin = state.vtheta;
+            let velocity = state.velocity().plus_scaled(lever.quarter_turn(), spin);
+            let turning = spin.abs();
+            let centripetal = spin * spin * reach;
+            let jerk = centripetal * turning;
+            Self {
+                span,
+                lever,
+                velocity,
+                gap,
+                gap_rate: span.dot(velocity) * 2.0,
+                gap_error,
+                length: cable.length(),
+                speed,
+                bounds: [
+                    (force[0] + centripetal) * INFLATION,
+                    (force[1] + jerk) * INFLATION,
+                    jerk.mul_add(turning, force[2]) * INFLATION,
+                ],
+            }
+        })
     }
 
     /// g, ġ, g̈, g⃛ a time `s` into the flight.
@@ -95,40 +98,43 @@ impl<L: Lane> Attachment<L> {
     /// *of their own size*, however short the flight.
     #[inline(always)]
     pub(crate) fn jet(&self, s: L, now: &Instant<L>) -> GapJet<L> {
-        let (push, rotation, spin) = (&now.push, &now.rotation, now.spin);
-        let (lever, quarter) = (self.lever, self.lever.quarter_turn());
-        let bent = Vector2::combined(rotation.versine, lever, rotation.angle_minus_sine, quarter);
-        let remainder = push.drift - bent;
-        let moved = remainder.plus_scaled(self.velocity, s);
-        let span = self.span + moved;
-        // What the lever and its quarter turn have changed by.
-        let turned = Vector2::combined(rotation.sine, quarter, -rotation.versine, lever);
-        let lever = lever + turned;
-        let gain = push.gain.plus_scaled(turned.quarter_turn(), spin);
-        let velocity = self.velocity + gain;
-        let square_spin = spin * spin;
-        let accel = push.force.plus_scaled(lever, -square_spin);
-        let jerk = push
-            .rate
-            .plus_scaled(lever.quarter_turn(), -(square_spin * spin));
+        apart!(L, {
+            let (push, rotation, spin) = (&now.push, &now.rotation, now.spin);
+            let (lever, quarter) = (self.lever, self.lever.quarter_turn());
+            let bent =
+                Vector2::combined(rotation.versine, lever, rotation.angle_minus_sine, quarter);
+            let remainder = push.drift - bent;
+            let moved = remainder.plus_scaled(self.velocity, s);
+            let span = self.span + moved;
+            // What the lever and its quarter turn have changed by.
+            let turned = Vector2::combined(rotation.sine, quarter, -rotation.versine, lever);
+            let lever = lever + turned;
+            let gain = push.gain.plus_scaled(turned.quarter_turn(), spin);
+            let velocity = self.velocity + gain;
+            let square_spin = spin * spin;
+            let accel = push.force.plus_scaled(lever, -square_spin);
+            let jerk = push
+                .rate
+                .plus_scaled(lever.quarter_turn(), -(square_spin * spin));
 
-        let two = L::from_f64(2.0);
-        let linear = self.gap_rate * s;
-        let bend = self.span.dot(remainder);
-        let square = moved.dot(moved);
-        let size = self.gap.abs() + linear.abs() + square;
-        let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
-        GapJet {
-            value: self.gap + bend.mul_add(two, linear + square),
-            rate: (moved.dot(self.velocity) + span.dot(gain)).mul_add(two, self.gap_rate),
-            accel: (velocity.dot(velocity) + span.dot(accel)) * 2.0,
-            jerk: velocity
-                .dot(accel)
-                .mul_add(L::from_f64(3.0), span.dot(jerk))
-                * 2.0,
-            noise: noise.mul_add(L::EPSILON, self.gap_error),
-            velocity,
-        }
+            let two = L::from_f64(2.0);
+            let linear = self.gap_rate * s;
+            let bend = self.span.dot(remainder);
+            let square = moved.dot(moved);
+            let size = self.gap.abs() + linear.abs() + square;
+            let noise = (self.length * self.bounds[0] * 16.0).mul_add(s * s, size * 4.0);
+            GapJet {
+                value: self.gap + bend.mul_add(two, linear + square),
+                rate: (moved.dot(self.velocity) + span.dot(gain)).mul_add(two, self.gap_rate),
+                accel: (velocity.dot(velocity) + span.dot(accel)) * 2.0,
+                jerk: velocity
+                    .dot(accel)
+                    .mul_add(L::from_f64(3.0), span.dot(jerk))
+                    * 2.0,
+                noise: noise.mul_add(L::EPSILON, self.gap_error),
+                velocity,
+            }
+        })
     }
 
     /// What the rounding of the velocities at the flight's start may have changed the gap by, a

@@ -22,6 +22,7 @@
 
 use crate::arithmetic::lane::{Lane, select_each};
 use crate::arithmetic::plane::Rotation;
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::cable::{Cable, Normal};
 use crate::model::contact_law::Snap;
@@ -86,31 +87,33 @@ pub(crate) fn highest_point<T: Real>(
 /// The bounce that begins at `from`.
 #[inline(always)]
 pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact<L>) -> Bounce<L> {
-    let start = TwoCableFlight::new(two_cables, from);
-    let (second, guess) = start.guess();
-    let horizon = two_cables.t_end - from.t;
-    let (trial, found) = start.search(second, guess, horizon);
+    apart!(L, {
+        let start = TwoCableFlight::new(two_cables, from);
+        let (second, guess) = start.guess();
+        let horizon = two_cables.t_end - from.t;
+        let (trial, found) = start.search(second, guess, horizon);
 
-    let FlightEnd { s, state, jets } = start.arrival(second, &trial, from);
-    let blurs = [start.attachments[0].blur(s), start.attachments[1].blur(s)];
-    let alone = closes_alone(from.t, s, second, &jets, blurs);
-    let end_value = [
-        L::select(second, jets[0].value, L::ZERO),
-        L::select(second, L::ZERO, jets[1].value),
-    ];
-    let open = start.stays_open(0, s, &trial, &jets[0], end_value[0])
-        & start.stays_open(1, s, &trial, &jets[1], end_value[1]);
-    let arrived =
-        found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, s, &state);
-    let top_known = !rises_above(two_cables, from, s, &state);
-    land(
-        two_cables,
-        from,
-        (s, second),
-        &state,
-        &jets,
-        (arrived, top_known),
-    )
+        let FlightEnd { s, state, jets } = start.arrival(second, &trial, from);
+        let blurs = [start.attachments[0].blur(s), start.attachments[1].blur(s)];
+        let alone = closes_alone(from.t, s, second, &jets, blurs);
+        let end_value = [
+            L::select(second, jets[0].value, L::ZERO),
+            L::select(second, L::ZERO, jets[1].value),
+        ];
+        let open = start.stays_open(0, s, &trial, &jets[0], end_value[0])
+            & start.stays_open(1, s, &trial, &jets[1], end_value[1]);
+        let arrived =
+            found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, s, &state);
+        let top_known = !rises_above(two_cables, from, s, &state);
+        land(
+            two_cables,
+            from,
+            (s, second),
+            &state,
+            &jets,
+            (arrived, top_known),
+        )
+    })
 }
 
 /// Whether the struck cable is closing, and the other one does not close at the same instant: no
@@ -214,47 +217,50 @@ fn land<L: Lane>(
     jets: &[GapJet<L>; 2],
     (arrived, top_known): (L::Mask, L::Mask),
 ) -> Bounce<L> {
-    let rotation = Rotation::by(state.theta);
-    let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
-    let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
-    let (normal, before) = put_back(&struck, state, &rotation);
-    let v_n = normal.velocity(&before);
-    let w = normal.coupling(&normal, two_cables.inverse_inertia);
-    let Snap { impulse, v_after } = two_cables.contact.snap(v_n, w);
-    let mut after = before;
-    normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
+    apart!(L, {
+        let rotation = Rotation::by(state.theta);
+        let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
+        let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
+        let (normal, before) = put_back(&struck, state, &rotation);
+        let v_n = normal.velocity(&before);
+        let w = normal.coupling(&normal, two_cables.inverse_inertia);
+        let Snap { impulse, v_after } = two_cables.contact.snap(v_n, w);
+        let mut after = before;
+        normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
 
-    let first = speed_bound(before.velocity().length_bound(), before.vtheta, reach);
-    let last = speed_bound(after.velocity().length_bound(), after.vtheta, reach);
-    let rounding = first.larger(last) * L::EPSILON;
-    let rebounds =
-        two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n) & (rounding * UNMOVED).below(-v_after);
-    let t = from.t + s;
-    let other = other_gap(two_cables, second, state, &rotation, jets);
-    let closed = [L::ZERO; 2];
-    Bounce {
-        arrived,
-        top_known,
-        plain: arrived & top_known & rebounds & from.t.below(t),
-        second,
-        s,
-        before,
-        v_n,
-        impulse,
-        v_after,
-        next: AfterImpact {
-            t,
-            state: after,
-            rotation,
-            before: [before.vx, before.vy, before.vtheta],
-            gaps: [
-                select_each(second, other, closed),
-                select_each(second, closed, other),
-            ],
-            y_max: from.y_max.larger(state.y),
-            theta_max: from.theta_max.larger(state.theta.abs()),
-        },
-    }
+        let first = speed_bound(before.velocity().length_bound(), before.vtheta, reach);
+        let last = speed_bound(after.velocity().length_bound(), after.vtheta, reach);
+        let rounding = first.larger(last) * L::EPSILON;
+        let rebounds = two_cables.v_stick.at_most(v_n)
+            & L::ZERO.below(v_n)
+            & (rounding * UNMOVED).below(-v_after);
+        let t = from.t + s;
+        let other = other_gap(two_cables, second, state, &rotation, jets);
+        let closed = [L::ZERO; 2];
+        Bounce {
+            arrived,
+            top_known,
+            plain: arrived & top_known & rebounds & from.t.below(t),
+            second,
+            s,
+            before,
+            v_n,
+            impulse,
+            v_after,
+            next: AfterImpact {
+                t,
+                state: after,
+                rotation,
+                before: [before.vx, before.vy, before.vtheta],
+                gaps: [
+                    select_each(second, other, closed),
+                    select_each(second, closed, other),
+                ],
+                y_max: from.y_max.larger(state.y),
+                theta_max: from.theta_max.larger(state.theta.abs()),
+            },
+        }
+    })
 }
 
 /// Value and error of the gap that did not close: carried forward, or evaluated afresh where that

@@ -1,6 +1,7 @@
 //! Taylor series of the cables' geometry and of what they pull, for two cables side by side.
 
 use crate::arithmetic::plane::Vector2;
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::{VectorSeries, convolve};
 use crate::model::cable::Normal;
@@ -57,25 +58,27 @@ impl<T: Real> CableSeries<T> {
     /// Begins new series.
     #[inline(always)]
     pub(crate) fn begin(&mut self, system: &System<T>) {
-        self.pairs
-            .resize(system.cables.len().div_ceil(2), CablePair::default());
-        for (pair, cables) in self.pairs.iter_mut().zip(system.cables.chunks(2)) {
-            for series in [
-                &mut pair.lever,
-                &mut pair.span,
-                &mut pair.tension,
-                &mut pair.turned_pull,
-            ] {
-                *series = VectorSeries::default();
+        apart!(T, {
+            self.pairs
+                .resize(system.cables.len().div_ceil(2), CablePair::default());
+            for (pair, cables) in self.pairs.iter_mut().zip(system.cables.chunks(2)) {
+                for series in [
+                    &mut pair.lever,
+                    &mut pair.span,
+                    &mut pair.tension,
+                    &mut pair.turned_pull,
+                ] {
+                    *series = VectorSeries::default();
+                }
+                pair.bend = [T::ZERO; 2];
+                for (place, cable) in cables.iter().enumerate() {
+                    let fairlead = cable.fairlead();
+                    put(&mut pair.fairleads[0], place, fairlead);
+                    put(&mut pair.fairleads[1], place, fairlead.quarter_turn());
+                    put(&mut pair.per_length, place, [cable.per_length(); 2].into());
+                }
             }
-            pair.bend = [T::ZERO; 2];
-            for (place, cable) in cables.iter().enumerate() {
-                let fairlead = cable.fairlead();
-                put(&mut pair.fairleads[0], place, fairlead);
-                put(&mut pair.fairleads[1], place, fairlead.quarter_turn());
-                put(&mut pair.per_length, place, [cable.per_length(); 2].into());
-            }
-        }
+        })
     }
 
     /// ρ and d to order k; d but for its constant.
@@ -123,27 +126,29 @@ impl<T: Real> CableSeries<T> {
     /// give them; keeps each T n, to which [`CableSeries::find_tensions`] adds the rest.
     #[inline(always)]
     pub(crate) fn known_pulls(&mut self, k: usize) -> [T; 3] {
-        let mut sums = [T::ZERO; 3];
-        for pair in &mut self.pairs {
-            let [stretched, known] = convolve(
-                [
-                    (&pair.span, &pair.tension),
-                    (&pair.lever, &pair.turned_pull),
-                ],
-                k,
-            );
-            let pull = quad!(|w| stretched[w] * pair.per_length[w]);
-            let turned = turned_back(&pull);
-            let lever = pair.lever[0];
-            let moment = quad!(|w| lever[w].mul_add(turned[w], known[w]));
-            pair.turned_pull[k] = turned;
-            add(
-                &mut sums,
-                &pull,
-                (moment[0] + moment[1]) + (moment[2] + moment[3]),
-            );
-        }
-        sums
+        apart!(T, {
+            let mut sums = [T::ZERO; 3];
+            for pair in &mut self.pairs {
+                let [stretched, known] = convolve(
+                    [
+                        (&pair.span, &pair.tension),
+                        (&pair.lever, &pair.turned_pull),
+                    ],
+                    k,
+                );
+                let pull = quad!(|w| stretched[w] * pair.per_length[w]);
+                let turned = turned_back(&pull);
+                let lever = pair.lever[0];
+                let moment = quad!(|w| lever[w].mul_add(turned[w], known[w]));
+                pair.turned_pull[k] = turned;
+                add(
+                    &mut sums,
+                    &pull,
+                    (moment[0] + moment[1]) + (moment[2] + moment[3]),
+                );
+            }
+            sums
+        })
     }
 
     /// Finds the k-th coefficients of the tensions, which hold the lengths of the carrying cables;
@@ -157,24 +162,26 @@ impl<T: Real> CableSeries<T> {
         turned: [T; 2],
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) -> [T; 3] {
-        // Two cables are usual, and their numbers stay in registers.
-        if let [pair] = &mut self.pairs[..] {
-            let load = pair.load(k, accel, turned);
-            return pair.take(k, ready.solve_two(load));
-        }
-        let mut loads = [T::ZERO; MAX_CABLES];
-        for (pair, loads) in self.pairs.iter_mut().zip(loads.chunks_exact_mut(2)) {
-            loads.copy_from_slice(&pair.load(k, accel, turned));
-        }
-        let tensions = ready.solve(&loads);
-        let mut sums = [T::ZERO; 3];
-        for (pair, tension) in self.pairs.iter_mut().zip(tensions.chunks_exact(2)) {
-            let more = pair.take(k, [tension[0], tension[1]]);
-            for (sum, more) in sums.iter_mut().zip(more) {
-                *sum += more;
+        apart!(T, {
+            // Two cables are usual, and their numbers stay in registers.
+            if let [pair] = &mut self.pairs[..] {
+                let load = pair.load(k, accel, turned);
+                return pair.take(k, ready.solve_two(load));
             }
-        }
-        sums
+            let mut loads = [T::ZERO; MAX_CABLES];
+            for (pair, loads) in self.pairs.iter_mut().zip(loads.chunks_exact_mut(2)) {
+                loads.copy_from_slice(&pair.load(k, accel, turned));
+            }
+            let tensions = ready.solve(&loads);
+            let mut sums = [T::ZERO; 3];
+            for (pair, tension) in self.pairs.iter_mut().zip(tensions.chunks_exact(2)) {
+                let more = pair.take(k, [tension[0], tension[1]]);
+                for (sum, more) in sums.iter_mut().zip(more) {
+                    *sum += more;
+                }
+            }
+            sums
+        })
     }
 
     /// Coefficients of order k of the tensions of a pair.
@@ -202,19 +209,21 @@ impl<T: Real> CablePair<T> {
     /// of its constraint, but for the tensions of order k.
     #[inline(always)]
     fn load(&mut self, k: usize, accel: [T; 3], [sine, cosine]: [T; 2]) -> [T; 2] {
-        let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
-        let square = self.span.convolve(&self.span, k + 2);
-        self.bend = [square[0] + square[1], square[2] + square[3]];
-        let lever = self.turned(sine, cosine);
-        let centre = [accel[0], accel[1], accel[0], accel[1]];
-        let along = quad!(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
-        let mut load = [along[0] + along[1], along[2] + along[3]];
-        for (place, load) in load.iter_mut().enumerate() {
-            let bend = self.bend[place] * self.half_per_length[place];
-            let turning = self.arm[place] * accel[2];
-            *load = bend.mul_add(orders, *load + turning);
-        }
-        load
+        apart!(T, {
+            let orders = T::from_f64(((k + 1) * (k + 2)) as f64);
+            let square = self.span.convolve(&self.span, k + 2);
+            self.bend = [square[0] + square[1], square[2] + square[3]];
+            let lever = self.turned(sine, cosine);
+            let centre = [accel[0], accel[1], accel[0], accel[1]];
+            let along = quad!(|w| self.normal[w] * lever[w].mul_add(orders, centre[w]));
+            let mut load = [along[0] + along[1], along[2] + along[3]];
+            for (place, load) in load.iter_mut().enumerate() {
+                let bend = self.bend[place] * self.half_per_length[place];
+                let turning = self.arm[place] * accel[2];
+                *load = bend.mul_add(orders, *load + turning);
+            }
+            load
+        })
     }
 
     /// Takes in the k-th coefficients of the tensions; returns Σ T n and Σ s T of them.

@@ -1,5 +1,6 @@
 //! The one small solver of both complementarity problems.
 
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 
@@ -111,25 +112,27 @@ impl<T: Real> TwoByTwo<T> {
     /// cables are almost in line; there its answer is put in twice for what is left over.
     #[inline(always)]
     fn solve(&self, q: [T; 2]) -> [T; 2] {
-        let [a, b, c] = self.matrix;
-        let Some(inverse) = self.inverse else {
-            return [q[0] / a, T::ZERO];
-        };
-        let cramer = |q: [T; 2]| {
-            [
-                (c * q[0] - b * q[1]) * inverse,
-                (a * q[1] - b * q[0]) * inverse,
-            ]
-        };
-        let mut z = cramer(q);
-        if self.slanted {
-            for _ in 0..2 {
-                let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
-                let more = cramer(left);
-                z = [z[0] + more[0], z[1] + more[1]];
+        apart!(T, {
+            let [a, b, c] = self.matrix;
+            let Some(inverse) = self.inverse else {
+                return [q[0] / a, T::ZERO];
+            };
+            let cramer = |q: [T; 2]| {
+                [
+                    (c * q[0] - b * q[1]) * inverse,
+                    (a * q[1] - b * q[0]) * inverse,
+                ]
+            };
+            let mut z = cramer(q);
+            if self.slanted {
+                for _ in 0..2 {
+                    let left = [(q[0] - b * z[1]) - a * z[0], (q[1] - b * z[0]) - c * z[1]];
+                    let more = cramer(left);
+                    z = [z[0] + more[0], z[1] + more[1]];
+                }
             }
-        }
-        z
+            z
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The highest point and the largest rotation reached along a motion.
 
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 
@@ -32,24 +33,26 @@ impl<T: Real> Extremes<T> {
         [first, last]: [&State<T>; 2],
         [up, y_bend, theta_bend]: [T; 3],
     ) {
-        let bulge = s * s * 0.125;
-        let y = first.y.max(last.y) + y_bend * bulge;
-        let theta = first.theta.abs().max(last.theta.abs()) + theta_bend * bulge;
-        if y <= self.y_max && theta <= self.theta_max {
-            return;
-        }
-        let height = |s: T| {
-            let now = state(s);
-            (now.y, now.vy)
-        };
-        self.y_max = highest(&height, s, up, y_bend, self.y_max);
-        for side in [T::ONE, -T::ONE] {
-            let rotation = |s: T| {
+        apart!(T, {
+            let bulge = s * s * 0.125;
+            let y = first.y.max(last.y) + y_bend * bulge;
+            let theta = first.theta.abs().max(last.theta.abs()) + theta_bend * bulge;
+            if y <= self.y_max && theta <= self.theta_max {
+                return;
+            }
+            let height = |s: T| {
                 let now = state(s);
-                (side * now.theta, side * now.vtheta)
+                (now.y, now.vy)
             };
-            self.theta_max = highest(&rotation, s, theta_bend, theta_bend, self.theta_max);
-        }
+            self.y_max = highest(&height, s, up, y_bend, self.y_max);
+            for side in [T::ONE, -T::ONE] {
+                let rotation = |s: T| {
+                    let now = state(s);
+                    (side * now.theta, side * now.vtheta)
+                };
+                self.theta_max = highest(&rotation, s, theta_bend, theta_bend, self.theta_max);
+            }
+        })
     }
 }
 

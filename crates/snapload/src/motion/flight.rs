@@ -1,6 +1,7 @@
 //! Slack flight, in closed form.
 
 use crate::arithmetic::plane::{Rotation, Vector2};
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::forcing::Harmonic;
 use crate::model::rules::Rules;
@@ -55,31 +56,33 @@ impl<T: Real> Flight<T> {
         before: &State<T>,
         contacts: &Contacts<T>,
     ) {
-        self.start = *start;
-        let rotation = Rotation::by(start.theta);
-        (self.sine, self.cosine) = (rotation.sine, rotation.cosine);
-        for (local, harmonic) in self.harmonics.iter_mut().zip(&system.forcing.harmonics) {
-            *local = harmonic.shifted(t);
-        }
-        let force = system.forcing.bounds();
-        let speed =
-            |state: &State<T>, reach: T| state.velocity().length() + state.vtheta.abs() * reach;
-        self.resting = TautSet::SLACK;
-        self.attachments.clear();
-        for (index, cable) in system.cables.iter().enumerate() {
-            let contact: &Contact<T> = &contacts[index];
-            let reach = cable.fairlead().length();
-            let speed = speed(start, reach).max(speed(before, reach));
-            let known = [contact.gap, contact.error];
-            let mut attachment =
-                Attachment::new(cable, reach, start, &rotation, known, speed, force);
-            if contact.resting {
-                attachment.gap_rate = T::ZERO;
-                self.resting = self.resting.with(index);
+        apart!(T, {
+            self.start = *start;
+            let rotation = Rotation::by(start.theta);
+            (self.sine, self.cosine) = (rotation.sine, rotation.cosine);
+            for (local, harmonic) in self.harmonics.iter_mut().zip(&system.forcing.harmonics) {
+                *local = harmonic.shifted(t);
             }
-            self.attachments.push(attachment);
-        }
-        self.force_rate = force[1];
+            let force = system.forcing.bounds();
+            let speed =
+                |state: &State<T>, reach: T| state.velocity().length() + state.vtheta.abs() * reach;
+            self.resting = TautSet::SLACK;
+            self.attachments.clear();
+            for (index, cable) in system.cables.iter().enumerate() {
+                let contact: &Contact<T> = &contacts[index];
+                let reach = cable.fairlead().length();
+                let speed = speed(start, reach).max(speed(before, reach));
+                let known = [contact.gap, contact.error];
+                let mut attachment =
+                    Attachment::new(cable, reach, start, &rotation, known, speed, force);
+                if contact.resting {
+                    attachment.gap_rate = T::ZERO;
+                    self.resting = self.resting.with(index);
+                }
+                self.attachments.push(attachment);
+            }
+            self.force_rate = force[1];
+        })
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Back onto the constraints: what rounding has moved off a closed cable is put back by the least
 //! change.
 
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -12,34 +13,38 @@ use crate::motion::complementarity::solve;
 /// As many Newton steps as a start's tolerance of 1e-9 may need.
 #[inline(always)]
 pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
-    let inverse_inertia = system.body.inverse_inertia();
-    for _ in 0..T::NEWTON_STEPS {
-        let normals = system.normals(state, set);
-        let mut distance = [T::ZERO; MAX_CABLES];
-        for cable in set.iter() {
-            let tether = &system.cables[cable];
-            distance[cable] = tether.gap(state) / (tether.length() * 2.0);
+    apart!(T, {
+        let inverse_inertia = system.body.inverse_inertia();
+        for _ in 0..T::NEWTON_STEPS {
+            let normals = system.normals(state, set);
+            let mut distance = [T::ZERO; MAX_CABLES];
+            for cable in set.iter() {
+                let tether = &system.cables[cable];
+                distance[cable] = tether.gap(state) / (tether.length() * 2.0);
+            }
+            let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+            let shift = solve(set, w, &distance);
+            for cable in set.iter() {
+                normals[cable].displace(state, shift[cable], inverse_inertia);
+            }
         }
-        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-        let shift = solve(set, w, &distance);
-        for cable in set.iter() {
-            normals[cable].displace(state, shift[cable], inverse_inertia);
-        }
-    }
+    })
 }
 
 /// Takes the normal velocities of a set to zero by the least change in the mass metric.
 #[inline(always)]
 pub(crate) fn project_velocity<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
-    let inverse_inertia = system.body.inverse_inertia();
-    let normals = system.normals(state, set);
-    let mut velocity = [T::ZERO; MAX_CABLES];
-    for cable in set.iter() {
-        velocity[cable] = normals[cable].velocity(state);
-    }
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
-    let kick = solve(set, w, &velocity);
-    for cable in set.iter() {
-        normals[cable].apply_impulse(state, kick[cable], inverse_inertia);
-    }
+    apart!(T, {
+        let inverse_inertia = system.body.inverse_inertia();
+        let normals = system.normals(state, set);
+        let mut velocity = [T::ZERO; MAX_CABLES];
+        for cable in set.iter() {
+            velocity[cable] = normals[cable].velocity(state);
+        }
+        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let kick = solve(set, w, &velocity);
+        for cable in set.iter() {
+            normals[cable].apply_impulse(state, kick[cable], inverse_inertia);
+        }
+    })
 }

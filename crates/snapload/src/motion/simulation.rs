@@ -2,7 +2,7 @@
 
 use crate::arithmetic::dual::Dual;
 use crate::arithmetic::precise::Precise;
-use crate::arithmetic::processor::{Kernel, dispatch_over};
+use crate::arithmetic::processor::{Kernel, apart, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::rules::Rules;
 use crate::model::rules::Stop;
@@ -316,35 +316,37 @@ impl<T: Real> Simulation<T> {
     /// The earliest event of the present mode; nothing is reached where the expansion or time ends.
     #[inline(always)]
     fn next_crossing(&mut self) -> Crossing<T> {
-        self.begun = self.t;
-        let mut horizon = self.rules.t_end - self.t;
-        let crossing = if self.system.flies_freely(self.active.taut) {
-            self.flight.begin(
-                &self.system,
-                self.t,
-                &self.state,
-                &self.before,
-                &self.contacts,
-            );
-            first_crossing(&self.flight, self.t, horizon)
-        } else {
-            let series = self
-                .series
-                .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
-            series.begin(
-                &self.system,
-                self.t,
-                &self.state,
-                &self.contacts,
-                self.active,
-            );
-            self.active = series.active();
-            horizon = horizon.min(series.step());
-            first_crossing(&**series, self.t, horizon)
-        };
-        crossing.unwrap_or(Crossing {
-            s: horizon,
-            reached: Reached::default(),
+        apart!(T, {
+            self.begun = self.t;
+            let mut horizon = self.rules.t_end - self.t;
+            let crossing = if self.system.flies_freely(self.active.taut) {
+                self.flight.begin(
+                    &self.system,
+                    self.t,
+                    &self.state,
+                    &self.before,
+                    &self.contacts,
+                );
+                first_crossing(&self.flight, self.t, horizon)
+            } else {
+                let series = self
+                    .series
+                    .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
+                series.begin(
+                    &self.system,
+                    self.t,
+                    &self.state,
+                    &self.contacts,
+                    self.active,
+                );
+                self.active = series.active();
+                horizon = horizon.min(series.step());
+                first_crossing(&**series, self.t, horizon)
+            };
+            crossing.unwrap_or(Crossing {
+                s: horizon,
+                reached: Reached::default(),
+            })
         })
     }
 
@@ -352,34 +354,37 @@ impl<T: Real> Simulation<T> {
     /// velocities along the taut ones to rounding, so that nothing drifts from event to event.
     #[inline(always)]
     fn advance(&mut self, crossing: &Crossing<T>) {
-        let s = crossing.s;
-        let motion = self.motion(self.active.taut);
-        let reached_end = crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
-        let state = motion.state(s);
-        let mut extremes = self.extremes;
-        let bends = motion.bends(&self.system);
-        let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
-        extremes.cover(within, s, [&self.state, &state], bends);
-        let mut contacts = self.contacts;
-        for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
-            if self.active.taut.contains(cable) {
-                *contact = Contact::RESTING;
-            } else if crossing.reached.gaps.contains(cable) {
-                *contact = Contact::CLOSED;
-            } else if s > T::ZERO {
-                let carried = motion.contact(cable, s);
-                *contact = carried.carried(&self.system, cable, &state);
+        apart!(T, {
+            let s = crossing.s;
+            let motion = self.motion(self.active.taut);
+            let reached_end =
+                crossing.reached == Reached::default() && s >= self.rules.t_end - self.t;
+            let state = motion.state(s);
+            let mut extremes = self.extremes;
+            let bends = motion.bends(&self.system);
+            let within = |s| dispatch_over::<T, _>(StateAt(&motion, s));
+            extremes.cover(within, s, [&self.state, &state], bends);
+            let mut contacts = self.contacts;
+            for (cable, contact) in contacts[..self.system.cables.len()].iter_mut().enumerate() {
+                if self.active.taut.contains(cable) {
+                    *contact = Contact::RESTING;
+                } else if crossing.reached.gaps.contains(cable) {
+                    *contact = Contact::CLOSED;
+                } else if s > T::ZERO {
+                    let carried = motion.contact(cable, s);
+                    *contact = carried.carried(&self.system, cable, &state);
+                }
             }
-        }
-        self.t = if reached_end {
-            self.rules.t_end
-        } else {
-            self.t + s
-        };
-        (self.state, self.extremes, self.contacts) = (state, extremes, contacts);
-        let closed = self.closed();
-        project_position(&self.system, &mut self.state, closed);
-        project_velocity(&self.system, &mut self.state, self.active.taut);
+            self.t = if reached_end {
+                self.rules.t_end
+            } else {
+                self.t + s
+            };
+            (self.state, self.extremes, self.contacts) = (state, extremes, contacts);
+            let closed = self.closed();
+            project_position(&self.system, &mut self.state, closed);
+            project_velocity(&self.system, &mut self.state, self.active.taut);
+        })
     }
 
     /// The cables whose gap is zero, known and not evaluated.

@@ -37,6 +37,7 @@
 //! allocate. Source: Jorba & Zou, *Experimental Mathematics* 14 (2005) 99.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
 use crate::model::drag::DragSeries;
@@ -126,39 +127,41 @@ impl<T: Real> Series<T> {
         contacts: &Contacts<T>,
         active: ActiveSet,
     ) {
-        self.active = active;
-        self.contacts = *contacts;
-        self.lines.resize(system.cables.len(), Line::default());
-        for (cable, tether) in system.cables.iter().enumerate() {
-            self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
-        }
-        self.expand_force(system, t);
-        (self.x[0], self.x[1]) = (start.x, start.vx);
-        (self.y[0], self.y[1]) = (start.y, start.vy);
-        self.circle = VectorSeries::default();
-        self.spin = VectorSeries::default();
-        self.turn(0, start.theta);
-        self.turn(1, start.vtheta);
-        let (sine, cosine) = start.theta.sin_cos();
-        self.circle[0] = [cosine, sine];
-        let (sine, cosine) = self.rotation(1);
-        self.circle[1] = [cosine, sine];
-        self.pairs.begin(system);
-        for k in 0..2 {
-            self.extend_pairs(k);
-        }
-        for (cable, tether) in system.cables.iter().enumerate() {
-            self.pairs.set_span(cable, tether.span(start));
-        }
-        self.extend_motions(system);
-        self.know_gaps();
-        self.step = self.choose_step(system);
-        self.active.taut = active
-            .taut
-            .iter()
-            .filter(|&cable| self.holds(cable))
-            .collect();
-        self.choose_watched();
+        apart!(T, {
+            self.active = active;
+            self.contacts = *contacts;
+            self.lines.resize(system.cables.len(), Line::default());
+            for (cable, tether) in system.cables.iter().enumerate() {
+                self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
+            }
+            self.expand_force(system, t);
+            (self.x[0], self.x[1]) = (start.x, start.vx);
+            (self.y[0], self.y[1]) = (start.y, start.vy);
+            self.circle = VectorSeries::default();
+            self.spin = VectorSeries::default();
+            self.turn(0, start.theta);
+            self.turn(1, start.vtheta);
+            let (sine, cosine) = start.theta.sin_cos();
+            self.circle[0] = [cosine, sine];
+            let (sine, cosine) = self.rotation(1);
+            self.circle[1] = [cosine, sine];
+            self.pairs.begin(system);
+            for k in 0..2 {
+                self.extend_pairs(k);
+            }
+            for (cable, tether) in system.cables.iter().enumerate() {
+                self.pairs.set_span(cable, tether.span(start));
+            }
+            self.extend_motions(system);
+            self.know_gaps();
+            self.step = self.choose_step(system);
+            self.active.taut = active
+                .taut
+                .iter()
+                .filter(|&cable| self.holds(cable))
+                .collect();
+            self.choose_watched();
+        })
     }
 
     /// f(t0 + s) as a power series.
@@ -199,9 +202,11 @@ impl<T: Real> Series<T> {
     /// S_{k−j}.
     #[inline(always)]
     fn rotation(&self, k: usize) -> (T, T) {
-        let [sine, cosine] = self.spin.convolve(&self.circle, k);
-        let share = T::ONE / k as f64;
-        (sine * share, -(cosine * share))
+        apart!(T, {
+            let [sine, cosine] = self.spin.convolve(&self.circle, k);
+            let share = T::ONE / k as f64;
+            (sine * share, -(cosine * share))
+        })
     }
 
     /// ρ and d of every cable to order k; d but for its constant.
@@ -298,23 +303,25 @@ impl<T: Real> Series<T> {
     /// attachment off its constraint by ρ times that: the step is held to where this is a few ε.
     #[inline(always)]
     fn choose_step(&self, system: &System<T>) -> T {
-        let mut light = T::ONE;
-        for cable in self.active.carrying.iter() {
-            let fairlead = system.cables[cable].fairlead();
-            light = light.max(T::ONE + fairlead.dot(fairlead) * system.body.inverse_inertia());
-        }
-        let still = T::from_f64(STILL);
-        let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
-        let mut step = longest;
-        for motion in [&self.x, &self.y, &self.theta] {
-            step = motion.converged_within(step, ORDER, still);
-        }
-        for cable in self.active.carrying.iter() {
-            let tension = &self.lines[cable].tension;
-            let scale = (tension[0].abs() + 1.0) * 20.0;
-            step = tension.converged_within(step, ORDER - 2, scale);
-        }
-        step
+        apart!(T, {
+            let mut light = T::ONE;
+            for cable in self.active.carrying.iter() {
+                let fairlead = system.cables[cable].fairlead();
+                light = light.max(T::ONE + fairlead.dot(fairlead) * system.body.inverse_inertia());
+            }
+            let still = T::from_f64(STILL);
+            let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
+            let mut step = longest;
+            for motion in [&self.x, &self.y, &self.theta] {
+                step = motion.converged_within(step, ORDER, still);
+            }
+            for cable in self.active.carrying.iter() {
+                let tension = &self.lines[cable].tension;
+                let scale = (tension[0].abs() + 1.0) * 20.0;
+                step = tension.converged_within(step, ORDER - 2, scale);
+            }
+            step
+        })
     }
 
     /// The cables that are taut within the step, and those of them that carry.
@@ -330,19 +337,21 @@ impl<T: Real> Series<T> {
     /// The state a time `s` after the start.
     #[inline(always)]
     pub(crate) fn state(&self, s: T) -> State<T> {
-        let (x, y, theta) = (
-            self.x.jet(s, ORDER),
-            self.y.jet(s, ORDER),
-            self.theta.jet(s, ORDER),
-        );
-        State {
-            x: x[0],
-            y: y[0],
-            theta: theta[0],
-            vx: x[1],
-            vy: y[1],
-            vtheta: theta[1],
-        }
+        apart!(T, {
+            let (x, y, theta) = (
+                self.x.jet(s, ORDER),
+                self.y.jet(s, ORDER),
+                self.theta.jet(s, ORDER),
+            );
+            State {
+                x: x[0],
+                y: y[0],
+                theta: theta[0],
+                vx: x[1],
+                vy: y[1],
+                vtheta: theta[1],
+            }
+        })
     }
 
     /// The gap of a slack cable a time `s` after the start.

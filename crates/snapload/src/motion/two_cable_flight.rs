@@ -3,6 +3,7 @@
 
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
+use crate::arithmetic::processor::apart;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
@@ -193,41 +194,43 @@ impl<L: Lane> TwoCableFlight<L> {
     /// Evaluates the flight at `s`, and finds from there where the gap of one cable closes.
     #[inline(always)]
     fn trial(&self, s: L, second: L::Mask) -> Trial<L> {
-        let now = Instant::at(s, self.constant, self.spin).with(&self.wave, s);
-        let jets = [
-            self.attachments[0].jet(s, &now),
-            self.attachments[1].jet(s, &now),
-        ];
-        let struck = GapJet::select(second, &jets[1], &jets[0]);
-        let (to_root, left) = struck.root();
-        let root = s + to_root;
-        let longest = s.larger(root);
-        let fourths = [
-            self.attachments[0].fourth(longest),
-            self.attachments[1].fourth(longest),
-        ];
-        let square = to_root * to_root;
-        let quartic = square * square * (1.0 / 24.0);
-        let left = L::select(second, fourths[1], fourths[0]).mul_add(quartic, left.abs());
-        // Both errors have to be well below rounding: that of the gap, and that of the velocities,
-        // of which the centre's speed is a part. Positions have smaller errors, as a length times
-        // such an error is one of the gap.
-        let lost = self.force[2] * self.wave.omega.abs() * quartic;
-        let speed = self.force[0].mul_add(longest, self.attachments[0].speed);
-        // The bounds hold as long as the root is at most half of the flight away.
-        let near_enough = (left * BELOW_ROUNDING).at_most(struck.noise)
-            & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON)
-            & (to_root.abs() * 2.0).at_most(s);
-        Trial {
-            s,
-            now,
-            jets,
-            struck,
-            to_root,
-            fourths,
-            closes: L::ZERO.below(struck.rate) & L::ZERO.below(root),
-            near_enough,
-        }
+        apart!(L, {
+            let now = Instant::at(s, self.constant, self.spin).with(&self.wave, s);
+            let jets = [
+                self.attachments[0].jet(s, &now),
+                self.attachments[1].jet(s, &now),
+            ];
+            let struck = GapJet::select(second, &jets[1], &jets[0]);
+            let (to_root, left) = struck.root();
+            let root = s + to_root;
+            let longest = s.larger(root);
+            let fourths = [
+                self.attachments[0].fourth(longest),
+                self.attachments[1].fourth(longest),
+            ];
+            let square = to_root * to_root;
+            let quartic = square * square * (1.0 / 24.0);
+            let left = L::select(second, fourths[1], fourths[0]).mul_add(quartic, left.abs());
+            // Both errors have to be well below rounding: that of the gap, and that of the velocities,
+            // of which the centre's speed is a part. Positions have smaller errors, as a length times
+            // such an error is one of the gap.
+            let lost = self.force[2] * self.wave.omega.abs() * quartic;
+            let speed = self.force[0].mul_add(longest, self.attachments[0].speed);
+            // The bounds hold as long as the root is at most half of the flight away.
+            let near_enough = (left * BELOW_ROUNDING).at_most(struck.noise)
+                & (lost * BELOW_ROUNDING).at_most(speed * L::EPSILON)
+                & (to_root.abs() * 2.0).at_most(s);
+            Trial {
+                s,
+                now,
+                jets,
+                struck,
+                to_root,
+                fourths,
+                closes: L::ZERO.below(struck.rate) & L::ZERO.below(root),
+                near_enough,
+            }
+        })
     }
 
     /// Searches from a guess for the instant at which the gap of a cable closes: each trial is at

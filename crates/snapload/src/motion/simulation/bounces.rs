@@ -1,6 +1,7 @@
 //! The steps of a motion that are bounces, made here or in a lane.
 
 use crate::arithmetic::plane::Rotation;
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
@@ -97,36 +98,38 @@ impl<T: Real> Simulation<T> {
     /// as what follows is more than one cable's impulse.
     #[inline(always)]
     pub(super) fn take(&mut self, bounce: &Bounce<T>) -> (Event, Option<ImpactResult<T>>) {
-        let next = &bounce.next;
-        self.cover(bounce);
-        self.t = next.t;
-        self.before = bounce.before;
-        let struck = usize::from(bounce.second);
-        self.know(&next.gaps);
-        let closed = TautSet::only(struck);
-        let reached = Reached {
-            gaps: closed,
-            ..Reached::default()
-        };
-        let event = Event {
-            reached,
-            closed,
-            still: TautSet::SLACK,
-        };
-        if !bounce.plain {
-            self.state = bounce.before;
-            return (event, None);
-        }
-        self.state = next.state;
-        self.end_slow_row();
-        let result = ImpactResult::of_one(
-            struck,
-            [bounce.v_n, bounce.v_after],
-            bounce.impulse,
-            next.state,
-        );
-        self.count(&result, closed);
-        (event, Some(result))
+        apart!(T, {
+            let next = &bounce.next;
+            self.cover(bounce);
+            self.t = next.t;
+            self.before = bounce.before;
+            let struck = usize::from(bounce.second);
+            self.know(&next.gaps);
+            let closed = TautSet::only(struck);
+            let reached = Reached {
+                gaps: closed,
+                ..Reached::default()
+            };
+            let event = Event {
+                reached,
+                closed,
+                still: TautSet::SLACK,
+            };
+            if !bounce.plain {
+                self.state = bounce.before;
+                return (event, None);
+            }
+            self.state = next.state;
+            self.end_slow_row();
+            let result = ImpactResult::of_one(
+                struck,
+                [bounce.v_n, bounce.v_after],
+                bounce.impulse,
+                next.state,
+            );
+            self.count(&result, closed);
+            (event, Some(result))
+        })
     }
 
     /// Takes the flight of a bounce into the extremes.

@@ -1,6 +1,7 @@
 //! What happens at the end of a step: the law that is applied, the next taut set, and the rules
 //! that stop a run.
 
+use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::rules::Stop;
 use crate::model::state::State;
@@ -38,49 +39,51 @@ impl<T: Real> Simulation<T> {
     /// Cables snap taut: impact, then sticking, then the choice of the taut set.
     #[inline(always)]
     fn snap(&mut self, event: &Event) -> ImpactResult<T> {
-        let Event { closed, still, .. } = *event;
-        let struck = event.reached.gaps;
-        let result = impact(&self.system, &self.state, closed, still);
-        self.state = result.after;
-        let hit: TautSet = struck.intersection(result.pulling);
-        self.count(&result, hit);
+        apart!(T, {
+            let Event { closed, still, .. } = *event;
+            let struck = event.reached.gaps;
+            let result = impact(&self.system, &self.state, closed, still);
+            self.state = result.after;
+            let hit: TautSet = struck.intersection(result.pulling);
+            self.count(&result, hit);
 
-        let slow: TautSet = struck
-            .iter()
-            .filter(|&cable| result.v_before[cable] < self.rules.v_stick)
-            .collect();
-        let at_rest: TautSet = closed
-            .iter()
-            .filter(|&cable| self.unmoved(&result, cable, struck))
-            .collect();
-        if slow == struck {
-            self.slow_snaps += 1;
-            self.slow_cables = self.slow_cables.union(struck);
-        } else {
-            self.end_slow_row();
-        }
-        let caught = self.caught(&result, closed);
-        let candidates = slow.union(at_rest).union(caught);
-        let mut halted = result.after;
-        project_velocity(&self.system, &mut halted, candidates);
-        self.active = taut_next(&self.system, self.t, &halted, candidates);
-        let at_rest = if caught.is_empty() {
-            project_velocity(&self.system, &mut self.state, self.active.taut);
-            at_rest
-        } else {
-            self.state = halted;
-            candidates
-        };
-
-        for cable in closed.iter() {
-            let resting = self.active.taut.contains(cable) || at_rest.contains(cable);
-            self.contacts[cable] = if resting {
-                Contact::RESTING
+            let slow: TautSet = struck
+                .iter()
+                .filter(|&cable| result.v_before[cable] < self.rules.v_stick)
+                .collect();
+            let at_rest: TautSet = closed
+                .iter()
+                .filter(|&cable| self.unmoved(&result, cable, struck))
+                .collect();
+            if slow == struck {
+                self.slow_snaps += 1;
+                self.slow_cables = self.slow_cables.union(struck);
             } else {
-                Contact::CLOSED
+                self.end_slow_row();
+            }
+            let caught = self.caught(&result, closed);
+            let candidates = slow.union(at_rest).union(caught);
+            let mut halted = result.after;
+            project_velocity(&self.system, &mut halted, candidates);
+            self.active = taut_next(&self.system, self.t, &halted, candidates);
+            let at_rest = if caught.is_empty() {
+                project_velocity(&self.system, &mut self.state, self.active.taut);
+                at_rest
+            } else {
+                self.state = halted;
+                candidates
             };
-        }
-        result
+
+            for cable in closed.iter() {
+                let resting = self.active.taut.contains(cable) || at_rest.contains(cable);
+                self.contacts[cable] = if resting {
+                    Contact::RESTING
+                } else {
+                    Contact::CLOSED
+                };
+            }
+            result
+        })
     }
 
     /// Where several cables have snapped slowly in turn, each throwing the others off by less than
