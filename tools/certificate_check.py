@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""Checks certificates of snapload (docs/certificate.md) in another language and another arithmetic, Arb by python-flint.
+usage: certificate_check.py FILE.cert ...     exit status 0 proved, 1 refused, 2 undecided, 3 no certificate (the largest)
+It knows slack flight, impacts and stops; where a cable stays taut a certificate ends with the reason `sticks`. The case is all
+that it takes as given: times are guesses, and are compared. Bounds on second derivatives come from power series over intervals
+of time, the Jacobian of an impact from power series along each coordinate."""
+import json, re, sys
+from math import hypot
+from pathlib import Path
+from flint import arb, arb_mat, arb_series, ctx, fmpq
+MOST_BITS, MOST_PIECES = 3000, 4000
+ctx.cap = 3  # terms of power series
+COORDINATES = ("x", "y", "theta", "vx", "vy", "vtheta")
+NUMBERS = {"r", "e", "a", "b", "f_o", "nu", "omega", "t_end", "v_stick", *COORDINATES}
+KEYS = {"format", "model", "bits", "case", "impacts", "end"}
+OTHERS = {"inertia", "body", "stop_when_settled", "stop_when_sliding", "max_impacts"}
+REASONS = {"settled", "sliding_start", "sticks", "impact_limit", "rotation_limit", "upper_bound", "end_time"}
+DECIMAL = re.compile(r"(-?)([0-9]+)(?:\.([0-9]*))?(?:e([+-]?[0-9]{1,3}))?", re.ASCII)
+
+class No(Exception):
+    """A proof that fails, with an exit status and why: 1 false, 2 open, 3 no certificate."""
+def decimal(text):
+    """The number that a decimal is, and half a unit of its last place, as fractions."""
+    found = DECIMAL.fullmatch(text) if isinstance(text, str) and len(text) < 400 else None
+    if not found:
+        raise No(3, f"{text!r} is no decimal")
+    sign, whole, fraction, power = found.groups()
+    places = len(fraction or "") - int(power or 0)
+    unit = fmpq(1, 10**places) if places >= 0 else fmpq(10**-places)
+    return unit * int(sign + whole + (fraction or "")), unit / 2
+
+def decide(what, ball):
+    """Whether a ball is above zero; undecided where it is not all of it on one side."""
+    if ball > 0 or ball < 0:
+        return bool(ball > 0)
+    raise No(2, f"the sign of {what}")
+
+def same(what, ball, text):
+    """The printed number is the true one to half a unit of its last place."""
+    value, half = decimal(text)
+    if not abs(ball - arb(value)) <= arb(half):
+        raise No(1 if abs(ball - arb(value)) > arb(half) else 2, f"{what}: {text} is claimed, {ball.str(25)} is true")
+
+def spread(ball):
+    return arb(0, ball.abs_upper())
+class Model:
+    """The numbers of a case; sections 2 to 7 of docs/model.md."""
+    def __init__(self, case):
+        q = {key: decimal(case[key])[0] for key in NUMBERS}
+        size = q["a"] ** 2 if q["b"] == 0 else (q["a"] ** 2 + q["b"] ** 2) / 3
+        inertia = size if case["inertia"] is None else decimal(case["inertia"])[0]
+        nothing = case["inertia"] is None and not any(q[key] for key in ("a", "b", "theta", "vtheta"))
+        legal = (nothing if case["body"] == "point" else inertia > 0) and 0 <= q["e"] <= 1 and q["a"] >= 0 <= q["b"]
+        if not (legal and q["v_stick"] > 0 < q["t_end"] and q["r"] > abs(1 - q["a"])):
+            raise No(3, "a case that is not legal")
+        self.spin = arb(0) if case["body"] == "point" else arb(1 / inertia)
+        self.exact, self.rules = q, case
+        self.r, self.e, self.a, self.b = (arb(q[key]) for key in ("r", "e", "a", "b"))
+        self.f, self.nu, self.omega = (arb(q[key]) for key in ("f_o", "nu", "omega"))
+        self.steady = q["omega"] == 0 or q["f_o"] == 0
+        self.level = self.b + arb(q["r"] ** 2 - (1 - q["a"]) ** 2).sqrt()
+        self.quarter = arb.pi() / 2
+    def force(self, t):
+        """Force without the weight, and sine and cosine of its phase."""
+        s, c = (arb(0), arb(1)) if self.steady else (self.omega * t).sin_cos()
+        return self.f * c, arb(0) if self.steady else self.nu * self.f * s, s, c
+    def fairlead(self, side, theta):
+        """From the body's centre to the end of the cable of a side, 1 or -1; of balls or of series alike."""
+        sine, cosine = theta.sin(), theta.cos()
+        return cosine * (side * self.a) - sine * self.b, sine * (side * self.a) + cosine * self.b
+
+class Flight:
+    """Free motion from a state at the time t0, in closed form."""
+    def __init__(self, model, t0, state):
+        self.model, self.t0, self.state = model, t0, state
+        _, _, self.sine, self.cosine = model.force(t0)
+    def series(self, tau):
+        """x, y and θ about the time t0 + τ, as power series of three terms; over a ball τ they hold all of them."""
+        m, (x, y, theta, vx, vy, spin) = self.model, self.state
+        fx, fy, s, c = m.force(self.t0 + tau)
+        ux, uy, x, y = vx, vy - tau, x + tau * vx, y + tau * (vy - tau / 2)
+        if m.steady:
+            ux, x = ux + tau * fx, x + tau * tau * fx / 2
+        else:
+            k, sines, cosines = m.f / m.omega, s - self.sine, c - self.cosine
+            ux, x = ux + k * sines, x - k * (cosines / m.omega + tau * self.sine)
+            uy, y = uy - m.nu * k * cosines, y + m.nu * k * (tau * self.cosine - sines / m.omega)
+        return arb_series([x, ux, fx / 2]), arb_series([y, uy, (fy - 1) / 2]), arb_series([theta + spin * tau, spin])
+    def state_at(self, tau):
+        return [q[k] for k in (0, 1) for q in self.series(tau)]
+    def watched(self, tau):
+        """What stays below zero, gaps and tops' heights over the anchors: itself, its rate, half its second derivative."""
+        m, (x, y, theta) = self.model, self.series(tau)
+        arms = [m.fairlead(side, theta) for side in (1, -1)]
+        ends = [(x + px - side, y + py - m.level) for side, (px, py) in zip((1, -1), arms)]
+        tops = [dy for _, dy in ends] if m.exact["b"] else [y + (m.a - m.level)]
+        return [[f[0], f[1], f[2]] for f in [dx * dx + dy * dy - m.r * m.r for dx, dy in ends] + tops]
+
+def stays_clear(flight, lo, hi, struck, hit):
+    """All watched values are below zero after `lo` and up to `hi`, but `struck`, which is known to be at most zero at `lo`,
+    and `hit`, at `hi`. With f'' >= -K on a piece of length H and f <= 0 at its ends, f is at most its chord plus
+    K t (H - t) / 2: below zero if K < 0, or if f < -K H^2 / 8 at both ends, or if f < -K H^2 / 2 at one."""
+
+    def is_clear(begin, end, first, last, is_first, is_last):
+        for k, (_, _, half_bend) in enumerate(flight.watched((begin + end) / 2 + spread((end - begin) / 2))):
+            sag, known = -half_bend * (end - begin) ** 2, (is_first and k == struck, is_last and k == hit)
+            depths = [-f for given, f in zip(known, (first[k][0], last[k][0])) if not given]
+            one, both = any(f > sag for f in depths), not any(known) and all(f > sag / 4 for f in depths)
+            if not (all(f > 0 for f in depths) and (half_bend > 0 or one or both)):
+                return False
+        return True
+
+    pieces, done = [(lo, hi, flight.watched(lo), flight.watched(hi), True, True)], 0
+    while pieces:
+        begin, end, first, last, is_first, is_last = piece = pieces.pop()
+        if is_clear(*piece):
+            continue
+        done, middle = done + 1, ((begin + end) / 2).mid()
+        there = flight.watched(middle)
+        if any(f > 0 for f, _, _ in there) or done > MOST_PIECES or not begin < middle < end:
+            raise No(1 if any(f > 0 for f, _, _ in there) else 2, f"something comes first, next to {begin.str(12)} later")
+        pieces += [(middle, end, there, last, False, is_last), (begin, middle, first, there, is_first, False)]
+
+def crossing(centre, whole, k, guess):
+    """When watched value k crosses zero: of the centre, and of the whole set, every member of which crosses once."""
+    tau = guess
+    for _ in range(ctx.prec.bit_length()):
+        value, rate, _ = centre.watched(tau)[k]
+        if not (rate.mid() > 0 and abs(tau - guess) < arb(fmpq(1, 1000))):
+            raise No(1, "nothing is reached next to the time that is claimed")
+        tau = (tau - value.mid() / rate.mid()).mid()
+    value, rate, _ = whole.watched(tau)[k]
+    reach = tau + spread(abs(value) * 4 / rate.mid() + arb(2) ** (20 - ctx.prec))
+    slope = whole.watched(reach)[k][1]
+    if not (slope > 0 and reach.contains_interior(tau - value / slope)):
+        raise No(2, "whether it is crossed, or only touched")
+    return tau - centre.watched(tau)[k][0] / slope, tau - value / slope
+
+def struck(model, side, state, share):
+    """Velocities after an impact with `share` (1 + e; 1 takes v_n away), v_n, arm and normal; of balls or series alike."""
+    x, y, theta, vx, vy, spin = state
+    px, py = model.fairlead(side, theta)
+    nx, ny = (x + px - side) / model.r, (y + py - model.level) / model.r
+    arm = px * ny - py * nx
+    vn = nx * vx + ny * vy + arm * spin
+    p = vn / (1 + arm * arm * model.spin) * share
+    return (vx - p * nx, vy - p * ny, spin - p * arm * model.spin), vn, (px, py), (nx, ny)
+
+def jacobian(model, side, state, force, before, after):
+    """Derivatives of the state at a fixed time after an impact by that at one before it, by power series of two terms along each
+    coordinate. The instant moves by dt = -dg / g'."""
+    push, columns = (force[0], force[1] - 1, arb(0)), []
+    _, vn, (px, py), (nx, ny) = struck(model, side, state, arb(1))
+    for j in range(6):
+        dv = [arb(i + 3 == j) for i in range(3)]
+        dq = [arb(i == j) + before * v for i, v in enumerate(dv)]
+        late = -(nx * dq[0] + ny * dq[1] + (px * ny - py * nx) * dq[2]) / vn
+        slopes = [q + v * late for q, v in zip(dq, state[3:])] + [v + a * late for v, a in zip(dv, push)]
+        new = struck(model, side, [arb_series([s, d]) for s, d in zip(state, slopes)], 1 + model.e)[0]
+        rates = [v[1] - a * late for v, a in zip(new, push)]
+        columns.append([q + after * d - v[0] * late for q, d, v in zip(slopes, rates, new)] + rates)
+    return arb_mat(columns).transpose()
+
+def directions(matrix, sides):
+    """Orthonormal columns along those of a matrix, the longest first; any invertible matrix would do."""
+    columns = [[float(q.mid()) for q in column] for column in matrix.transpose().tolist()]
+    sizes = [side.abs_upper() for side in sides]
+    share = [float(size / max(sizes)) if max(sizes) > 0 else 1.0 for size in sizes]
+    columns = [column for _, column in sorted(zip([-w * hypot(*v) for w, v in zip(share, columns)], columns))]
+    basis = []
+    for v in columns + [[float(i == j) for i in range(6)] for j in range(6)]:
+        least = 1e-12 * hypot(*v)
+        for u in basis * 2:
+            along = sum(a * c for a, c in zip(u, v))
+            v = [c - along * a for a, c in zip(u, v)]
+        if len(basis) < 6 and hypot(*v) > least:
+            basis.append([c / hypot(*v) for c in v])
+    return arb_mat(basis).transpose()
+
+def ends_here(model, count, k, state, force, vn, slow):
+    """The reason for which a run ends at an impact, if it does."""
+    reason, rules = None, model.rules
+    slow[:] = [] if decide("v_n - v_stick", vn - arb(model.exact["v_stick"])) else [*slow, k]
+    if slow or model.exact["e"] == 0:
+        (vx, vy, spin), _, (px, py), (nx, ny) = struck(model, 1 - 2 * k, state, arb(1))
+        ux, uy = vx - spin * py, vy + spin * px
+        pull = (ux * ux + uy * uy) / model.r + nx * (force[0] - spin**2 * px) + ny * (force[1] - 1 - spin**2 * py)
+        if decide("a tension", pull):
+            high = decide("a height", state[1] - arb(fmpq(1, 20)))
+            rule, stop = ("stop_when_sliding", "sliding_start") if high else ("stop_when_settled", "settled")
+            reason = stop if rules[rule] else "sticks"
+        elif len(slow) >= 5 and len(set(slow)) == 2:
+            raise No(2, "five slow snaps of two cables in turn")
+    return "impact_limit" if count > rules["max_impacts"] and reason in (None, "sticks") else reason
+
+def next_event(model, flight, c, t0, slack, last, claim, end):
+    """When the centre and the whole set meet the next claim, or the end, and what is hit; proved to exist and be first."""
+    reason = None if claim else end["reason"]
+    for k, (value, rate, _) in enumerate(flight.watched(slack)):  # the flight begins somewhere in T + slack
+        bound = arb(fmpq(-1, 10**9)) if last is None and k < 2 else arb(0)
+        if not (rate < 0 if k == last else value < bound):
+            raise No(1 if last is None and value > -2 * bound else 2, "a closed cable, or a stop, at the begin")
+    at, k, (theta, spin) = None, None, flight.state[2::3]
+    if reason == "end_time":
+        tau = arb(model.exact["t_end"]) - t0
+    elif reason == "rotation_limit":
+        tau = ((model.quarter if decide("the rotation", spin) else -model.quarter) - theta) / spin
+    elif claim or reason == "upper_bound":
+        guess = (arb(decimal(claim[1] if claim else end["t"])[0]) - t0).mid()
+        tops = {} if claim else {k: float(v[0]) for k, v in enumerate(flight.watched(guess)) if k > 1}
+        k = claim[0] - 1 if claim else max(tops, key=tops.get)
+        at, tau = crossing(Flight(model, t0, c), flight, k, guess)
+    else:
+        raise No(1, "the run does not end so")
+    rooms = [tau - slack, model.quarter - abs(theta)] + [-f[0] for j, f in enumerate(flight.watched(tau)) if j != k]
+    rooms += [model.exact["t_end"] - t0 - tau] if reason != "end_time" else []
+    rooms += [model.quarter - abs(flight.state_at(tau)[2])] if reason != "rotation_limit" else []
+    if not all(room > 0 for room in rooms):
+        raise No(1 if any(room < 0 for room in rooms) else 2, "something else comes first")
+    stays_clear(flight, arb(slack.upper()), arb(tau.upper() if k is None else tau.lower()), last, k)
+    return at, tau, k
+
+def prove(certificate):
+    """Raises `No` unless every claim is proved with the present number of bits."""
+    model, claims, end = Model(certificate["case"]), certificate["impacts"], certificate["end"]
+    start = [arb(model.exact[key]) for key in COORDINATES]
+    c, axes = [q.mid() for q in start], arb_mat([[int(i == j) for j in range(6)] for i in range(6)])
+    sides, hull = [spread(q - m) for q, m in zip(start, c)], start
+    t0, slack, last, slow, reason = arb(0), arb(0), None, [], None
+    for count, claim in enumerate([*claims, None], 1):
+        flight = Flight(model, t0, hull)
+        at, tau, k = next_event(model, flight, c, t0, slack, last, claim, end)
+        t, final, force = t0 + tau, flight.state_at(tau), model.force(t0 + tau)
+        if claim is None:
+            reason = end["reason"]
+            break
+        state, side = final, 1 - 2 * k
+        start, new_t = Flight(model, t0, c).state_at(at), (t0 + at).mid()
+        gap, push = new_t - (t0 + at), (spread(model.f), spread(model.nu * model.f) - 1, arb(0))
+        speeds = struck(model, side, start, 1 + model.e)[0]
+        image = [q + gap * (v + gap * a / 2) for q, v, a in zip(start, speeds, push)]
+        image += [v + gap * a for v, a in zip(speeds, push)]
+        slack = spread(t - new_t)
+        turned = jacobian(model, side, state, force, tau, slack) * axes
+        axes = directions(turned, sides)
+        inverse, c = axes.inv(), [q.mid() for q in image]
+        off = arb_mat(6, 1, [q - m for q, m in zip(image, c)])
+        sides = [spread(q) for q in (inverse * turned * arb_mat(6, 1, sides) + inverse * off).entries()]
+        hull = [m + d for m, d in zip(c, (axes * arb_mat(6, 1, sides)).entries())]
+        velocity, vn, _, _ = struck(model, side, state, 1 + model.e)
+        same(f"the time of impact {count}", t, claim[1])
+        same(f"v_n of impact {count}", vn, claim[2])
+        reason = ends_here(model, count, k, state, force, vn, slow)
+        t0, last, final = new_t, k, [*state[:3], *velocity]
+        if reason:
+            break
+    if reason != end["reason"] or count < len(claims):
+        raise No(1, f"the run ends as {reason} after {count} impacts")
+    same("the time of the end", t, end["t"])
+    for key, ball, text in zip(COORDINATES, final, end["state"]):
+        same(f"{key} at the end", ball, text)
+
+def well_formed(certificate):
+    """Whether it has the shape of a certificate, with decimals where they belong."""
+    case, end, lines = certificate["case"], certificate["end"], certificate["impacts"]
+    texts = [end["t"], *end["state"], *(text for line in lines for text in line[1:])]
+    keys = (set(certificate), set(case), set(end)), (certificate["format"], certificate["model"]), end["reason"] in REASONS
+    kinds = [type(v) for v in (lines, end["state"], certificate["bits"], *(case[k] for k in sorted(OTHERS - {"body", "inertia"})))]
+    rows = [(type(line), len(line), type(line[0]), line[0] in (1, 2)) for line in lines]
+    return (
+        keys == ((KEYS, NUMBERS | OTHERS, {"reason", "t", "state"}), ("snapload-certificate-1", "snapload model 1"), True)
+        and kinds == [list, list, int, int, bool, bool] and set(rows) <= {(list, 3, int, True)} and len(end["state"]) == 6
+        and 64 <= certificate["bits"] <= MOST_BITS and case["body"] in ("rigid", "point") and all(map(decimal, texts))
+    )
+
+def check(text):
+    """Exit status and words for a certificate."""
+    try:
+        certificate = json.loads(text, object_pairs_hook=lambda pairs: dict(pairs) if len(dict(pairs)) == len(pairs) else None)
+        if not well_formed(certificate):
+            raise No(3, "not of the format, or of one that is not known here, such as of taut motion")
+        bits = certificate["bits"]
+        while True:
+            ctx.prec = bits
+            try:
+                prove(certificate)
+                return 0, f"proved: {len(certificate['impacts'])} impacts, {certificate['end']['reason']} ({bits} bits)"
+            except No as no:
+                if no.args[0] != 2 or bits * 4 // 3 > MOST_BITS:
+                    raise
+            bits = bits * 4 // 3
+    except No as no:
+        return no.args[0], f"{('', 'refused', 'undecided', 'no certificate')[no.args[0]]}: {no.args[1]}"
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, ZeroDivisionError) as error:
+        return (2, "undecided: a division") if type(error) is ZeroDivisionError else (3, f"no certificate: {error!r}")
+
+if __name__ == "__main__":
+    verdicts = [check(Path(name).read_text(encoding="utf-8")) for name in sys.argv[1:]]
+    print("\n".join(f"{name}: {words}" for name, (_, words) in zip(sys.argv[1:], verdicts)))
+    sys.exit(max((status for status, _ in verdicts), default=3))
