@@ -30,34 +30,40 @@ pub fn rows(drawn: &[Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>,
 }
 
 fn side_by_side(drawn: &[&Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>, Cancelled> {
-    let mut cases = Vec::with_capacity(drawn.len());
-    let mut made = |drawn: &Drawn| {
-        let case = drawn.parameters.clone().and_then(Case::new)?;
-        let certainty = trust.then(|| Certainty::of(&case));
-        cases.push(case);
-        Ok(certainty)
+    let made: Vec<Result<Case, CaseError>> = drawn
+        .iter()
+        .map(|drawn| drawn.parameters.clone().and_then(Case::new))
+        .collect();
+    let cases: Vec<Case> = made.iter().filter_map(|case| case.clone().ok()).collect();
+    let lanes = Lanes::best();
+    let told: Vec<(Outcome, Option<Certainty>)> = if trust {
+        let told = Certainty::with_outcomes(lanes, &cases, counter)?.into_iter();
+        told.map(|(outcome, certainty)| (outcome, Some(certainty)))
+            .collect()
+    } else {
+        let outcomes = lanes.outcomes(&cases).0.into_iter();
+        outcomes.map(|outcome| (outcome, None)).collect()
     };
-    let mut certainties = Vec::with_capacity(drawn.len());
-    for drawn in drawn {
-        counter.add(0)?;
-        certainties.push(made(drawn));
-    }
-    let mut outcomes = Lanes::best().outcomes(&cases).0.into_iter();
-    let row = |(drawn, certainty): (&&Drawn, Result<Option<Certainty>, CaseError>)| {
+    let mut told = told.into_iter();
+    let row = |(drawn, case): (&&Drawn, Result<Case, CaseError>)| {
+        let (outcome, certainty) = match case {
+            Ok(_) => {
+                let (outcome, certainty) = told.next()?;
+                (Ok(outcome), certainty)
+            }
+            Err(error) => (Err(error), None),
+        };
         Some(Row {
             index: drawn.index,
             keys: match &drawn.parameters {
                 Ok(parameters) => parameters.entries().map(|(_, value)| value).collect(),
                 Err(_) => given(drawn),
             },
-            certainty: certainty.as_ref().ok().copied().flatten(),
-            outcome: match certainty {
-                Ok(_) => Ok(outcomes.next()?),
-                Err(error) => Err(error),
-            },
+            outcome,
+            certainty,
         })
     };
-    let rows = drawn.iter().zip(certainties).filter_map(row).collect();
+    let rows = drawn.iter().zip(made).filter_map(row).collect();
     counter.add(drawn.len() as u64)?;
     Ok(rows)
 }

@@ -5,7 +5,7 @@
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::ThreadPoolBuilder;
-use snapload::analysis::{Certainty, Uncertainty, outcomes, trusted_run, unwatched};
+use snapload::analysis::{Certainty, Counter, Uncertainty, outcomes, trusted_run, unwatched};
 use snapload::{Case, Lanes, Parameters, Trajectory, named_case};
 use std::hint::black_box;
 use std::thread::available_parallelism;
@@ -90,15 +90,12 @@ fn many_runs(c: &mut Criterion) {
             b.iter(|| pool.install(|| outcomes(black_box(&cases), &unwatched)));
         });
     }
-    group.bench_function("certainty", |b| {
-        b.iter(|| {
-            cases
-                .iter()
-                .map(Certainty::of)
-                .filter(Certainty::decides_the_end)
-                .count()
+    for lanes in Lanes::available() {
+        group.bench_function(format!("{lanes:?}/with-certainty"), |b| {
+            let counter = Counter::new("running", 0, u64::from(SWEEP), &unwatched);
+            b.iter(|| Certainty::with_outcomes(lanes, black_box(&cases), &counter));
         });
-    });
+    }
     group.finish();
 }
 

@@ -112,8 +112,9 @@ const QUARTER: [f64; 3] = [
     2.022_266_248_795_950_6e-21,
 ];
 
+/// The integer next to a number of moderate size.
 #[inline(always)]
-fn rounded<L: Lane>(x: L) -> L {
+pub(crate) fn rounded<L: Lane>(x: L) -> L {
     (x + ROUNDER) - ROUNDER
 }
 

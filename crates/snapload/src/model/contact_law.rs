@@ -34,6 +34,18 @@ impl<L: Lane> ContactLaw<L> {
             v_after: -e * v_before,
         }
     }
+
+    /// The derivative of the impulse of [`ContactLaw::snap`], δp = (1 + e) (δv⁻/w − v⁻ δw/w²).
+    #[inline(always)]
+    pub(crate) fn snap_slope(self, [v_before, w]: [L; 2], [dv, dw]: [L; 2]) -> L {
+        self.impulse_per_velocity(w) * (dv - v_before * dw / w)
+    }
+
+    /// ∂p/∂v⁻ = (1 + e)/w.
+    #[inline(always)]
+    pub(crate) fn impulse_per_velocity(self, w: L) -> L {
+        (self.restitution + 1.0) / w
+    }
 }
 
 impl<L: Copy> ContactLaw<L> {
@@ -82,20 +94,6 @@ impl<T: Real> ContactLaw<T> {
     /// Whether an impact under this law can lose energy but not gain any.
     pub(crate) fn is_passive(self) -> bool {
         T::ZERO <= self.restitution && self.restitution <= T::ONE
-    }
-}
-
-impl ContactLaw<f64> {
-    /// The derivative of the impulse of [`ContactLaw::snap`], δp = (1 + e) (δv⁻/w − v⁻ δw/w²).
-    #[inline(always)]
-    pub(crate) fn snap_slope(self, [v_before, w]: [f64; 2], [dv, dw]: [f64; 2]) -> f64 {
-        self.impulse_per_velocity(w) * (dv - v_before * dw / w)
-    }
-
-    /// ∂p/∂v⁻ = (1 + e)/w.
-    #[inline(always)]
-    pub(crate) fn impulse_per_velocity(self, w: f64) -> f64 {
-        (1.0 + self.restitution) / w
     }
 }
 

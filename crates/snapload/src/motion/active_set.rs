@@ -1,7 +1,9 @@
 //! Which cables stay taut, and what they carry.
 
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
+use crate::model::cable::Normal;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
@@ -128,6 +130,139 @@ pub(crate) fn acceleration<T: Real>(
     })
 }
 
+/// A taut cable, as the derivatives of the acceleration are taken from it.
+struct TautCable {
+    normal: Normal,
+    lever: Vector2,
+    /// Ṗ.
+    velocity: Vector2,
+    per_length: f64,
+}
+
+impl TautCable {
+    #[inline(always)]
+    fn new(system: &System, state: &State, cable: usize) -> Self {
+        let tether = &system.cables[cable];
+        let turn = Rotation::by(state.theta);
+        let lever = tether.lever(turn.sine, turn.cosine);
+        let span = tether.span_moved(tether.moved(state, &turn));
+        Self {
+            normal: tether.normal_along(span, lever),
+            lever,
+            velocity: state
+                .velocity()
+                .plus_scaled(lever.quarter_turn(), state.vtheta),
+            per_length: tether.per_length(),
+        }
+    }
+
+    /// b = n·f + |Ṗ|²/r − θ̇² n·ρ.
+    #[inline(always)]
+    fn load(&self, force: Vector2, spin: f64) -> f64 {
+        let Normal { n, .. } = self.normal;
+        n.dot(force) + self.velocity.dot(self.velocity) * self.per_length
+            - spin * spin * n.dot(self.lever)
+    }
+
+    /// δn and δs, and δb, for a deviation (δx, δy, δθ, δẋ, δẏ, δθ̇).
+    #[inline(always)]
+    fn change(&self, force: Vector2, spin: f64, by: &[f64; 6]) -> (Normal, f64) {
+        let [x, y, theta, vx, vy, vtheta] = *by;
+        let Self {
+            normal: Normal { n, .. },
+            lever,
+            velocity,
+            per_length,
+        } = *self;
+        let quarter = lever.quarter_turn();
+        let dn = Vector2 { x, y }
+            .plus_scaled(quarter, theta)
+            .scaled(per_length);
+        let turned = quarter.scaled(theta);
+        let arm = turned.cross(n) + lever.cross(dn);
+        let rate = Vector2 { x: vx, y: vy }
+            .plus_scaled(quarter, vtheta)
+            .plus_scaled(lever, -(spin * theta));
+        let load = dn.dot(force) + 2.0 * per_length * velocity.dot(rate)
+            - 2.0 * spin * vtheta * n.dot(lever)
+            - spin * spin * (dn.dot(lever) + n.dot(turned));
+        (Normal { n: dn, arm }, load)
+    }
+}
+
+/// The derivatives of [`acceleration`] by (x, y, θ, ẋ, ẏ, θ̇) while one or two cables pull that do
+/// not depend on each other, and the water does not resist; none else. Of a = f − p with p = M⁻¹ Gᵀ
+/// T and W T = b,
+///
+/// ```text
+/// W δT = δb − δG p − G M⁻¹ δGᵀ T        δa = −M⁻¹ (δGᵀ T + Gᵀ δT)
+/// ```
+#[inline(always)]
+pub(crate) fn slopes_of_acceleration(
+    system: &System,
+    t: f64,
+    state: &State,
+    taut: TautSet,
+) -> Option<[[f64; 6]; 3]> {
+    /// Cables whose W is closer to singular than this are left to the general solver.
+    const NEARLY_DEPENDENT: f64 = 1e-6;
+    let mut cables = taut.iter();
+    let first = cables.next()?;
+    let second = cables.next();
+    if system.drag.is_some() || cables.next().is_some() {
+        return None;
+    }
+    let (force, spin) = (system.forcing.at(t), state.vtheta);
+    let inverse_inertia = system.body.inverse_inertia();
+    // One cable is two of which the other carries nothing.
+    let pair = [first, second.unwrap_or(first)].map(|k| TautCable::new(system, state, k));
+    let [one, two] = [&pair[0].normal, &pair[1].normal];
+    let w = |a: &Normal, b: &Normal| a.coupling(b, inverse_inertia);
+    let (across, inverse) = (w(one, two), [w(one, one), w(two, two)]);
+    let determinant = inverse[0] * inverse[1] - across * across;
+    if second.is_some() && determinant < NEARLY_DEPENDENT * inverse[0] * inverse[1] {
+        return None;
+    }
+    let solved = |load: [f64; 2]| match second {
+        None => [load[0] / inverse[0], 0.0],
+        Some(_) => [
+            (inverse[1] * load[0] - across * load[1]) / determinant,
+            (inverse[0] * load[1] - across * load[0]) / determinant,
+        ],
+    };
+    let pulls = |normals: [&Normal; 2], tension: [f64; 2]| {
+        let [a, b] = normals;
+        [
+            a.n.x * tension[0] + b.n.x * tension[1],
+            a.n.y * tension[0] + b.n.y * tension[1],
+            (a.arm * tension[0] + b.arm * tension[1]) * inverse_inertia,
+        ]
+    };
+    let along =
+        |normal: &Normal, p: &[f64; 3]| normal.n.x * p[0] + normal.n.y * p[1] + normal.arm * p[2];
+    let tension = solved([pair[0].load(force, spin), pair[1].load(force, spin)]);
+    let pull = pulls([one, two], tension);
+    let mut slopes = [[0.0; 6]; 3];
+    for k in 0..6 {
+        let mut by = [0.0; 6];
+        by[k] = 1.0;
+        let (dg, db) = pair[0].change(force, spin, &by);
+        let (dg_two, db_two) = pair[1].change(force, spin, &by);
+        let turned = pulls([&dg, &dg_two], tension);
+        let more = pulls(
+            [one, two],
+            solved([
+                db - along(&dg, &pull) - along(one, &turned),
+                db_two - along(&dg_two, &pull) - along(two, &turned),
+            ]),
+        );
+        for i in 0..3 {
+            slopes[i][k] = -(turned[i] + more[i]);
+        }
+    }
+    Some(slopes)
+}
+
 /// g̈/(2r) of a closed cable while the cables of `taut` pull.
 #[inline(always)]
 pub(crate) fn normal_acceleration<T: Real>(
@@ -159,4 +294,58 @@ fn problem<T: Real>(
     let (normals, inverse_inertia) = (system.normals(state, set), system.body.inverse_inertia());
     let w = move |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
     (w, load)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arithmetic::dual::Dual;
+    use crate::model::body::{Body, Shape};
+    use crate::model::forcing::Harmonic;
+
+    /// The acceleration over dual numbers, against its derivatives written out: of a rigid body and
+    /// of a point mass, on either cable and on both.
+    #[test]
+    fn slopes_are_those_of_the_acceleration() {
+        let bodies = [
+            (
+                Body::rigid(Shape::of_half_sizes(0.2, 0.1), 0.03),
+                [0.2, 0.1],
+            ),
+            (Body::point(), [0.0, 0.0]),
+        ];
+        let mut compared = 0;
+        for (body, fairlead) in bodies {
+            let wave = Harmonic::ellipse(0.3, 0.5, 0.9);
+            let system = System::moored_breakwater(body, fairlead, 1.5, 0.7, wave);
+            let over = system.map(Dual::<f64, 6>::constant);
+            let point = system.body.inverse_inertia() == 0.0;
+            let turn = if point { 0.0 } else { 1.0 };
+            let state = State {
+                x: 0.05,
+                y: -0.02,
+                theta: 0.4 * turn,
+                vx: 0.3,
+                vy: -0.5,
+                vtheta: 0.7 * turn,
+            };
+            let mut i = 0;
+            let variables = State::from_components(state.components().map(|component| {
+                i += 1;
+                Dual::variable(component, i - 1)
+            }));
+            for taut in [TautSet::only(0), TautSet::only(1), TautSet::only(0).with(1)] {
+                let dual = acceleration(&over, Dual::constant(0.3), &variables, taut);
+                let slopes = slopes_of_acceleration(&system, 0.3, &state, taut);
+                let slopes = slopes.expect("two cables that are independent");
+                for (written, law) in slopes.iter().zip(dual) {
+                    for (ours, theirs) in written.iter().zip(law.slope) {
+                        assert!((ours - theirs).abs() < 1e-13, "{ours} {theirs}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert_eq!(compared, 2 * 3 * 18);
+    }
 }

@@ -21,7 +21,7 @@
 //! depend on lanes.
 
 use crate::arithmetic::lane::{Lane, select_each};
-use crate::arithmetic::plane::Rotation;
+use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::cable::{Cable, Normal};
@@ -30,7 +30,7 @@ use crate::model::forcing::Push;
 use crate::model::state::State;
 use crate::motion::attachment::GapJet;
 use crate::motion::extremes::highest;
-use crate::motion::two_cable_flight::{FlightEnd, TwoCableFlight, speed_bound};
+use crate::motion::two_cable_flight::{FlightEnd, Openness, TwoCableFlight, speed_bound};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// A stop closer than this is left to the general search \[L\], \[rad\].
@@ -59,6 +59,24 @@ pub(crate) struct Bounce<L: Lane> {
     pub(crate) v_after: L,
     /// After the impact, with the extremes of the flight.
     pub(crate) next: AfterImpact<L>,
+    pub(crate) course: Course<L>,
+}
+
+/// What those that follow a run ask of a bounce, besides where it led.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course<L> {
+    /// The force at the start of the flight and at its end.
+    pub(crate) forces: [Vector2<L>; 2],
+    /// Of the gap that does not close: in the early part of the flight g ≤ g₀ + σ times this.
+    pub(crate) slope: L,
+    /// In the late part it is at most this.
+    pub(crate) late: L,
+    /// That of the cable that closes, at the end.
+    pub(crate) normal: Normal<L>,
+    /// n·ρ of that cable.
+    pub(crate) swing: L,
+    /// That of the other cable.
+    pub(crate) other: Normal<L>,
 }
 
 /// The larger of `record` and the highest y of a flight of length `s` that begins at `from`.
@@ -93,26 +111,25 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
         let horizon = two_cables.t_end - from.t;
         let (trial, found) = start.search(second, guess, horizon);
 
-        let FlightEnd { s, state, jets } = start.arrival(second, &trial, from);
-        let blurs = [start.attachments[0].blur(s), start.attachments[1].blur(s)];
-        let alone = closes_alone(from.t, s, second, &jets, blurs);
+        let end = start.arrival(second, &trial, from);
+        let FlightEnd { s, state, jets, .. } = &end;
+        let blurs = [start.attachments[0].blur(*s), start.attachments[1].blur(*s)];
+        let alone = closes_alone(from.t, *s, second, jets, blurs);
         let end_value = [
             L::select(second, jets[0].value, L::ZERO),
             L::select(second, L::ZERO, jets[1].value),
         ];
-        let open = start.stays_open(0, s, &trial, &jets[0], end_value[0])
-            & start.stays_open(1, s, &trial, &jets[1], end_value[1]);
+        let openness = [
+            start.stays_open(0, *s, &trial, &jets[0], end_value[0]),
+            start.stays_open(1, *s, &trial, &jets[1], end_value[1]),
+        ];
+        let open = openness[0].open & openness[1].open;
         let arrived =
-            found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, s, &state);
-        let top_known = !rises_above(two_cables, from, s, &state);
-        land(
-            two_cables,
-            from,
-            (s, second),
-            &state,
-            &jets,
-            (arrived, top_known),
-        )
+            found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, *s, state);
+        let top_known = !rises_above(two_cables, from, *s, state);
+        let forces = [start.force_at_start, end.force];
+        let flight = (second, &end, (arrived, top_known));
+        land(two_cables, from, flight, (forces, openness))
     })
 }
 
@@ -212,12 +229,11 @@ fn put_back<L: Lane>(
 fn land<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
-    (s, second): (L, L::Mask),
-    state: &State<L>,
-    jets: &[GapJet<L>; 2],
-    (arrived, top_known): (L::Mask, L::Mask),
+    (second, end, (arrived, top_known)): (L::Mask, &FlightEnd<L>, (L::Mask, L::Mask)),
+    (forces, openness): ([Vector2<L>; 2], [Openness<L>; 2]),
 ) -> Bounce<L> {
     apart!(L, {
+        let FlightEnd { s, state, jets, .. } = end;
         let rotation = Rotation::by(state.theta);
         let struck = Cable::select(second, &two_cables.cables[1], &two_cables.cables[0]);
         let reach = L::select(second, two_cables.reach[1], two_cables.reach[0]);
@@ -234,15 +250,15 @@ fn land<L: Lane>(
         let rebounds = two_cables.v_stick.at_most(v_n)
             & L::ZERO.below(v_n)
             & (rounding * UNMOVED).below(-v_after);
-        let t = from.t + s;
-        let other = other_gap(two_cables, second, state, &rotation, jets);
+        let t = from.t + *s;
+        let (other, other_normal) = other_cable(two_cables, second, state, &rotation, jets);
         let closed = [L::ZERO; 2];
         Bounce {
             arrived,
             top_known,
             plain: arrived & top_known & rebounds & from.t.below(t),
             second,
-            s,
+            s: *s,
             before,
             v_n,
             impulse,
@@ -259,28 +275,38 @@ fn land<L: Lane>(
                 y_max: from.y_max.larger(state.y),
                 theta_max: from.theta_max.larger(state.theta.abs()),
             },
+            course: Course {
+                forces,
+                slope: L::select(second, openness[0].slope, openness[1].slope),
+                late: L::select(second, openness[0].late, openness[1].late),
+                normal,
+                swing: struck.lever(rotation.sine, rotation.cosine).dot(normal.n),
+                other: other_normal,
+            },
         }
     })
 }
 
-/// Value and error of the gap that did not close: carried forward, or evaluated afresh where that
-/// is better known.
+/// Value and error of the gap that did not close, carried forward, or evaluated afresh where that is
+/// better known; and that cable's normal.
 #[inline(always)]
-fn other_gap<L: Lane>(
+fn other_cable<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     second: L::Mask,
     state: &State<L>,
     rotation: &Rotation<L>,
     jets: &[GapJet<L>; 2],
-) -> [L; 2] {
+) -> ([L; 2], Normal<L>) {
     let cable = Cable::select(second, &two_cables.cables[0], &two_cables.cables[1]);
     let reach = L::select(second, two_cables.reach[0], two_cables.reach[1]);
     let moved = cable.moved(state, rotation);
     let error = cable.gap_error(moved, state.theta, reach);
     let carried = GapJet::select(second, &jets[0], &jets[1]);
     let better = carried.noise.below(error);
-    [
+    let gap = [
         L::select(better, carried.value, cable.gap_moved(moved)),
         L::select(better, carried.noise, error),
-    ]
+    ];
+    let lever = cable.lever(rotation.sine, rotation.cosine);
+    (gap, cable.normal_along(cable.span_moved(moved), lever))
 }

@@ -3,6 +3,7 @@
 pub(crate) mod active_set;
 pub(crate) mod attachment;
 pub(crate) mod bounce;
+pub(crate) mod bounce_map;
 pub(crate) mod cable_series;
 pub(crate) mod complementarity;
 pub(crate) mod contact;

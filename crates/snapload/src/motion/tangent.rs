@@ -22,7 +22,7 @@ use crate::arithmetic::dual::Dual;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
-use crate::motion::active_set::acceleration;
+use crate::motion::active_set::{acceleration, slopes_of_acceleration};
 use crate::motion::impact::{impact, slope_of_impact_alone};
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
@@ -105,33 +105,32 @@ impl Tangent {
     #[inline(always)]
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
+        let system = simulation.system();
         let jacobian = |s: f64| {
-            let state = variables(&simulation.within(step, s));
-            let t = Number::constant(step.t_start + s);
-            acceleration(&self.system, t, &state, step.taut).map(|a| a.slope)
+            let (t, state) = (step.t_start + s, simulation.within(step, s));
+            slopes_of_acceleration(system, t, &state, step.taut).unwrap_or_else(|| {
+                let t = Number::constant(t);
+                acceleration(&self.system, t, &variables(&state), step.taut).map(|a| a.slope)
+            })
         };
         let mut phi = identity();
         let mut left = jacobian(0.0);
-        let pace = pace_of_deviations(&left, simulation.system().body.inertia());
+        let pace = pace_of_deviations(&left, system.body.inertia());
         let pace = (SUBSTEPS / simulation.expansion()).max(pace / RADIANS);
         let count = (pace * s).ceil().max(1.0);
         let h = s / count;
         for k in 0..count as u32 {
             let at = f64::from(k) * h;
             let (middle, right) = (jacobian(at + 0.5 * h), jacobian(at + h));
-            for column in 0..6 {
-                let w = phi.map(|row| row[column]);
-                let k1 = change(&left, &w);
-                let k2 = change(&middle, &add_scaled(&w, &k1, 0.5 * h));
-                let k3 = change(&middle, &add_scaled(&w, &k2, 0.5 * h));
-                let k4 = change(&right, &add_scaled(&w, &k3, h));
-                for row in 0..6 {
-                    phi[row][column] += h / 6.0 * (k1[row] + 2.0 * (k2[row] + k3[row]) + k4[row]);
-                }
-            }
+            let k1 = change(&left, &phi);
+            let k2 = change(&middle, &plus(&phi, &k1, 0.5 * h));
+            let k3 = change(&middle, &plus(&phi, &k2, 0.5 * h));
+            let k4 = change(&right, &plus(&phi, &k3, h));
+            let outer = plus(&plus(&phi, &k1, h / 6.0), &k4, h / 6.0);
+            phi = plus(&plus(&outer, &k2, h / 3.0), &k3, h / 3.0);
             left = right;
         }
-        phi
+        phi.map(|[x, y, theta, vx, vy, vtheta, ..]| [x, y, theta, vx, vy, vtheta])
     }
 
     /// −∇h/ḣ of what was reached: a gap, or what a limit bounds. A tension that is lost changes
@@ -186,10 +185,35 @@ fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
     [state.vx, state.vy, state.vtheta, x, y, theta]
 }
 
+/// Deviations at one time, as columns; two are left over.
+type Columns = [[f64; 8]; 6];
+
 /// A w, where A's upper rows say that positions change by velocities.
-fn change(lower: &[[f64; 6]; 3], w: &[f64; 6]) -> [f64; 6] {
-    let [x, y, theta] = lower.map(|row| dot6(&row, w));
-    [w[3], w[4], w[5], x, y, theta]
+#[inline(always)]
+fn change(lower: &[[f64; 6]; 3], w: &Columns) -> Columns {
+    let mut changed = [[0.0; 8]; 6];
+    let (positions, velocities) = changed.split_at_mut(3);
+    positions.copy_from_slice(&w[3..]);
+    for (velocity, slopes) in velocities.iter_mut().zip(lower) {
+        for (slope, row) in slopes.iter().zip(w) {
+            for (sum, entry) in velocity.iter_mut().zip(row) {
+                *sum += slope * entry;
+            }
+        }
+    }
+    changed
+}
+
+/// w + h k.
+#[inline(always)]
+fn plus(w: &Columns, k: &Columns, h: f64) -> Columns {
+    let mut sum = *w;
+    for (row, more) in sum.iter_mut().zip(k) {
+        for (entry, more) in row.iter_mut().zip(more) {
+            *entry += h * more;
+        }
+    }
+    sum
 }
 
 /// A bound on how fast deviations swing or decay \[1/T\]: the accelerations of a unit of position and
@@ -207,12 +231,12 @@ fn pace_of_deviations(lower: &[[f64; 6]; 3], inertia: f64) -> f64 {
     by_position.sqrt().sqrt() + by_velocity.sqrt()
 }
 
-fn identity() -> Matrix {
-    let mut matrix = [[0.0; 6]; 6];
-    for (i, row) in matrix.iter_mut().enumerate() {
+fn identity() -> Columns {
+    let mut columns = [[0.0; 8]; 6];
+    for (i, row) in columns.iter_mut().enumerate() {
         row[i] = 1.0;
     }
-    matrix
+    columns
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ const MAX_TRIALS: usize = 10;
 const BELOW_ROUNDING: f64 = 16.0;
 /// The first part of a flight, in which the proof that a gap stays open starts from the beginning
 /// of the flight, where one more derivative is known.
-const EARLY: f64 = 0.6;
+pub(crate) const EARLY: f64 = 0.6;
 
 /// A flight evaluated at an instant near its end.
 pub(crate) struct Trial<L: Lane> {
@@ -46,6 +46,19 @@ pub(crate) struct FlightEnd<L> {
     pub(crate) s: L,
     pub(crate) state: State<L>,
     pub(crate) jets: [GapJet<L>; 2],
+    /// The force there, to a part in 1e8 and better.
+    pub(crate) force: Vector2<L>,
+}
+
+/// What is proven of a gap within a flight.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Openness<L: Lane> {
+    /// Whether it stays open.
+    pub(crate) open: L::Mask,
+    /// In the early part, [`EARLY`] of the flight, g ≤ g₀ + σ times this.
+    pub(crate) slope: L,
+    /// In the late part g is at most this.
+    pub(crate) late: L,
 }
 
 impl<L: Lane> FlightEnd<L> {
@@ -70,6 +83,7 @@ impl<L: Lane> FlightEnd<L> {
                     ..second_jet
                 },
             ],
+            force: self.force,
         }
     }
 }
@@ -88,6 +102,8 @@ pub(crate) struct TwoCableFlight<L> {
     /// The wave, seen from there.
     wave: Harmonic<L>,
     constant: Vector2<L>,
+    /// The force there.
+    pub(crate) force_at_start: Vector2<L>,
     /// Bounds on the force and its derivatives.
     force: [L; 3],
     spin: L,
@@ -115,6 +131,7 @@ impl<L: Lane> TwoCableFlight<L> {
             bends,
             wave,
             constant: two_cables.constant,
+            force_at_start: force,
             force: two_cables.force,
             spin,
         }
@@ -289,6 +306,7 @@ impl<L: Lane> TwoCableFlight<L> {
                 jet.later(later, trial.fourths[0]),
                 other.later(later, trial.fourths[1]),
             ],
+            force: trial.now.push.force.plus_scaled(trial.now.push.rate, later),
         }
     }
 
@@ -325,7 +343,7 @@ impl<L: Lane> TwoCableFlight<L> {
         trial: &Trial<L>,
         end: &GapJet<L>,
         end_value: L,
-    ) -> L::Mask {
+    ) -> Openness<L> {
         let (attachment, [accel, jerk, _]) = (&self.attachments[i], self.bends[i]);
         let (early, late) = (s * EARLY, s * (1.0 - EARLY));
         let (third, fourth) = (
@@ -336,11 +354,11 @@ impl<L: Lane> TwoCableFlight<L> {
 
         let half = L::from_f64(0.5);
         let bound = fourth.mul_add(early * 0.25, jerk).positive() * early * (1.0 / 6.0);
-        let bound = accel
+        let slope = accel
             .positive()
             .mul_add(half, bound)
             .mul_add(early * INFLATION, attachment.gap_rate);
-        let early_open = bound
+        let early_open = slope
             .mul_add(early, attachment.gap)
             .below(-attachment.gap_error);
 
@@ -349,10 +367,15 @@ impl<L: Lane> TwoCableFlight<L> {
             .mul_add(half, third * late * (1.0 / 6.0));
         let slowest = shift_error.mul_add(-trial.to_root.abs(), end.rate);
         let bound = bound.mul_add(late * INFLATION, -slowest);
-        let late_open = bound.mul_add(late, end_value).below(-end.noise);
+        let latest = bound.mul_add(late, end_value);
+        let late_open = latest.below(-end.noise);
         // Of the struck cable the value at the end is known to be zero, without noise.
         let late_open = late_open | (L::ZERO.at_most(end_value) & bound.below(L::ZERO));
-        early_open & late_open
+        Openness {
+            open: early_open & late_open,
+            slope,
+            late: latest.larger(end_value),
+        }
     }
 }
 

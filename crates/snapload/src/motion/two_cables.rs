@@ -32,6 +32,8 @@ pub(crate) struct TwoCableSystem<L> {
     /// Bound on |ÿ|.
     pub(crate) vertical_acceleration_bound: L,
     pub(crate) rotation_limit: L,
+    /// What the outline reaches from the centre at most.
+    pub(crate) outline: L,
     /// The upper bound, less what the outline reaches above the centre at most.
     pub(crate) level: L,
     pub(crate) t_end: L,
@@ -100,6 +102,7 @@ impl<L: Copy> TwoCableSystem<L> {
                 other.vertical_acceleration_bound,
             ),
             rotation_limit: number(self.rotation_limit, other.rotation_limit),
+            outline: number(self.outline, other.outline),
             level: number(self.level, other.level),
             t_end: number(self.t_end, other.t_end),
             max_impacts: number(self.max_impacts, other.max_impacts),
@@ -158,6 +161,7 @@ impl<T: Real> TwoCableSystem<T> {
             upward_acceleration_bound: forcing.upward_acceleration_bound(),
             vertical_acceleration_bound: forcing.vertical_acceleration_bound(),
             rotation_limit: rotation_limit.unwrap_or(never),
+            outline: body.reach(),
             level: upper_bound.unwrap_or(never) - body.reach(),
             t_end,
             max_impacts: T::from_f64(max_impacts as f64),

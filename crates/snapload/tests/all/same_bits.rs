@@ -1,8 +1,8 @@
 //! The same case gives the same bits, whatever it is computed beside and by how many.
 
 use snapload::analysis::{
-    Cancelled, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress, Progress,
-    Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched, verify,
+    Cancelled, Certainty, Counter, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress,
+    Progress, Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched, verify,
 };
 use snapload::{
     Case, Lanes, Outcome, Parameters, Simulation, TautSet, Trajectory, Value, named_case,
@@ -178,6 +178,23 @@ fn threads_do_not_matter() {
 }
 
 /// Lanes that run dry early or late: fewer cases than lanes, and none.
+/// Trust goes along in lanes: its horizons are those of runs followed by themselves, and the
+/// outcomes those of runs that nothing goes along with.
+#[test]
+fn trust_in_lanes_is_that_of_one_run_by_itself() {
+    let cases = varied();
+    let counter = Counter::new("running", 0, 0, &unwatched);
+    let alone: Vec<Certainty> = cases.iter().map(Certainty::of).collect();
+    let certain = alone.iter().filter(|one| one.decides_the_end()).count();
+    assert!(certain > 100 && alone.len() - certain > 100, "{certain}");
+    for lanes in Lanes::available() {
+        let together = Certainty::with_outcomes(lanes, &cases, &counter).expect("not cancelled");
+        let (outcomes, certainties): (Vec<_>, Vec<_>) = together.into_iter().unzip();
+        assert_eq!(certainties, alone, "{lanes:?}");
+        assert_eq!(outcomes, lanes.outcomes(&cases).0, "{lanes:?}");
+    }
+}
+
 #[test]
 fn few_cases_fill_no_lanes() {
     let cases = varied();

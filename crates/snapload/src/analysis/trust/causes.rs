@@ -8,10 +8,10 @@ use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::start::START_TOLERANCE;
-use crate::motion::step_map::{Deviation, StepMap};
+use crate::motion::step_map::Deviation;
 
 /// Neighbours are held to reach this many standard deviations.
-const REACH: f64 = 3.0;
+pub(super) const REACH: f64 = 3.0;
 
 /// How far neighbours are spread at some instant.
 pub(super) struct Spread<'a> {
@@ -57,11 +57,20 @@ pub(super) struct Neighbours<'a> {
     pub(super) late: f64,
 }
 
+/// How the run comes to its event.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Approach {
+    /// ż just before it.
+    pub(super) rate: [f64; 6],
+    /// −∇h/ḣ: how much later the event comes for a deviation.
+    pub(super) delay: [f64; 6],
+}
+
 impl Neighbours<'_> {
     /// By how much time they reach before or after the event of the run.
     #[inline(always)]
-    fn reach_in_time(&self, map: &StepMap) -> f64 {
-        let (along, late) = (self.along.covariance.along(map.delay()), self.late);
+    fn reach_in_time(&self, approach: &Approach) -> f64 {
+        let (along, late) = (self.along.covariance.along(&approach.delay), self.late);
         REACH * (along * along + late * late).sqrt()
     }
 }
@@ -71,7 +80,7 @@ impl Neighbours<'_> {
 pub(super) fn cause(
     simulation: &Simulation,
     step: &Step,
-    map: &StepMap,
+    approach: &Approach,
     neighbours: &Neighbours,
     closing: Option<Closing>,
 ) -> Option<HorizonCause> {
@@ -80,7 +89,7 @@ pub(super) fn cause(
         return Some(HorizonCause::Simultaneous);
     }
     if let Some(Closing { cable, .. }) =
-        closing.filter(|closing| may_miss(map, neighbours, closing))
+        closing.filter(|closing| may_miss(approach, neighbours, closing))
     {
         return Some(HorizonCause::Graze { cable });
     }
@@ -96,7 +105,7 @@ pub(super) fn cause(
         }
     }
     let may = may_stop(simulation, step, neighbours)
-        || may_fall_short(simulation, step, map, neighbours)
+        || may_fall_short(simulation, step, approach, neighbours)
         || may_run_out_of_time(simulation, step, &neighbours.met);
     may.then_some(HorizonCause::StopRule)
 }
@@ -170,7 +179,7 @@ pub(super) struct Closing {
 impl Closing {
     /// Of a step that ends with one cable's impact.
     #[inline(always)]
-    pub(super) fn of(simulation: &Simulation, step: &Step, map: &StepMap) -> Option<Self> {
+    pub(super) fn of(simulation: &Simulation, step: &Step, approach: &Approach) -> Option<Self> {
         let mut struck = step.event.reached.gaps.iter();
         let (Some(cable), None) = (struck.next(), struck.next()) else {
             return None;
@@ -180,7 +189,7 @@ impl Closing {
             .normal(&step.before)
             .velocity(&step.before);
         let alpha = if step.taut.is_empty() {
-            let [.., x, y, theta] = *map.rate();
+            let [.., x, y, theta] = approach.rate;
             system.free_normal_acceleration(cable, &step.before, [x, y, theta])
         } else {
             normal_acceleration(system, step.t_end, &step.before, cable, step.taut)
@@ -192,9 +201,9 @@ impl Closing {
 /// With the gap closing at v_n, slowing down at |α|, neighbours that lag by more than v_n/(2|α|) in
 /// time, which is v_n²/(2|α|) along the normal, do not reach the end of the cable at all.
 #[inline(always)]
-fn may_miss(map: &StepMap, neighbours: &Neighbours, closing: &Closing) -> bool {
+fn may_miss(approach: &Approach, neighbours: &Neighbours, closing: &Closing) -> bool {
     let Closing { v_n, alpha, .. } = *closing;
-    alpha < 0.0 && neighbours.reach_in_time(map) * 2.0 * -alpha >= v_n
+    alpha < 0.0 && neighbours.reach_in_time(approach) * 2.0 * -alpha >= v_n
 }
 
 /// Whether some neighbours snap slowly enough to stick and others do not: from there on their
@@ -287,16 +296,16 @@ fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bo
 fn may_fall_short(
     simulation: &Simulation,
     step: &Step,
-    map: &StepMap,
+    approach: &Approach,
     neighbours: &Neighbours,
 ) -> bool {
     let (before, reached) = (&step.before, step.event.reached);
     let Some(limit) = reached.limits.iter().next() else {
         return false;
     };
-    let delay = map.delay();
-    let [.., x, y, theta] = *map.rate();
+    let Approach { rate, delay } = approach;
+    let [.., x, y, theta] = *rate;
     let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
     slowing += delay[1] * limit.centripetal(simulation.system(), before);
-    neighbours.reach_in_time(map) * 2.0 * slowing >= 1.0
+    neighbours.reach_in_time(approach) * 2.0 * slowing >= 1.0
 }

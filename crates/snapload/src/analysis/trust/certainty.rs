@@ -1,8 +1,86 @@
 //! How far a run can be trusted if its values are exact, and nothing more.
 
+use crate::analysis::progress::{Cancelled, Counter};
 use crate::analysis::trust::Horizon;
-use crate::analysis::trust::monitor::TrustMonitor;
+use crate::analysis::trust::bounces::Followed;
+use crate::analysis::trust::parts::Parts;
+use crate::analysis::trust::spread::SpreadMonitor;
+use crate::arithmetic::elementary::Doubles;
+use crate::arithmetic::processor::{Kernel, dispatch};
+use crate::batch::company::{Beside, Companion};
+use crate::batch::lanes::Lanes;
 use crate::case::Case;
+use crate::motion::bounce_map::{BounceMap, Bounced};
+use crate::motion::outcome::Outcome;
+use crate::motion::simulation::{Simulation, Step};
+
+/// A step to be followed, by the best instructions for it.
+struct Following<'a>(&'a mut SpreadMonitor, &'a Simulation, &'a Step);
+
+impl Kernel for Following<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.0.follow(self.1, self.2);
+    }
+}
+
+impl Companion for SpreadMonitor {
+    type Beside<L: Doubles> = Followed<L>;
+
+    fn take(&mut self, simulation: &Simulation, step: &Step) {
+        dispatch(Following(self, simulation, step));
+    }
+
+    fn goes_on(&self) -> bool {
+        self.horizon.is_none()
+    }
+
+    fn fits_a_lane(&self) -> bool {
+        self.is_settled_in()
+    }
+}
+
+impl<L: Doubles> Beside<L> for Followed<L> {
+    type Alone = SpreadMonitor;
+
+    fn empty() -> Self {
+        Self {
+            parts: Parts::none(),
+            slant: L::ONE,
+            tolerance: L::ZERO,
+        }
+    }
+
+    #[inline(always)]
+    fn bounced(&self, plain: L::Mask, bounced: &Bounced<L>) -> (Self, L::Mask) {
+        let through = self.through(bounced, &BounceMap::of(bounced));
+        let after = Self {
+            parts: through.after,
+            ..*self
+        };
+        (after, plain & through.quiet)
+    }
+
+    #[inline(always)]
+    fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
+        let chosen = |yes, no| L::select(mask, yes, no);
+        yes.zip_with(no, L::ZERO, chosen)
+    }
+
+    fn put(&mut self, lane: usize, alone: &SpreadMonitor) {
+        let put = |mut all: L, one| {
+            all.set(lane, one);
+            all
+        };
+        *self = self.zip_with(&alone.followed(), L::ZERO, put);
+    }
+
+    fn get(&self, lane: usize, alone: &mut SpreadMonitor, impacts: u64) {
+        let get = |all: L, _| all.get(lane);
+        alone.go_on(self.zip_with(self, 0.0, get), impacts);
+    }
+}
 
 /// What rounding leaves of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,15 +93,46 @@ impl Certainty {
     /// Of a case; the run is followed as far as its horizon.
     pub fn of(case: &Case) -> Self {
         let mut simulation = case.simulation();
-        let mut monitor = TrustMonitor::of_exact_case(case, &simulation);
-        while monitor.horizon().is_none()
+        let mut monitor = SpreadMonitor::of_exact_case(case, &simulation);
+        while monitor.horizon.is_none()
             && let Some(step) = simulation.step()
         {
-            monitor.follow_spread(&simulation, &step);
+            dispatch(Following(&mut monitor, &simulation, &step));
         }
         Self {
-            horizon: monitor.horizon(),
+            horizon: monitor.horizon,
         }
+    }
+
+    /// Of many cases, and what their runs come to, in their order: side by side, on one thread. Each
+    /// has the bits that it has by itself.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the work that is counted is to end before.
+    pub fn with_outcomes(
+        lanes: Lanes,
+        cases: &[Case],
+        counter: &Counter,
+    ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
+        let mut cancelled = None;
+        let runs = cases.iter().map_while(|case| {
+            cancelled = counter.add(0).err();
+            if cancelled.is_some() {
+                return None;
+            }
+            let simulation = case.simulation();
+            let monitor = SpreadMonitor::of_exact_case(case, &simulation);
+            Some((simulation, monitor))
+        });
+        let (told, _) = lanes.outcomes_beside(runs);
+        if let Some(cancelled) = cancelled {
+            return Err(cancelled);
+        }
+        let certainty = |(outcome, monitor): (Outcome, SpreadMonitor)| {
+            let horizon = monitor.horizon;
+            (outcome, Self { horizon })
+        };
+        Ok(told.into_iter().map(certainty).collect())
     }
 
     /// Whether the way in which the run ends is certain.

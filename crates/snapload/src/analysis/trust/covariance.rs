@@ -1,35 +1,30 @@
 //! The spread of deviations: independent ones, added up.
 
+use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};
 use crate::motion::step_map::{Block, Deviation, combined};
 
-/// How many parts the start and rounding have: as many as a deviation has components.
+/// So many parts a deviation needs: as many as it has components.
 pub(super) const PARTS: usize = 7;
-/// So many columns: one more stays zero, as eight fill a processor's registers.
-pub(super) const COLUMNS: usize = PARTS + 1;
 
 /// Where the deviations (w, τ) of a run's neighbours lie: the sum of independent parts, each one
 /// standard deviation long.
-///
-/// The start and rounding have seven of them, whose squares make up a covariance. The covariance
-/// itself is not carried: a slow impact divides by v_n, and the squares of what it leaves cancel to
-/// nothing, or to less, where the parts still have their digits.
 #[derive(Clone, Debug)]
 pub(super) struct CovarianceFactor {
-    /// For the start and for rounding: a row for each component, a column for each part.
-    pub(super) parts: Block<COLUMNS>,
+    /// For the start and for rounding.
+    pub(super) parts: Parts<f64>,
     /// For each uncertain parameter.
     pub(super) columns: Vec<Deviation>,
 }
 
 /// A spread beyond this is no longer followed: nothing is known, and squares would leave the range
 /// of doubles.
-const LOST: f64 = 1e30;
+pub(super) const LOST: f64 = 1e30;
 
 impl CovarianceFactor {
     /// One part along each component, so long.
     pub(super) fn along_components(sizes: &Deviation) -> Self {
-        let mut parts = [[0.0; COLUMNS]; 7];
-        for (i, (row, size)) in parts.iter_mut().zip(sizes).enumerate() {
+        let mut parts = Parts::none();
+        for (i, (row, size)) in parts.rows.iter_mut().zip(sizes).enumerate() {
             row[i] = *size;
         }
         Self {
@@ -45,46 +40,44 @@ impl CovarianceFactor {
         map: impl FnOnce(&mut Block<COLUMNS>),
         columns: Vec<Deviation>,
     ) -> Self {
-        let mut parts = self.parts;
-        map(&mut parts);
-        Self { parts, columns }
+        let mut rows = self.parts.rows;
+        map(&mut rows);
+        Self {
+            parts: self.parts.with(rows),
+            columns,
+        }
+    }
+
+    /// The same with seven parts, so that the last column is free for one more.
+    #[inline(always)]
+    pub(super) fn with_seven(mut self) -> Self {
+        if self.parts.rows.iter().any(|row| row[LAST] != 0.0) {
+            self.parts.rows = seven(self.parts.rows);
+        }
+        self
     }
 
     /// The same with one more part, in the column that is left free for it.
     #[inline(always)]
     pub(super) fn with_part(mut self, part: &Deviation) -> Self {
-        for (row, entry) in self.parts.iter_mut().zip(part) {
-            row[PARTS] = *entry;
+        for (row, entry) in self.parts.rows.iter_mut().zip(part) {
+            row[LAST] = *entry;
         }
         self
     }
 
-    /// Adds independent parts.
+    /// Adds independent parts; seven remain.
     #[inline(always)]
     pub(super) fn add_parts(&mut self, more: &Block<COLUMNS>) {
         if self.is_lost() {
             return;
         }
-        // Sixteen parts, made seven again by turning them into each other (Householder's
-        // reflections), which leaves the covariance as it is: component by component, all but one
-        // are rid of it.
         let mut all = [[0.0; 2 * COLUMNS]; 7];
-        for (row, (parts, more)) in all.iter_mut().zip(self.parts.iter().zip(more)) {
+        for (row, (parts, more)) in all.iter_mut().zip(self.parts.rows.iter().zip(more)) {
             row[..COLUMNS].copy_from_slice(parts);
             row[COLUMNS..].copy_from_slice(more);
         }
-        // One after the other by hand: which is which is then known when it is compiled.
-        reflect::<0>(&mut all);
-        reflect::<1>(&mut all);
-        reflect::<2>(&mut all);
-        reflect::<3>(&mut all);
-        reflect::<4>(&mut all);
-        reflect::<5>(&mut all);
-        reflect::<6>(&mut all);
-        for (parts, row) in self.parts.iter_mut().zip(&all) {
-            parts[..PARTS].copy_from_slice(&row[..PARTS]);
-            parts[PARTS] = 0.0;
-        }
+        self.parts.rows = seven(all);
     }
 
     /// Whether nothing is known any more.
@@ -93,6 +86,7 @@ impl CovarianceFactor {
         let small = |component: &f64| component.abs() < LOST;
         let parts = self
             .parts
+            .rows
             .as_flattened()
             .iter()
             .fold(true, |all, part| all & small(part));
@@ -102,10 +96,7 @@ impl CovarianceFactor {
     /// Standard deviation of each component.
     #[inline(always)]
     pub(super) fn sizes(&self) -> Deviation {
-        let mut squares = [0.0; 7];
-        for (square, parts) in squares.iter_mut().zip(&self.parts) {
-            *square = dot(parts, parts);
-        }
+        let mut squares = squares(&self.parts.rows);
         for column in &self.columns {
             for (square, part) in squares.iter_mut().zip(column) {
                 *square += part * part;
@@ -120,7 +111,7 @@ impl CovarianceFactor {
     /// Standard deviation of a linear function of the state.
     #[inline(always)]
     pub(super) fn along(&self, direction: &[f64; 6]) -> f64 {
-        let parts = combined(&self.parts, direction);
+        let parts = combined(&self.parts.rows, direction);
         let along =
             |column: &Deviation| -> f64 { direction.iter().zip(column).map(|(l, w)| l * w).sum() };
         let columns: f64 = self
@@ -128,14 +119,33 @@ impl CovarianceFactor {
             .iter()
             .map(|column| along(column).powi(2))
             .sum();
-        (dot(&parts, &parts) + columns).sqrt()
+        (square(&parts) + columns).sqrt()
     }
+}
+
+/// Parts made seven by turning them into each other (Householder's reflections), which leaves the
+/// covariance as it is: component by component, all but one are rid of it.
+#[inline(always)]
+fn seven<const N: usize>(mut all: [[f64; N]; 7]) -> Block<COLUMNS> {
+    // One after the other by hand: which is which is then known when it is compiled.
+    reflect::<0, N>(&mut all);
+    reflect::<1, N>(&mut all);
+    reflect::<2, N>(&mut all);
+    reflect::<3, N>(&mut all);
+    reflect::<4, N>(&mut all);
+    reflect::<5, N>(&mut all);
+    reflect::<6, N>(&mut all);
+    let mut parts = [[0.0; COLUMNS]; 7];
+    for (parts, row) in parts.iter_mut().zip(&all) {
+        parts[..PARTS].copy_from_slice(&row[..PARTS]);
+    }
+    parts
 }
 
 /// Turns the parts from the I-th on into each other, so that only the first of them has anything in
 /// row I.
 #[inline(always)]
-fn reflect<const I: usize>(all: &mut [[f64; 2 * COLUMNS]; 7]) {
+fn reflect<const I: usize, const N: usize>(all: &mut [[f64; N]; 7]) {
     let [.., pivot] = &mut all[..=I] else {
         return;
     };
@@ -200,7 +210,7 @@ mod tests {
     }
 
     fn diagonal(sizes: &Deviation) -> Block<COLUMNS> {
-        CovarianceFactor::along_components(sizes).parts
+        CovarianceFactor::along_components(sizes).parts.rows
     }
 
     #[test]
@@ -217,9 +227,9 @@ mod tests {
             mixed
         });
         covariance = covariance.carried(mix, Vec::new());
-        let before = squares(&covariance.parts);
+        let before = squares(&covariance.parts.rows);
         covariance.add_parts(&diagonal(&noise));
-        let after = squares(&covariance.parts);
+        let after = squares(&covariance.parts.rows);
         for (i, (before, after)) in before.iter().zip(&after).enumerate() {
             for (j, (before, after)) in before.iter().zip(after).enumerate() {
                 let added = if i == j { noise[i] * noise[i] } else { 0.0 };

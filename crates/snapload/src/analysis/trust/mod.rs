@@ -8,11 +8,14 @@
 //! another event than the run: there the linearisation ends, and with it the knowledge of what
 //! follows.
 
+mod bounces;
 mod causes;
 mod certainty;
 mod covariance;
 mod monitor;
+mod parts;
 mod rounding;
+mod spread;
 
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;

@@ -14,7 +14,8 @@
 //! A cable that is closed is known to be so, and computed with a gap of exactly zero: positions are
 //! off along it and not across.
 
-use crate::analysis::trust::covariance::{COLUMNS, PARTS};
+use crate::analysis::trust::covariance::PARTS;
+use crate::analysis::trust::parts::COLUMNS;
 use crate::case::Case;
 use crate::case::parameters::Parameters;
 use crate::model::cable::Normal;
@@ -25,7 +26,12 @@ use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, Deviation, StepMap};
 
 /// Standard deviation of a number that is rounded three times on its way, relative to it: √3 ε/4.
-const ROUNDING: f64 = 0.43 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 0.43 * f64::EPSILON;
+
+/// What a bound on the error of a gap is of the standard deviation across the cable's end, with the
+/// length: g = |d|² − r² changes by 2r times that, and the bound is a sum of about eight roundings at
+/// their worst.
+pub(super) const BOUND_OF_GAP: f64 = 1.0 / 16.0;
 
 /// What rounding does in one step.
 #[derive(Clone, Copy, Debug)]
@@ -218,11 +224,10 @@ fn keep_known_gap(
     }
 }
 
-/// Standard deviation of a place across a cable's end, of a bound on the error of its gap: g = |d|² −
-/// r² changes by 2r times it, and the bound is a sum of about eight roundings at their worst.
+/// Standard deviation of a place across a cable's end, of a bound on the error of its gap.
 #[inline(always)]
 fn across(error: f64, length: f64) -> f64 {
-    error / (8.0 * 2.0 * length)
+    error / length * BOUND_OF_GAP
 }
 
 /// By how much x, y and θ yield where a body is put back onto its cables.

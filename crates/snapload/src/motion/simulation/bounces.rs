@@ -6,11 +6,12 @@ use crate::arithmetic::real::Real;
 use crate::model::state::State;
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce, highest_point};
+use crate::motion::bounce_map::Bounced;
 use crate::motion::contact::Contact;
 use crate::motion::events::Reached;
 use crate::motion::extremes::Extremes;
 use crate::motion::impact::ImpactResult;
-use crate::motion::simulation::{Event, Progress, Simulation};
+use crate::motion::simulation::{Event, Progress, Simulation, Step};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 impl<T: Real> Simulation<T> {
@@ -18,7 +19,7 @@ impl<T: Real> Simulation<T> {
     /// itself comes to [`bounce`] in a lane, so it is one in both or in neither.
     #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
-        self.bounce_start = None;
+        (self.bounce_start, self.course) = (None, None);
         let from = self.after_impact()?;
         let bounce = bounce(self.two_cables.as_ref()?, &from);
         if bounce.arrived {
@@ -84,6 +85,27 @@ impl<T: Real> Simulation<T> {
         self.last = progress.last;
     }
 
+    /// The latest step, if it was a bounce and nothing more.
+    #[inline(always)]
+    pub(crate) fn bounced<'a>(&'a self, step: &'a Step<T>) -> Option<Bounced<'a, T>> {
+        let (two_cables, from) = (self.two_cables.as_ref()?, self.bounce_start.as_ref()?);
+        let (course, result) = (self.course.as_ref()?, step.result.as_ref()?);
+        let struck = step.event.closed.iter().next()?;
+        let Contact { gap, error, .. } = self.contacts[1 - struck];
+        Some(Bounced {
+            two_cables,
+            from,
+            t: step.t_end,
+            second: struck == 1,
+            before: &step.before,
+            after: &step.after,
+            v_n: result.v_before[struck],
+            impulse: result.impulse[struck],
+            other_gap: [gap, error],
+            course,
+        })
+    }
+
     fn know(&mut self, gaps: &[[T; 2]; 2]) {
         for (contact, [gap, error]) in self.contacts.iter_mut().zip(*gaps) {
             *contact = Contact {
@@ -120,6 +142,7 @@ impl<T: Real> Simulation<T> {
                 return (event, None);
             }
             self.state = next.state;
+            self.course = Some(bounce.course);
             self.end_slow_row();
             let result = ImpactResult::of_one(
                 struck,

@@ -1,0 +1,360 @@
+//! The spread of neighbours through a bounce, of one run or of several side by side in the lanes of
+//! the processor.
+//!
+//! What a bounce does to deviations is [`BounceMap`]; what its rounding adds is what
+//! [`crate::analysis::trust::rounding`] says of any step, written out for one closed cable: a
+//! position is off along the end of that cable and by a turn about it, and, where the other gap is
+//! known better, as far as that allows. Whether neighbours may leave the run's sequence of events is
+//! asked by bounds here, without roots: where one of them does not hold,
+//! [`crate::analysis::trust::causes`] decides.
+
+use crate::analysis::trust::causes::REACH;
+use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};
+use crate::analysis::trust::rounding::{BOUND_OF_GAP, ROUNDING};
+use crate::analysis::trust::spread::ERROR;
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::plane::Vector2;
+use crate::model::cable::Normal;
+use crate::motion::bounce_map::{BounceMap, Bounced, Rows};
+use crate::motion::two_cable_flight::EARLY;
+
+/// Bounds are computed in rounded arithmetic; this factor makes them safe.
+const SAFE: f64 = 1.001;
+
+/// What is followed of a run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Followed<L> {
+    pub(super) parts: Parts<L>,
+    /// See [`crate::analysis::trust::rounding::slant`].
+    pub(super) slant: L,
+    pub(super) tolerance: L,
+}
+
+/// What a bounce made of it.
+pub(super) struct Through<L: Lane> {
+    /// Just before the impact: told at the previous event's time, and at its own.
+    pub(super) along: Rows<L, COLUMNS>,
+    pub(super) met: Rows<L, COLUMNS>,
+    pub(super) after: Parts<L>,
+    /// Whether it is certain that no neighbour has another event, and that the error is within the
+    /// tolerance.
+    pub(super) quiet: L::Mask,
+}
+
+impl<L: Lane> Followed<L> {
+    /// What `number` makes of each number and the other's.
+    #[inline(always)]
+    pub(super) fn zip_with<M: Copy, U: Copy>(
+        &self,
+        other: &Followed<M>,
+        zero: U,
+        number: impl Fn(L, M) -> U,
+    ) -> Followed<U> {
+        Followed {
+            parts: self.parts.zip_with(&other.parts, zero, &number),
+            slant: number(self.slant, other.slant),
+            tolerance: number(self.tolerance, other.tolerance),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn through(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
+        let mut rounding = BounceRounding::of(bounced, self.slant);
+        let [sign, other_sign] = self.parts.signs();
+        rounding.give(sign, other_sign);
+        let mut rows = self.parts.rows;
+        map.along(&mut rows);
+        rounding.add_location(bounced, &mut rows);
+        let along = rows;
+        let later = map.meet(&mut rows);
+        let met = rows;
+        map.through(&mut rows);
+        rounding.add(map, &mut rows);
+        let after = self.parts.with(rows);
+        let reach = Reach::of(bounced, squares(&met), square(&later));
+        let known = reach.error(&after.rows, rounding.place_squared()) * SAFE;
+        let quiet = known.below(self.tolerance * self.tolerance)
+            & reach.meets_all(bounced)
+            & reach.leaves_the_other_open(bounced)
+            & reach.stops_nowhere(bounced);
+        let mut after = after;
+        after.turn();
+        Through {
+            along,
+            met,
+            after,
+            quiet,
+        }
+    }
+}
+
+/// Standard deviations of what rounding does in a bounce.
+struct BounceRounding<L> {
+    /// Across the end of the cable that snaps, where the impact is located.
+    location: L,
+    /// Along its end: by x and by y.
+    along: [L; 2],
+    /// How the body is displaced as it is turned by a rounding.
+    turned: [L; 3],
+    /// Of the velocities, the time, and the direction and the turn that the law is told.
+    speed: L,
+    spin: L,
+    time: L,
+    direction: L,
+    turn: L,
+    across: Vector2<L>,
+}
+
+impl<L: Lane> BounceRounding<L> {
+    #[inline(always)]
+    fn of(bounced: &Bounced<L>, slant: L) -> Self {
+        let (start, before, after) = (&bounced.from.state, bounced.before, bounced.after);
+        let s = bounced.t - bounced.from.t;
+        let Normal { n, arm } = bounced.course.normal;
+        let other = bounced.course.other;
+        let cables = &bounced.two_cables.cables;
+        let [per_length, other_per_length] = bounced.each(|k| cables[k].per_length());
+        let moved = [
+            start.vx.abs().larger(before.vx.abs()) * s,
+            start.vy.abs().larger(before.vy.abs()) * s,
+            before.vtheta.abs() * s,
+        ];
+        let place = |at: L, moved: L| (at.abs() + moved) * ROUNDING;
+        let [x, y, theta] = [
+            place(before.x, moved[0]),
+            place(before.y, moved[1]),
+            place(before.theta, moved[2]),
+        ];
+        let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let [gap_error, _] = bounced.each(|k| bounced.from.gaps[k][1]);
+        let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
+        // Where the cable leads in another direction, its end is reached elsewhere; but one that was
+        // closed at the start has its end there.
+        let flown = before
+            .vtheta
+            .abs()
+            .mul_add(reach, before.velocity().length_bound())
+            * s;
+        let away = before
+            .theta
+            .abs()
+            .mul_add(reach, before.x.abs() + before.y.abs());
+        let swung = (slant - 1.0) * L::select(L::ZERO.at_most(gap), flown, away);
+        let offs =
+            [moved[0] * n.x, moved[1] * n.y, moved[2] * arm, swung].map(|off| off * ROUNDING);
+        let known = gap_error * per_length * BOUND_OF_GAP;
+        let mut location = known * known;
+        for off in offs {
+            location = off.mul_add(off, location);
+        }
+        // Displacements along the end of the cable change the other gap; where that is known
+        // better, they are what it allows.
+        let tangent = n.quarter_turn();
+        let along = [x * tangent.x, y * tangent.y];
+        let slide = tangent.dot(other.n);
+        let roll = other.arm - arm * n.dot(other.n);
+        let gap_known = bounced.other_gap[1] * other_per_length * BOUND_OF_GAP;
+        let [a, b, c] = [along[0] * slide, along[1] * slide, theta * roll];
+        let better = (gap_known * gap_known).below(a.mul_add(a, b.mul_add(b, c * c)))
+            & L::EPSILON.below(slide * slide);
+        let per_slide = L::ONE / slide;
+        let aside = L::select(better, -(c * per_slide), L::ZERO);
+        let inward = -(theta * arm);
+        let speed = before
+            .velocity()
+            .length_bound()
+            .larger(after.velocity().length_bound());
+        let spin = before.vtheta.abs().larger(after.vtheta.abs());
+        Self {
+            location: location.sqrt(),
+            along: [
+                L::select(better, gap_known * per_slide, along[0]),
+                L::select(better, L::ZERO, along[1]),
+            ],
+            turned: [
+                inward.mul_add(n.x, aside * tangent.x),
+                inward.mul_add(n.y, aside * tangent.y),
+                theta,
+            ],
+            speed: speed * ROUNDING,
+            spin: spin * ROUNDING,
+            time: bounced.t * (ROUNDING * std::f64::consts::SQRT_2),
+            direction: slant * (0.5 * ROUNDING),
+            turn: L::from_f64(ROUNDING),
+            across: tangent,
+        }
+    }
+
+    /// Gives them the signs of a step: that of the location is another.
+    #[inline(always)]
+    fn give(&mut self, sign: L, other_sign: L) {
+        self.location = self.location * other_sign;
+        for size in self.along.iter_mut().chain(&mut self.turned) {
+            *size = *size * sign;
+        }
+        let sizes = [&mut self.speed, &mut self.spin, &mut self.time];
+        for size in sizes
+            .into_iter()
+            .chain([&mut self.direction, &mut self.turn])
+        {
+            *size = *size * sign;
+        }
+    }
+
+    /// An impact that is located late is one of a place off across the end of the cable.
+    #[inline(always)]
+    fn add_location(&self, bounced: &Bounced<L>, rows: &mut Rows<L, COLUMNS>) {
+        let n = bounced.course.normal.n;
+        rows[0][LAST] = self.location.mul_add(n.x, rows[0][LAST]);
+        rows[1][LAST] = self.location.mul_add(n.y, rows[1][LAST]);
+    }
+
+    /// What is stored after the impact, and what its law is told: each part in a place of its own.
+    #[inline(always)]
+    fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>) {
+        for (k, along) in self.along.into_iter().enumerate() {
+            rows[0][k] = along.mul_add(self.across.x, rows[0][k]);
+            rows[1][k] = along.mul_add(self.across.y, rows[1][k]);
+        }
+        for i in 0..3 {
+            rows[i][2] = rows[i][2] + self.turned[i];
+        }
+        for (i, size) in [self.speed, self.speed, self.spin, self.time]
+            .into_iter()
+            .enumerate()
+        {
+            rows[3 + i][3 + i] = rows[3 + i][3 + i] + size;
+        }
+        let by_direction = map.law_of_turning(L::ZERO, self.direction, self.direction);
+        let by_turn = map.law_of_turning(L::ZERO, L::ZERO, -self.turn);
+        for i in 0..3 {
+            rows[3 + i][0] = rows[3 + i][0] + by_direction[i];
+            rows[3 + i][2] = rows[3 + i][2] + by_turn[i];
+        }
+    }
+
+    /// A bound on the squares of what is added to the place and the time.
+    #[inline(always)]
+    fn place_squared(&self) -> L {
+        let mut sum = self.time * self.time;
+        for part in self.along.into_iter().chain(self.turned) {
+            sum = part.mul_add(part, sum);
+        }
+        sum
+    }
+}
+
+/// How far neighbours reach: squares of standard deviations.
+struct Reach<L> {
+    /// Of each component, at the neighbour's own impact.
+    met: [L; 7],
+    /// Of the time by which the impact comes later.
+    later: L,
+    /// Of the place that the fairleads have then, at whatever time it is told; of the rotation and
+    /// of the height likewise.
+    place: L,
+    theta: L,
+    height: L,
+}
+
+impl<L: Lane> Reach<L> {
+    #[inline(always)]
+    fn of(bounced: &Bounced<L>, met: [L; 7], later: L) -> Self {
+        let before = bounced.before;
+        let [one, two] = bounced.two_cables.reach;
+        let reach = one.larger(two);
+        let speed = before
+            .vtheta
+            .abs()
+            .mul_add(reach, before.velocity().length_bound());
+        // (Σ of three)² ≤ 3 Σ of squares, and what the time adds is one more.
+        let place = (reach * reach).mul_add(met[2], met[0] + met[1]);
+        let told = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
+        Self {
+            met,
+            later,
+            place: told(place * 3.0, speed),
+            theta: told(met[2], before.vtheta),
+            height: told(met[1], before.vy),
+        }
+    }
+
+    /// A bound on the square of the error. What rounding adds to the place is told by
+    /// `place_added`, as (a + b)² ≤ (1 + 1/64) a² + 65 b².
+    #[inline(always)]
+    fn error(&self, after: &Rows<L, COLUMNS>, place_added: L) -> L {
+        let mut sum = place_added * 65.0;
+        for square in self.met {
+            sum = square.mul_add(L::from_f64(1.0 + 1.0 / 64.0), sum);
+        }
+        for row in &after[3..6] {
+            sum = sum + square(row);
+        }
+        sum * (ERROR * ERROR)
+    }
+
+    /// Whether all neighbours have the impact, in time, and rebound from it.
+    #[inline(always)]
+    fn meets_all(&self, bounced: &Bounced<L>) -> L::Mask {
+        const SQUARE: f64 = REACH * REACH * SAFE;
+        let (two_cables, before) = (bounced.two_cables, bounced.before);
+        let [one, two] = two_cables.reach;
+        let reach = one.larger(two);
+        // The gap's closing slows down by no more than |P̈|.
+        let slowing = (before.vtheta * before.vtheta).mul_add(reach, two_cables.force[0]);
+        let v_n = bounced.v_n;
+        let closes = (self.later * slowing * slowing * (4.0 * SQUARE)).below(v_n * v_n);
+        // n turns by at most 1/r, and by the lever over r.
+        let [per_length, _] = bounced.each(|k| two_cables.cables[k].per_length());
+        let speed = before
+            .vtheta
+            .abs()
+            .mul_add(reach, before.velocity().length_bound());
+        let turns = speed * (reach + 1.0) * (reach + 1.0) * per_length;
+        let [x, y, theta, vx, vy, vtheta, tau] = self.met;
+        let normal_velocity =
+            (turns * turns).mul_add(x + y + theta, (reach * reach).mul_add(vtheta, vx + vy));
+        let left = v_n - two_cables.v_stick;
+        let rebounds = (normal_velocity * (6.0 * SQUARE)).below(left * left);
+        let left = two_cables.t_end - bounced.t;
+        closes & rebounds & (tau * SQUARE).below(left * left)
+    }
+
+    /// Whether the other gap stays open by more than neighbours reach. Where that cable was closed
+    /// at the start of the flight it is closed for all of them, and they spread from there.
+    #[inline(always)]
+    fn leaves_the_other_open(&self, bounced: &Bounced<L>) -> L::Mask {
+        let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
+        let [_, length] = bounced.each(|k| bounced.two_cables.cables[k].length());
+        let s = bounced.t - bounced.from.t;
+        let slope = bounced.course.slope;
+        let within = L::select(
+            gap.below(L::ZERO),
+            gap.larger(slope.mul_add(s * EARLY, gap)),
+            slope * s,
+        );
+        let largest = within
+            .larger(bounced.course.late)
+            .larger(bounced.other_gap[0]);
+        const FACTOR: f64 = 4.0 * REACH * REACH * SAFE;
+        let margin = length * length * self.place * FACTOR;
+        largest.below(L::ZERO) & margin.below(largest * largest)
+    }
+
+    /// Whether no neighbour comes to a limit.
+    #[inline(always)]
+    fn stops_nowhere(&self, bounced: &Bounced<L>) -> L::Mask {
+        const SQUARE: f64 = REACH * REACH * SAFE;
+        let two_cables = bounced.two_cables;
+        let (start, end) = (&bounced.from.state, bounced.before);
+        let s = bounced.t - bounced.from.t;
+        let turned = start.theta.abs().larger(end.theta.abs());
+        let left = two_cables.rotation_limit - turned;
+        let turns = L::ZERO.below(left) & (self.theta * SQUARE).below(left * left);
+        let bend = two_cables.vertical_acceleration_bound * s * s * 0.125;
+        let left = two_cables.level - (start.y.larger(end.y) + bend);
+        let outline = two_cables.outline;
+        let top = (outline * outline).mul_add(self.theta, self.height) * 2.0;
+        turns & L::ZERO.below(left) & (top * SQUARE).below(left * left)
+    }
+}

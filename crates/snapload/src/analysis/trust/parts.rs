@@ -1,0 +1,233 @@
+//! The independent parts whose squares make up a covariance, of one run or of several side by side.
+//!
+//! A part is a deviation (w, τ) one standard deviation long; the parts p_1 … p_8 of a run stand for
+//! the covariance Σ p_k p_kᵀ. The covariance itself is not carried: a slow impact divides by v_n, and
+//! the squares of what it leaves cancel to nothing, or to less, where the parts still have their
+//! digits.
+//!
+//! Every step adds as many new parts by its rounding. To carry them all apart is impossible, and to
+//! turn them into eight again (Householder's reflections) takes several times as long as the step
+//! itself. Instead *each new part is added to an old one, with a sign that follows no rule*: of
+//! (p ± q)(p ± q)ᵀ = ppᵀ + qqᵀ ± (pqᵀ + qpᵀ) the last summand is zero on average over the signs. As
+//! deviations are carried linearly, the average over the signs is the exact covariance at every later
+//! time, too. One choice of signs is off by what the last summands come to: nothing where one step's
+//! rounding outgrows what later steps add, as it does where neighbours part exponentially, and, where
+//! the roundings of many steps count alike, as much as a standard deviation that is measured from
+//! eight samples, a quarter of it. The parts change places after each step, so that the same kind of
+//! rounding comes into each.
+
+use crate::arithmetic::elementary::rounded;
+use crate::arithmetic::lane::Lane;
+use crate::motion::bounce_map::Rows;
+
+/// As many as a vector register of a processor holds.
+pub(super) const COLUMNS: usize = 8;
+/// The place of the parts beside those of the seven components.
+pub(super) const LAST: usize = COLUMNS - 1;
+
+/// Deviations one standard deviation long, as columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parts<L> {
+    pub(super) rows: Rows<L, COLUMNS>,
+    signs: Signs<L>,
+}
+
+impl<L: Lane> Parts<L> {
+    /// None yet.
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        Self {
+            rows: [[L::ZERO; COLUMNS]; 7],
+            signs: Signs(L::ZERO),
+        }
+    }
+
+    /// The same with other rows.
+    #[inline(always)]
+    pub(super) fn with(&self, rows: Rows<L, COLUMNS>) -> Self {
+        Self { rows, ..*self }
+    }
+
+    /// The signs of this step: one, and one that is independent of it.
+    #[inline(always)]
+    pub(super) fn signs(&self) -> [L; 2] {
+        let Signs(u) = self.signs;
+        let sign = |u: L| L::select(u.below(L::ZERO), L::from_f64(-1.0), L::ONE);
+        [sign(u), sign(u.abs() - 0.25)]
+    }
+
+    /// The parts change places, and signs, for the next step.
+    #[inline(always)]
+    pub(super) fn turn(&mut self) {
+        for row in &mut self.rows {
+            let last = row[LAST];
+            for k in (1..COLUMNS).rev() {
+                row[k] = row[k - 1];
+            }
+            row[0] = last;
+        }
+        self.signs = self.signs.next();
+    }
+
+    /// What `number` makes of each number and the other's.
+    #[inline(always)]
+    pub(super) fn zip_with<M: Copy, U: Copy>(
+        &self,
+        other: &Parts<M>,
+        zero: U,
+        number: impl Fn(L, M) -> U,
+    ) -> Parts<U> {
+        let mut rows = [[zero; COLUMNS]; 7];
+        for i in 0..7 {
+            for k in 0..COLUMNS {
+                rows[i][k] = number(self.rows[i][k], other.rows[i][k]);
+            }
+        }
+        Parts {
+            rows,
+            signs: Signs(number(self.signs.0, other.signs.0)),
+        }
+    }
+}
+
+/// Σ p_k², row by row.
+#[inline(always)]
+pub(super) fn squares<L: Lane, const R: usize>(rows: &[[L; COLUMNS]; R]) -> [L; R] {
+    let mut sums = [L::ZERO; R];
+    for (sum, row) in sums.iter_mut().zip(rows) {
+        *sum = square(row);
+    }
+    sums
+}
+
+/// Σ p_k², as four sums that a processor can do at once.
+#[inline(always)]
+pub(super) fn square<L: Lane>(row: &[L; COLUMNS]) -> L {
+    let mut sums = [L::ZERO; 4];
+    for k in 0..4 {
+        sums[k] = row[k].mul_add(row[k], row[k + 4] * row[k + 4]);
+    }
+    (sums[0] + sums[2]) + (sums[1] + sums[3])
+}
+
+/// A sequence of signs without order, the same for every run: the first bits of the numbers of a
+/// linear congruential generator of 26 bits, as fractions of one around zero, which doubles hold
+/// exactly.
+#[derive(Clone, Copy, Debug)]
+struct Signs<L>(L);
+
+impl<L: Lane> Signs<L> {
+    #[inline(always)]
+    fn next(self) -> Self {
+        const FACTOR: f64 = 1_664_525.0;
+        const SUMMAND: f64 = 13_904_223.0 / (1u64 << 26) as f64;
+        let next = self.0.mul_add(L::from_f64(FACTOR), L::from_f64(SUMMAND));
+        Self(next - rounded(next))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEPS: usize = 12;
+    const DRAWS: usize = 20_000;
+
+    /// A map of some step, without a symmetry, that neither shrinks nor stretches by much.
+    fn entry(step: usize, i: usize, j: usize) -> f64 {
+        let mixed = (step * 7 + i * 3 + j * 5) as f64;
+        0.3 * mixed.sin() + if i == j { 0.8 } else { 0.0 }
+    }
+
+    /// The rounding of a component in some step.
+    fn size(step: usize, i: usize) -> f64 {
+        1.0 + 0.9 * ((step * 5 + i * 11) as f64).cos()
+    }
+
+    fn carried(columns: &Rows<f64, COLUMNS>, step: usize) -> Rows<f64, COLUMNS> {
+        let mut next = [[0.0; COLUMNS]; 7];
+        for i in 0..7 {
+            for j in 0..7 {
+                for k in 0..COLUMNS {
+                    next[i][k] += entry(step, i, j) * columns[j][k];
+                }
+            }
+        }
+        next
+    }
+
+    /// Σ over steps of what the later maps make of a step's roundings, squared: the covariance.
+    fn exact() -> [f64; 7] {
+        let mut sums = [0.0; 7];
+        for first in 0..STEPS {
+            let mut rows = [[0.0; COLUMNS]; 7];
+            for (i, row) in rows.iter_mut().enumerate() {
+                row[i] = size(first, i);
+            }
+            for step in first + 1..STEPS {
+                rows = carried(&rows, step);
+            }
+            for (sum, square) in sums.iter_mut().zip(squares(&rows)) {
+                *sum += square;
+            }
+        }
+        sums
+    }
+
+    /// On average over the signs the parts make up the covariance, and a single choice of signs is
+    /// seldom far from it.
+    #[test]
+    fn parts_stand_for_the_covariance() {
+        let mut signs = Signs(0.0);
+        let (mut means, mut far) = ([0.0; 7], 0);
+        for _ in 0..DRAWS {
+            for _ in 0..STEPS {
+                signs = signs.next();
+            }
+            let mut parts = Parts {
+                signs,
+                ..Parts::none()
+            };
+            for step in 0..STEPS {
+                parts.rows = carried(&parts.rows, step);
+                let [sign, _] = parts.signs();
+                for i in 0..7 {
+                    parts.rows[i][i] += sign * size(step, i);
+                }
+                parts.turn();
+            }
+            let squares = squares(&parts.rows);
+            for (mean, square) in means.iter_mut().zip(squares) {
+                *mean += square / DRAWS as f64;
+            }
+            let far_off = |(square, exact): (f64, f64)| !(0.25..4.0).contains(&(square / exact));
+            far += usize::from(squares.into_iter().zip(exact()).any(far_off));
+        }
+        for (mean, exact) in means.into_iter().zip(exact()) {
+            assert!((mean / exact - 1.0).abs() < 0.02, "{mean} {exact}");
+        }
+        let share = far as f64 / DRAWS as f64;
+        println!("off by more than a factor of two: {share}");
+        assert!(share < 0.1, "{share}");
+    }
+
+    /// No sign follows from those before: neither do they come in runs, nor in turns.
+    #[test]
+    fn signs_have_no_order() {
+        let mut parts = Parts::<f64>::none();
+        let (count, mut before) = (1 << 16, [1.0; 2]);
+        let mut sums = [0.0; 5];
+        for _ in 0..count {
+            let [one, two] = parts.signs();
+            let pairs = [one, two, one * two, one * before[0], two * before[1]];
+            for (sum, sign) in sums.iter_mut().zip(pairs) {
+                *sum += sign;
+            }
+            before = [one, two];
+            parts.turn();
+        }
+        // Four standard deviations of as many independent signs.
+        let most = 4.0 * f64::from(count).sqrt();
+        assert!(sums.iter().all(|sum| sum.abs() < most), "{sums:?}");
+    }
+}

@@ -1,0 +1,400 @@
+//! Follows the spread of a run's neighbours, as far as there is any knowledge of them.
+
+use crate::analysis::trust::bounces::Followed;
+use crate::analysis::trust::causes::{
+    Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
+};
+use crate::analysis::trust::covariance::{CovarianceFactor, LOST};
+use crate::analysis::trust::parts::squares;
+use crate::analysis::trust::rounding::{self, Rounding};
+use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
+use crate::arithmetic::dual::Dual;
+use crate::arithmetic::processor::{Kernel, dispatch};
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::value::Value;
+use crate::model::rules::Stop;
+use crate::model::state::State;
+use crate::motion::bounce_map::{BounceMap, Bounced};
+use crate::motion::simulation::{Simulation, Step};
+use crate::motion::step_map::{Block, Deviation, StepMap, combined};
+use crate::motion::tangent::Tangent;
+
+/// So many standard deviations make an error: 95 % of what is distributed normally lies within.
+pub(super) const ERROR: f64 = 2.0;
+
+/// The rounding of so many steps is added up exactly; later bounces add theirs as
+/// [`crate::analysis::trust::parts`] says. Where deviations grow, the first roundings come to most of
+/// the error, and are too few for an average.
+const EXACT_STEPS: u32 = 4;
+
+/// The spread of a run's neighbours, and where the knowledge of it ends.
+#[derive(Clone, Debug)]
+pub(super) struct SpreadMonitor {
+    tolerance: f64,
+    tangent: Tangent,
+    pub(super) covariance: CovarianceFactor,
+    /// How many roundings the cables are off by in their direction.
+    slant: f64,
+    keys: Vec<UncertainKey>,
+    /// The impacts so far.
+    pub(super) impacts: usize,
+    /// The steps so far, up to [`EXACT_STEPS`].
+    steps: u32,
+    pub(super) horizon: Option<Horizon>,
+    /// Whether no digit is left.
+    lost: bool,
+    pub(super) end_error: f64,
+}
+
+/// The same run with its derivatives by an uncertain parameter.
+#[derive(Clone, Debug)]
+struct UncertainKey {
+    simulation: Simulation<Dual<f64, 1>>,
+    /// Standard deviation of the parameter.
+    size: f64,
+    /// That of (w, τ), at the latest event.
+    deviation: Deviation,
+}
+
+/// The standard deviation of a value that lies anywhere within ± `size`.
+fn uniform(size: f64) -> f64 {
+    size / 3.0_f64.sqrt()
+}
+
+/// What a step does to deviations.
+pub(super) enum LinearMap {
+    /// That of a bounce.
+    Bounce(BounceMap<f64>),
+    /// That of any step.
+    Step(StepMap),
+}
+
+impl LinearMap {
+    /// Of the step that `simulation` has just made.
+    #[inline(always)]
+    fn of(tangent: &Tangent, simulation: &Simulation, step: &Step) -> Self {
+        match simulation.bounced(step) {
+            Some(bounced) => Self::Bounce(BounceMap::of(&bounced)),
+            None => Self::Step(tangent.of_step(simulation, step)),
+        }
+    }
+
+    /// See [`StepMap::magnification`].
+    #[inline(always)]
+    pub(super) fn magnification(&self) -> f64 {
+        match self {
+            Self::Bounce(map) => map.magnification(),
+            Self::Step(map) => map.magnification(),
+        }
+    }
+
+    #[inline(always)]
+    fn approach(&self) -> Approach {
+        match self {
+            Self::Bounce(map) => Approach {
+                rate: map.rate(),
+                delay: map.delay(),
+            },
+            Self::Step(map) => Approach {
+                rate: *map.rate(),
+                delay: *map.delay(),
+            },
+        }
+    }
+
+    /// How the gap of the one cable that snaps closes, if it does.
+    #[inline(always)]
+    pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
+        Closing::of(simulation, step, &self.approach())
+    }
+}
+
+/// Any step to be carried through, by the best instructions for it.
+struct Carrying<'a>(&'a mut SpreadMonitor, &'a Simulation, &'a Step);
+
+impl Kernel for Carrying<'_> {
+    type Output = (f64, LinearMap);
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        self.0.carry(self.1, self.2)
+    }
+}
+
+impl SpreadMonitor {
+    /// Of a motion about to begin, whose start may be off by `start`.
+    pub(super) fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
+        let tangent = Tangent::new(simulation.system());
+        let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
+        let mut covariance =
+            CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
+        let cause = cause_at_start(simulation, &covariance);
+        if !simulation.closed().is_empty() {
+            let projection = tangent.of_start(simulation);
+            let project = |block: &mut Block<_>| {
+                let projected = projection.map(|row| combined(block, &row));
+                block[..6].copy_from_slice(&projected);
+            };
+            covariance = covariance.carried(project, Vec::new());
+        }
+        covariance.add_parts(&rounding::of_start(
+            simulation.system(),
+            simulation.state(),
+            simulation.time(),
+            simulation.closed(),
+        ));
+        let cause = cause.or_else(|| {
+            may_stop_at_start(simulation, &Spread::of(&covariance))
+                .then_some(HorizonCause::StopRule)
+        });
+        let horizon = cause.map(|cause| Horizon {
+            t: simulation.time(),
+            impact: 1,
+            cause,
+        });
+        Self {
+            tolerance,
+            tangent,
+            covariance,
+            slant: 1.0,
+            keys: Vec::new(),
+            impacts: 0,
+            steps: 0,
+            horizon,
+            lost: false,
+            end_error: 0.0,
+        }
+    }
+
+    /// Of a case, with all that is in doubt.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a key that is in doubt has no value in this case.
+    pub(super) fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
+        let start = uncertainty.of_start_of(case.parameters());
+        let mut monitor = Self {
+            slant: rounding::slant(case),
+            ..Self::new(&case.simulation(), &start, uncertainty.tolerance)
+        };
+        for (name, size) in &uncertainty.keys {
+            monitor.keys.push(UncertainKey::new(case, name, *size)?);
+        }
+        monitor.covariance.columns = monitor.keys.iter().map(|key| key.deviation).collect();
+        Ok(monitor)
+    }
+
+    /// Of the simulation of a case whose values are exact, so that rounding alone is in doubt.
+    pub(super) fn of_exact_case(case: &Case, simulation: &Simulation) -> Self {
+        let tolerance = Uncertainty::default().tolerance;
+        Self {
+            slant: rounding::slant(case),
+            ..Self::new(simulation, &[0.0; 6], tolerance)
+        }
+    }
+
+    /// Takes in the step that `simulation` has just made; returns the error at its event and what
+    /// it does to deviations.
+    #[inline(always)]
+    pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> (f64, LinearMap) {
+        let rows = step.impacts().count();
+        let (error, map) = if self.is_lost() {
+            self.lose(step, HorizonCause::Tolerance);
+            (
+                f64::INFINITY,
+                LinearMap::of(&self.tangent, simulation, step),
+            )
+        } else {
+            match simulation.bounced(step).filter(|_| self.is_settled_in()) {
+                Some(bounced) => self.carry_bounce(simulation, step, &bounced),
+                None => dispatch(Carrying(self, simulation, step)),
+            }
+        };
+        self.impacts += rows;
+        self.steps = (self.steps + 1).min(EXACT_STEPS);
+        (error, map)
+    }
+
+    /// Whether bounces may be followed as [`crate::analysis::trust::parts`] says.
+    pub(super) fn is_settled_in(&self) -> bool {
+        self.steps == EXACT_STEPS && self.keys.is_empty()
+    }
+
+    /// Past an event that neighbours may not share, or with no digit left, nothing is known.
+    #[inline(always)]
+    fn is_lost(&self) -> bool {
+        let other_events = self
+            .horizon
+            .is_some_and(|h| h.cause != HorizonCause::Tolerance);
+        other_events || self.lost
+    }
+
+    /// What bounces are followed by.
+    #[inline(always)]
+    pub(super) fn followed(&self) -> Followed<f64> {
+        Followed {
+            parts: self.covariance.parts,
+            slant: self.slant,
+            tolerance: self.tolerance,
+        }
+    }
+
+    /// Goes on from where bounces that were followed elsewhere have led, so many impacts later.
+    pub(super) fn go_on(&mut self, followed: Followed<f64>, impacts: u64) {
+        self.covariance.parts = followed.parts;
+        self.impacts += impacts as usize;
+    }
+
+    /// Carries the spread through a bounce.
+    #[inline(always)]
+    fn carry_bounce(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        bounced: &Bounced<f64>,
+    ) -> (f64, LinearMap) {
+        let map = BounceMap::of(bounced);
+        let through = self.followed().through(bounced, &map);
+        let map = LinearMap::Bounce(map);
+        if !through.quiet {
+            let told = |rows| CovarianceFactor {
+                parts: self.covariance.parts.with(rows),
+                columns: Vec::new(),
+            };
+            let (along, met) = (told(through.along), told(through.met));
+            let neighbours = Neighbours {
+                along: Spread::of(&along),
+                met: Spread::of(&met),
+                late: 0.0,
+            };
+            let approach = map.approach();
+            let closing = Closing::of(simulation, step, &approach);
+            if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
+                self.lose(step, cause);
+            }
+        }
+        self.covariance.parts = through.after;
+        let squares = [squares(&through.met), squares(&through.after.rows)];
+        (self.judge(step, &squares), map)
+    }
+
+    /// Carries the spread through any step.
+    #[inline(always)]
+    fn carry(&mut self, simulation: &Simulation, step: &Step) -> (f64, LinearMap) {
+        let map = self.tangent.of_step(simulation, step);
+        let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
+        let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
+        let rounding = Rounding::of_step(simulation, step, &map, self.slant);
+        let before = self.covariance.clone().with_seven();
+        let along = before.carried(|w| map.carry_along(w), column(0));
+        let met = along
+            .carried(|w| map.carry_to_meet(w), column(1))
+            .with_part(&rounding.location);
+        let neighbours = Neighbours {
+            along: Spread::of(&along),
+            met: Spread::of(&met),
+            late: rounding.late,
+        };
+        let map = LinearMap::Step(map);
+        let approach = map.approach();
+        let closing = Closing::of(simulation, step, &approach);
+        if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
+            self.lose(step, cause);
+        }
+        let LinearMap::Step(through) = &map else {
+            return (f64::INFINITY, map);
+        };
+        let mut after = met.carried(|w| through.carry_through(w), column(2));
+        after.add_parts(&rounding.parts);
+        let squared = |sizes: Deviation| sizes.map(|size| size * size);
+        let squares = [squared(neighbours.met.sizes), squared(after.sizes())];
+        self.covariance = after;
+        self.lost = self.covariance.is_lost();
+        (self.judge(step, &squares), map)
+    }
+
+    /// The error at an event, of the squares of the standard deviations just before it and after.
+    #[inline(always)]
+    fn judge(&mut self, step: &Step, [before, after]: &[Deviation; 2]) -> f64 {
+        let largest = relative(before, &step.before, step.t_end).max(relative(
+            after,
+            &step.after,
+            step.t_end,
+        ));
+        let error = ERROR * largest.sqrt();
+        self.end_error = if step.stop == Some(Stop::EndTime) {
+            0.0
+        } else {
+            ERROR * after[6].sqrt()
+        };
+        self.lost |= !(error < LOST);
+        if !(error <= self.tolerance) {
+            self.lose(step, HorizonCause::Tolerance);
+        }
+        if self.is_lost() { f64::INFINITY } else { error }
+    }
+
+    /// Trust ends once.
+    #[inline(always)]
+    fn lose(&mut self, step: &Step, cause: HorizonCause) {
+        self.horizon.get_or_insert(Horizon {
+            t: step.t_end,
+            impact: self.impacts + 1,
+            cause,
+        });
+    }
+}
+
+impl UncertainKey {
+    fn new(case: &Case, name: &'static str, size: f64) -> Result<Self, CaseError> {
+        if !case.parameters().moves_by(name) {
+            let allowed = "no uncertainty, as this case has no such quantity";
+            return Err(CaseError::value(name, Value::Number(size), allowed));
+        }
+        let lift = |key, number| {
+            if key == name {
+                Dual::variable(number, 0)
+            } else {
+                Dual::constant(number)
+            }
+        };
+        let simulation = case.simulation_over(lift).map_err(|_| {
+            let allowed = "an uncertainty about a start that is not on the very edge";
+            CaseError::value(name, Value::Number(size), allowed)
+        })?;
+        let size = uniform(size);
+        let w = simulation.state().components().map(|c| c.slope[0] * size);
+        Ok(Self {
+            simulation,
+            size,
+            deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
+        })
+    }
+
+    /// The deviation just before the event told at the time of the last one, just before it at its
+    /// own time, and after it.
+    fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
+        let Some(step) = self.simulation.step() else {
+            return [self.deviation; 3];
+        };
+        let tau = step.t_end.slope[0] * self.size;
+        let at = |state: &State<Dual<f64, 1>>| -> Deviation {
+            let w = state.components().map(|c| c.slope[0] * self.size);
+            [w[0], w[1], w[2], w[3], w[4], w[5], tau]
+        };
+        let met = at(&step.before);
+        let along = map.before_meeting(&met, self.deviation[6]);
+        self.deviation = at(&step.after);
+        [along, met, self.deviation]
+    }
+}
+
+/// The largest of some squares, of each relative to that of its value where that is above 1.
+#[inline(always)]
+fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
+    let [x, y, theta, vx, vy, vtheta] = state.components();
+    let mut largest = 0.0_f64;
+    for (square, value) in squares.iter().zip([x, y, theta, vx, vy, vtheta, t]) {
+        largest = largest.max(square / (value * value).max(1.0));
+    }
+    largest
+}

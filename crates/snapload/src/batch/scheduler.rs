@@ -1,0 +1,309 @@
+//! The lanes and the runs in them: each goes from bounce to bounce there, and by itself through what
+//! is no bounce.
+
+use crate::arithmetic::elementary::Doubles;
+use crate::arithmetic::lane::{Lane, Mask};
+use crate::arithmetic::processor::Kernel;
+use crate::batch::company::{Beside, Companion};
+use crate::model::taut_set::TautSet;
+use crate::motion::bounce::{Bounce, bounce};
+use crate::motion::bounce_map::Bounced;
+use crate::motion::outcome::Outcome;
+use crate::motion::simulation::{LastImpacts, Progress, Simulation};
+use crate::motion::trajectory::RHO2_UNTIL;
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+
+/// Takes a run that has stopped, or whose companion goes no further.
+pub(super) type Tell<'a, C> = &'a mut dyn FnMut(Box<Slot<C>>);
+
+/// The runs that are to get lanes.
+pub(super) type Runs<'a, C> = &'a mut dyn Iterator<Item = Box<Slot<C>>>;
+
+/// How well the lanes were used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Usage {
+    /// Rounds of bounces, each of all lanes.
+    pub rounds: u64,
+    /// Bounces made in lanes.
+    pub bounces: u64,
+    /// Steps that runs made by themselves, out of the lanes.
+    pub steps_apart: u64,
+    /// Lanes of a round.
+    pub width: usize,
+}
+
+impl Usage {
+    /// Takes in that of other runs.
+    pub(super) fn add(&mut self, other: &Self) {
+        self.rounds += other.rounds;
+        self.bounces += other.bounces;
+        self.steps_apart += other.steps_apart;
+    }
+}
+
+/// What a run counts on its way.
+#[derive(Clone, Copy, Default)]
+struct Tally<L> {
+    impacts: L,
+    /// Impacts of the second cable among them.
+    second: L,
+    rho1: L,
+    rho2: L,
+    rho3: L,
+    /// The latest instants of impact: the bits of the set of cables, v_n, and how many in a row
+    /// were of the same cables.
+    cables: L,
+    v_n: L,
+    repeats: L,
+}
+
+/// A run that may have a lane.
+pub(super) struct Slot<C> {
+    /// Its place in the order in which they came.
+    pub(super) index: usize,
+    pub(super) simulation: Simulation,
+    pub(super) outcome: Outcome,
+    pub(super) companion: C,
+}
+
+pub(super) struct LaneScheduler<'a, L: Doubles, C: Companion> {
+    runs: Runs<'a, C>,
+    tell: Tell<'a, C>,
+    slots: Vec<Option<Box<Slot<C>>>>,
+    two_cables: TwoCableSystem<L>,
+    after_impact: AfterImpact<L>,
+    tally: Tally<L>,
+    beside: C::Beside<L>,
+    usage: Usage,
+}
+
+impl<L: Doubles, C: Companion> Kernel for LaneScheduler<'_, L, C> {
+    type Output = Usage;
+    #[inline(always)]
+    fn run(self) -> Usage {
+        self.run_all()
+    }
+}
+
+impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
+    pub(super) fn new(runs: Runs<'a, C>, tell: Tell<'a, C>) -> Self {
+        let zero = |_: f64, _: f64| L::ZERO;
+        let (system, motion, tally) = Default::default();
+        let mut scheduler = Self {
+            runs,
+            tell,
+            slots: (0..L::WIDTH).map(|_| None).collect(),
+            two_cables: TwoCableSystem::zip_with(&system, &system, zero),
+            after_impact: AfterImpact::zip_with(&motion, &motion, zero),
+            tally: Tally::zip_with(&tally, &tally, zero),
+            beside: C::Beside::empty(),
+            usage: Usage {
+                width: L::WIDTH,
+                ..Usage::default()
+            },
+        };
+        for lane in 0..L::WIDTH {
+            scheduler.refill(lane);
+        }
+        scheduler
+    }
+
+    /// Bounces until all runs have stopped.
+    #[inline(always)]
+    pub(super) fn run_all(mut self) -> Usage {
+        let all = (1u32 << L::WIDTH) - 1;
+        let mut empty = 0;
+        loop {
+            let bounce = bounce(&self.two_cables, &self.after_impact);
+            let plain = bounce.plain & self.tally.impacts.below(self.two_cables.max_impacts);
+            let bounced = Bounced::of(&self.two_cables, &self.after_impact, &bounce);
+            let (beside, plain) = self.beside.bounced(plain, &bounced);
+            let (tally, bits) = (self.tally.with(&bounce), plain.bits());
+            if bits == all {
+                (self.after_impact, self.tally) = (bounce.next, tally);
+                self.beside = beside;
+            } else {
+                let chosen = |next, present| L::select(plain, next, present);
+                self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
+                self.tally = tally.zip_with(&self.tally, chosen);
+                self.beside = C::Beside::select(plain, &beside, &self.beside);
+            }
+            let plain = bits & !empty;
+            self.usage.rounds += 1;
+            self.usage.bounces += u64::from(plain.count_ones());
+            if plain != all {
+                empty = self.serve(all & !plain);
+                if empty == all {
+                    return self.usage;
+                }
+            }
+        }
+    }
+
+    /// Lets the runs of these lanes go on by themselves until they fly freely, and gives lanes that
+    /// have become free to other runs. Returns the lanes that are empty.
+    #[inline(never)]
+    fn serve(&mut self, lanes: u32) -> u32 {
+        let mut empty = 0;
+        for lane in 0..L::WIDTH {
+            if lanes & 1 << lane == 0 {
+                continue;
+            }
+            if let Some(mut slot) = self.slots[lane].take() {
+                self.leave(lane, &mut slot);
+                slot.step();
+                self.usage.steps_apart += 1;
+                if !self.fill(lane, slot) {
+                    self.refill(lane);
+                }
+            }
+            if self.slots[lane].is_none() {
+                empty |= 1 << lane;
+            }
+        }
+        empty
+    }
+
+    /// Gives a lane to the next run that comes to fly freely; those before it end without a lane.
+    fn refill(&mut self, lane: usize) {
+        while let Some(slot) = self.runs.next() {
+            if self.fill(lane, slot) {
+                return;
+            }
+        }
+    }
+
+    /// Puts a run into a lane once it flies freely, or hands it on if it ends here before that.
+    /// Returns whether the lane is taken.
+    fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>) -> bool {
+        loop {
+            if slot.simulation.stop().is_some() || !slot.companion.goes_on() {
+                (self.tell)(slot);
+                return false;
+            }
+            // The first impact is part of the outcome, so it is not made in a lane.
+            let begun = slot.outcome.first.is_some() && slot.companion.fits_a_lane();
+            if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
+            {
+                self.enter(lane, &slot, &two_cables, &after_impact);
+                self.slots[lane] = Some(slot);
+                return true;
+            }
+            slot.step();
+            self.usage.steps_apart += 1;
+        }
+    }
+
+    fn enter(
+        &mut self,
+        lane: usize,
+        slot: &Slot<C>,
+        two_cables: &TwoCableSystem<f64>,
+        after_impact: &AfterImpact<f64>,
+    ) {
+        let progress = slot.simulation.progress();
+        let tally = Tally {
+            impacts: progress.impacts as f64,
+            second: slot.outcome.impacts[1] as f64,
+            rho1: slot.outcome.norms.rho1,
+            rho2: slot.outcome.norms.rho2,
+            rho3: slot.outcome.norms.rho3,
+            cables: f64::from(progress.last.cables.bits()),
+            v_n: progress.last.v_n,
+            repeats: f64::from(progress.last.repeats),
+        };
+        let put = |mut all: L, one| {
+            all.set(lane, one);
+            all
+        };
+        self.two_cables = self.two_cables.zip_with(two_cables, put);
+        self.after_impact = self.after_impact.zip_with(after_impact, put);
+        self.tally = self.tally.zip_with(&tally, put);
+        self.beside.put(lane, &slot.companion);
+    }
+
+    /// Brings a run's simulation up to what the run did in its lane.
+    fn leave(&self, lane: usize, slot: &mut Slot<C>) {
+        let get = |all: L, _| all.get(lane);
+        let after_impact = self.after_impact.zip_with(&self.after_impact, get);
+        let tally = self.tally.zip_with(&self.tally, get);
+        let before = slot.simulation.progress().impacts;
+        let progress = Progress {
+            impacts: tally.impacts as u64,
+            last: LastImpacts {
+                cables: TautSet::from_bits(tally.cables as u16),
+                v_n: tally.v_n,
+                repeats: tally.repeats as u32,
+            },
+        };
+        let Outcome { impacts, norms, .. } = &mut slot.outcome;
+        let second = tally.second as u64;
+        impacts[0] = impacts[0] + (progress.impacts - before) - (second - impacts[1]);
+        impacts[1] = second;
+        (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
+        slot.simulation.resume(&after_impact, progress);
+        let made = progress.impacts - before;
+        self.beside.get(lane, &mut slot.companion, made);
+    }
+}
+
+impl<C: Companion> Slot<C> {
+    /// A run about to begin.
+    pub(super) fn new(index: usize, simulation: Simulation, companion: C) -> Box<Self> {
+        Box::new(Self {
+            index,
+            outcome: Outcome::begun(&simulation),
+            simulation,
+            companion,
+        })
+    }
+
+    fn step(&mut self) {
+        if let Some(step) = self.simulation.step() {
+            self.outcome.take(&step);
+            self.companion.take(&self.simulation, &step);
+        }
+    }
+}
+
+impl<L: Lane> Tally<L> {
+    /// With an impact counted in every lane, as [`Outcome::take`] and [`Simulation`] do.
+    #[inline(always)]
+    fn with(
+        &self,
+        Bounce {
+            second, v_n, next, ..
+        }: &Bounce<L>,
+    ) -> Self {
+        let cables = L::select(*second, L::from_f64(2.0), L::ONE);
+        let same = cables.at_most(self.cables) & self.cables.at_most(cables);
+        let early = next.t.at_most(L::from_f64(RHO2_UNTIL));
+        Self {
+            impacts: self.impacts + 1.0,
+            second: self.second + (cables - 1.0),
+            rho1: self.rho1.larger(*v_n),
+            rho2: L::select(early, self.rho2 + *v_n, self.rho2),
+            rho3: self.rho3 + *v_n,
+            cables,
+            v_n: *v_n,
+            repeats: L::select(same, self.repeats + 1.0, L::ONE),
+        }
+    }
+}
+
+impl<L: Copy> Tally<L> {
+    /// What `number` makes of each number and the other tally's.
+    #[inline(always)]
+    fn zip_with<M: Copy, U>(&self, other: &Tally<M>, number: impl Fn(L, M) -> U) -> Tally<U> {
+        Tally {
+            impacts: number(self.impacts, other.impacts),
+            second: number(self.second, other.second),
+            rho1: number(self.rho1, other.rho1),
+            rho2: number(self.rho2, other.rho2),
+            rho3: number(self.rho3, other.rho3),
+            cables: number(self.cables, other.cables),
+            v_n: number(self.v_n, other.v_n),
+            repeats: number(self.repeats, other.repeats),
+        }
+    }
+}

@@ -1,0 +1,359 @@
+//! The linearised motion of one bounce ([`crate::motion::bounce`]), of one run or of several side by
+//! side: what [`crate::motion::tangent`] says of any step, written out for a flight that ends with
+//! the impact of one cable.
+//!
+//! With n and s of the cable that snaps, t = n turned by a quarter, and c = n·ρ, a deviation (δx,
+//! δy, δθ) along the cable's end turns its normal by κ: δn = κ t, δs = c (κ − δθ), with κ = (t·(δx,
+//! δy) + c δθ)/r. So the law's derivative is the identity and three products of rank one:
+//!
+//! ```text
+//! δv_n = G δv + κ t·v + c (κ − δθ) θ̇        δw = 2 s c (κ − δθ)/I
+//! δp = (1 + e) (δv_n/w − v_n δw/w²)
+//! δv⁺ = δv − n δp − p κ t                    δθ̇⁺ = δθ̇ − (s δp + p c (κ − δθ))/I
+//! ```
+
+use crate::arithmetic::lane::Lane;
+use crate::arithmetic::plane::Vector2;
+use crate::model::cable::Normal;
+use crate::model::state::State;
+use crate::motion::bounce::{Bounce, Course};
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+
+/// Deviations (w, τ) side by side: a row for each of their seven components.
+pub(crate) type Rows<L, const N: usize> = [[L; N]; 7];
+
+/// A bounce that has been made, and where it began.
+#[derive(Clone, Copy)]
+pub(crate) struct Bounced<'a, L: Lane> {
+    pub(crate) two_cables: &'a TwoCableSystem<L>,
+    pub(crate) from: &'a AfterImpact<L>,
+    /// When it ended.
+    pub(crate) t: L,
+    /// Which cable snapped: the second instead of the first.
+    pub(crate) second: L::Mask,
+    pub(crate) before: &'a State<L>,
+    pub(crate) after: &'a State<L>,
+    pub(crate) v_n: L,
+    pub(crate) impulse: L,
+    /// Value and error of the gap that did not close, at the end.
+    pub(crate) other_gap: [L; 2],
+    pub(crate) course: &'a Course<L>,
+}
+
+impl<'a, L: Lane> Bounced<'a, L> {
+    /// Of a bounce that began at `from`.
+    #[inline(always)]
+    pub(crate) fn of(
+        two_cables: &'a TwoCableSystem<L>,
+        from: &'a AfterImpact<L>,
+        bounce: &'a Bounce<L>,
+    ) -> Self {
+        let [first, second] = bounce.next.gaps;
+        let other = |k: usize| L::select(bounce.second, first[k], second[k]);
+        Self {
+            two_cables,
+            from,
+            t: bounce.next.t,
+            second: bounce.second,
+            before: &bounce.before,
+            after: &bounce.next.state,
+            v_n: bounce.v_n,
+            impulse: bounce.impulse,
+            other_gap: [other(0), other(1)],
+            course: &bounce.course,
+        }
+    }
+
+    /// Of the cable that snapped and of the other one, what a function says of each.
+    #[inline(always)]
+    pub(crate) fn each(&self, of: impl Fn(usize) -> L) -> [L; 2] {
+        let [first, second] = [of(0), of(1)];
+        [
+            L::select(self.second, second, first),
+            L::select(self.second, first, second),
+        ]
+    }
+}
+
+/// What a bounce does to small deviations.
+#[derive(Clone, Copy)]
+pub(crate) struct BounceMap<L> {
+    s: L,
+    /// ż₋ − Φ ż₊ of x, y, ẋ and ẏ; a free flight does not change θ̇.
+    lag: [L; 4],
+    /// ẋ, ẏ and θ̇ before the impact, and after it.
+    velocities: [[L; 3]; 2],
+    /// The acceleration at the end.
+    force: Vector2<L>,
+    /// −∇h/ḣ.
+    delay: [L; 3],
+    normal: Normal<L>,
+    /// κ of x, y and θ.
+    turn: [L; 3],
+    /// δp of G δv, of κ and of κ − δθ.
+    gains: [L; 3],
+    impulse: L,
+    /// p c.
+    impulse_arm: L,
+    inverse_inertia: L,
+}
+
+impl<L: Lane> BounceMap<L> {
+    #[inline(always)]
+    pub(crate) fn of(bounced: &Bounced<L>) -> Self {
+        let (start, before, after) = (&bounced.from.state, bounced.before, bounced.after);
+        let Course {
+            forces: [first, last],
+            normal,
+            swing,
+            ..
+        } = *bounced.course;
+        let two_cables = bounced.two_cables;
+        let inverse_inertia = two_cables.inverse_inertia;
+        let s = bounced.t - bounced.from.t;
+        let sooner = L::ONE / bounced.v_n;
+        let [per_length, _] = bounced.each(|k| two_cables.cables[k].per_length());
+        let across = normal.n.quarter_turn();
+        let w = normal.coupling(&normal, inverse_inertia);
+        let turns = normal.arm * 2.0 * swing * inverse_inertia;
+        let law = two_cables.contact;
+        let by_normal_velocity = law.impulse_per_velocity(w);
+        Self {
+            s,
+            lag: [
+                before.vx - first.x.mul_add(s, start.vx),
+                before.vy - first.y.mul_add(s, start.vy),
+                last.x - first.x,
+                last.y - first.y,
+            ],
+            velocities: [before, after].map(|state| [state.vx, state.vy, state.vtheta]),
+            force: last,
+            delay: [normal.n.x, normal.n.y, normal.arm].map(|g| -(g * sooner)),
+            normal,
+            turn: [across.x, across.y, swing].map(|part| part * per_length),
+            gains: [
+                by_normal_velocity,
+                by_normal_velocity * across.dot(before.velocity()),
+                law.snap_slope([bounced.v_n, w], [swing * before.vtheta, turns]),
+            ],
+            impulse: bounced.impulse,
+            impulse_arm: bounced.impulse * swing,
+            inverse_inertia,
+        }
+    }
+
+    /// Along the flight: (w, τ) just before the impact, told at the previous event's time.
+    #[inline(always)]
+    pub(crate) fn along<const N: usize>(&self, rows: &mut Rows<L, N>) {
+        self.drift(rows);
+        for k in 0..N {
+            let tau = rows[6][k];
+            for (row, lag) in [0, 1, 3, 4].into_iter().zip(self.lag) {
+                rows[row][k] = lag.mul_add(tau, rows[row][k]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn drift<const N: usize>(&self, rows: &mut Rows<L, N>) {
+        for i in 0..3 {
+            for k in 0..N {
+                rows[i][k] = rows[i + 3][k].mul_add(self.s, rows[i][k]);
+            }
+        }
+    }
+
+    /// To the impact's own time, by as much later as is returned.
+    #[inline(always)]
+    pub(crate) fn meet<const N: usize>(&self, rows: &mut Rows<L, N>) -> [L; N] {
+        let [dx, dy, dtheta] = self.delay;
+        let [vx, vy, vtheta] = self.velocities[0];
+        let mut all = [L::ZERO; N];
+        for k in 0..N {
+            let later = dx.mul_add(rows[0][k], dy.mul_add(rows[1][k], dtheta * rows[2][k]));
+            let rates = [vx, vy, vtheta, self.force.x, self.force.y];
+            for (row, rate) in rows.iter_mut().zip(rates) {
+                row[k] = rate.mul_add(later, row[k]);
+            }
+            rows[6][k] = rows[6][k] + later;
+            all[k] = later;
+        }
+        all
+    }
+
+    /// Through the law of impact.
+    #[inline(always)]
+    pub(crate) fn through<const N: usize>(&self, rows: &mut Rows<L, N>) {
+        let Normal { n, arm } = self.normal;
+        let [tx, ty, ttheta] = self.turn;
+        let [by_velocity, ..] = self.gains;
+        let g = [n.x, n.y, arm].map(|g| g * by_velocity);
+        for k in 0..N {
+            let [x, y, theta, vx, vy, vtheta, _] = column(rows, k);
+            let kappa = tx.mul_add(x, ty.mul_add(y, ttheta * theta));
+            let along = g[0].mul_add(vx, g[1].mul_add(vy, g[2] * vtheta));
+            let change = self.law_of_turning(along, kappa, kappa - theta);
+            rows[3][k] = vx + change[0];
+            rows[4][k] = vy + change[1];
+            rows[5][k] = vtheta + change[2];
+        }
+    }
+
+    /// δ(ẋ, ẏ, θ̇) after the impact, where δp is `along` besides, the normal turns by κ, and `slip`
+    /// is κ − δθ.
+    #[inline(always)]
+    pub(crate) fn law_of_turning(&self, along: L, kappa: L, slip: L) -> [L; 3] {
+        let [_, by_turning, by_slip] = self.gains;
+        let Normal { n, arm } = self.normal;
+        let dp = by_turning.mul_add(kappa, by_slip.mul_add(slip, along));
+        let aside = self.impulse * kappa;
+        let spin = arm.mul_add(dp, self.impulse_arm * slip) * self.inverse_inertia;
+        [
+            n.y.mul_add(aside, -(n.x * dp)),
+            -(n.x.mul_add(aside, n.y * dp)),
+            -spin,
+        ]
+    }
+}
+
+impl BounceMap<f64> {
+    /// All of the bounce for many deviations at one time, at its start and at its end.
+    #[inline(always)]
+    pub(crate) fn at_one_time<const N: usize>(&self, rows: &mut Rows<f64, N>) {
+        self.drift(rows);
+        rows[6] = [0.0; N];
+        let later = self.meet(rows);
+        self.through(rows);
+        let [vx, vy, vtheta] = self.velocities[1];
+        let rates = [vx, vy, vtheta, self.force.x, self.force.y];
+        for (row, rate) in rows.iter_mut().zip(rates) {
+            for (entry, later) in row.iter_mut().zip(later) {
+                *entry = (-rate).mul_add(later, *entry);
+            }
+        }
+    }
+
+    /// See [`crate::motion::step_map::StepMap::magnification`].
+    #[inline(always)]
+    pub(crate) fn magnification(&self) -> f64 {
+        let [[vx, vy, vtheta], after] = self.velocities;
+        let (ax, ay) = (self.force.x, self.force.y);
+        let mut rate = [vx, vy, vtheta, ax, ay, 0.0, 0.0].map(|component| [component]);
+        self.through(&mut rate);
+        let jump = [
+            after[0] - vx,
+            after[1] - vy,
+            after[2] - vtheta,
+            ax - rate[3][0],
+            ay - rate[4][0],
+            -rate[5][0],
+        ];
+        let square = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>();
+        (square(&jump) * square(&self.delay)).sqrt()
+    }
+
+    /// ż just before the impact.
+    pub(crate) fn rate(&self) -> [f64; 6] {
+        let [vx, vy, vtheta] = self.velocities[0];
+        [vx, vy, vtheta, self.force.x, self.force.y, 0.0]
+    }
+
+    /// −∇h/ḣ: how much later the impact comes for a deviation just before it.
+    pub(crate) fn delay(&self) -> [f64; 6] {
+        let [x, y, theta] = self.delay;
+        [x, y, theta, 0.0, 0.0, 0.0]
+    }
+}
+
+/// One deviation of several.
+#[inline(always)]
+fn column<L: Lane, const N: usize>(rows: &Rows<L, N>, k: usize) -> [L; 7] {
+    let mut column = [L::ZERO; 7];
+    for (entry, row) in column.iter_mut().zip(rows) {
+        *entry = row[k];
+    }
+    column
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::case::parameters::Parameters;
+    use crate::motion::step_map::Block;
+    use crate::motion::tangent::Tangent;
+
+    /// The largest entry of the difference of two blocks, of the largest entry of the first.
+    fn difference(a: &Block<7>, b: &Block<7>) -> f64 {
+        let (a, b) = (a.as_flattened(), b.as_flattened());
+        let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        worst.fold(0.0, f64::max) / largest
+    }
+
+    /// On every bounce of runs of long and of short cables, of bodies of every kind, each stage is
+    /// that of the linearised motion of any step.
+    #[test]
+    fn a_bounce_is_one_of_the_steps() {
+        let mut bounces = 0;
+        for k in 0..60 {
+            let k = f64::from(k);
+            let point = k % 7.0 == 0.0;
+            let parameters = Parameters {
+                f_o: 0.02 * k - 0.6,
+                e: 1.0 - 0.4 * k.sin().abs(),
+                r: 1.2 + 0.1 * k,
+                a: if point {
+                    0.0
+                } else {
+                    0.3 * (k * 0.7).cos().abs() + 0.02
+                },
+                b: if point {
+                    0.0
+                } else {
+                    0.2 * (k * 0.3).sin().max(0.0)
+                },
+                inertia: (!point).then(|| 0.003 + 0.05 * (k * 0.9).sin().abs()),
+                omega: 0.05 * k,
+                vx: 0.3 * k.sin(),
+                vtheta: if point { 0.0 } else { 0.5 * k.cos() },
+                y: 0.4,
+                ..Parameters::STANDARD
+            };
+            let Ok(case) = Case::new(parameters) else {
+                continue;
+            };
+            let mut simulation = case.simulation();
+            let tangent = Tangent::new(simulation.system());
+            while let Some(step) = simulation.step() {
+                let Some(bounced) = simulation.bounced(&step) else {
+                    continue;
+                };
+                let (ours, theirs) = (BounceMap::of(&bounced), tangent.of_step(&simulation, &step));
+                let mut start = [[0.0; 7]; 7];
+                for (i, row) in start.iter_mut().enumerate() {
+                    row[i] = 1.0;
+                }
+                let (mut a, mut b) = (start, start);
+                ours.along(&mut a);
+                theirs.carry_along(&mut b);
+                assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
+                ours.meet(&mut a);
+                theirs.carry_to_meet(&mut b);
+                assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
+                ours.through(&mut a);
+                theirs.carry_through(&mut b);
+                assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
+                let (mut a, mut b) = (start, start);
+                ours.at_one_time(&mut a);
+                theirs.carry_at_one_time(&mut b);
+                (a[6], b[6]) = ([0.0; 7], [0.0; 7]);
+                assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
+                let (a, b) = (ours.magnification(), theirs.magnification());
+                assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+                bounces += 1;
+            }
+        }
+        assert!(bounces > 1000, "{bounces}");
+    }
+}
