@@ -1,7 +1,7 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
 use crate::motion::bounce_map::BounceMap;
-use crate::motion::step_map::{Block, StepMap, dot6};
+use crate::motion::step_map::{Block, StepMap};
 
 /// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani,
 /// Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9); the logarithms of what is taken off their
@@ -20,9 +20,9 @@ pub struct Frame {
 /// Logarithms are taken when a length leaves this range, and its inverse.
 const RANGE: f64 = 1e100;
 /// Directions are made orthogonal after so many bounces, or when a component has grown to this: what
-/// then is left of the one that grows least has lost some four digits of sixteen.
+/// then is left of the one that grows least has lost some eight digits of sixteen.
 const MOST_BOUNCES: u32 = 8;
-const GROWN: f64 = 100.0;
+const GROWN: f64 = 1e4;
 
 impl Frame {
     /// The frame of the components.
@@ -64,38 +64,62 @@ impl Frame {
         }
     }
 
-    /// Gram and Schmidt's procedure.
+    /// Gram and Schmidt's procedure: each direction is taken off all that follow, at once, and all
+    /// are brought to length 1 in the end.
     #[inline(always)]
     fn make_orthogonal(&mut self) {
         self.bounces = 0;
-        let mut columns = [[0.0; 6]; 6];
-        for (i, column) in columns.iter_mut().enumerate() {
-            for (entry, row) in column.iter_mut().zip(&self.directions) {
-                *entry = row[i];
+        let mut squares = [0.0; 8];
+        // One after the other by hand: which is which is then known when it is compiled.
+        self.take_off::<0>(&mut squares);
+        self.take_off::<1>(&mut squares);
+        self.take_off::<2>(&mut squares);
+        self.take_off::<3>(&mut squares);
+        self.take_off::<4>(&mut squares);
+        self.take_off::<5>(&mut squares);
+        let mut scales = [0.0; 8];
+        for (scale, square) in scales.iter_mut().zip(&mut squares) {
+            *square = square.sqrt();
+            // A direction that the law has closed stays closed.
+            *scale = if *square > 0.0 { 1.0 / *square } else { 0.0 };
+        }
+        for row in &mut self.directions[..6] {
+            for (entry, scale) in row.iter_mut().zip(scales) {
+                *entry *= scale;
             }
         }
-        for i in 0..6 {
-            let (done, rest) = columns.split_at_mut(i);
-            let direction = &mut rest[0];
-            for earlier in done {
-                let along = dot6(earlier, direction);
-                for (component, other) in direction.iter_mut().zip(earlier) {
-                    *component -= along * *other;
-                }
-            }
-            let length = dot6(direction, direction).sqrt();
-            // A direction that the law has closed stays closed.
-            let scale = if length > 0.0 { 1.0 / length } else { 0.0 };
-            *direction = direction.map(|component| component * scale);
+        for (i, length) in squares.into_iter().enumerate().take(6) {
             self.lengths[i] *= length;
             if !(1.0 / RANGE..RANGE).contains(&self.lengths[i]) {
                 self.logs[i] += libm::log(self.lengths[i]);
                 self.lengths[i] = 1.0;
             }
         }
-        for (i, column) in columns.iter().enumerate() {
-            for (row, entry) in self.directions.iter_mut().zip(column) {
-                row[i] = *entry;
+    }
+
+    /// Takes the I-th direction off all that follow.
+    #[inline(always)]
+    fn take_off<const I: usize>(&mut self, squares: &mut [f64; 8]) {
+        let [mut along, mut more] = [[0.0; 8]; 2];
+        for pair in self.directions[..6].chunks_exact(2) {
+            for k in 0..8 {
+                along[k] += pair[0][I] * pair[0][k];
+                more[k] += pair[1][I] * pair[1][k];
+            }
+        }
+        for (along, more) in along.iter_mut().zip(more) {
+            *along += more;
+        }
+        let square = along[I];
+        squares[I] = square;
+        let scale = if square > 0.0 { 1.0 / square } else { 0.0 };
+        for (k, part) in along.iter_mut().enumerate() {
+            *part = if k > I { *part * scale } else { 0.0 };
+        }
+        for row in &mut self.directions[..6] {
+            let direction = row[I];
+            for (entry, part) in row.iter_mut().zip(along) {
+                *entry -= direction * part;
             }
         }
     }

@@ -181,6 +181,28 @@ impl<L: Lane> BounceMap<L> {
         all
     }
 
+    /// The displacement along the other cable, of deviations that have met the impact by so much
+    /// later: as they were at the previous event's time, and as they are.
+    #[inline(always)]
+    pub(crate) fn along_other<const N: usize>(
+        &self,
+        bounced: &Bounced<L>,
+        rows: &Rows<L, N>,
+        later: &[L; N],
+    ) -> [[L; N]; 2] {
+        let Normal { n, arm } = bounced.course.other;
+        let [vx, vy, vtheta] = self.velocities[0];
+        let rate = n.x.mul_add(vx, n.y.mul_add(vy, arm * vtheta));
+        let mut all = [[L::ZERO; N]; 2];
+        for k in 0..N {
+            let [x, y, theta, ..] = column(rows, k);
+            let now = n.x.mul_add(x, n.y.mul_add(y, arm * theta));
+            all[0][k] = (-rate).mul_add(later[k], now);
+            all[1][k] = now;
+        }
+        all
+    }
+
     /// Through the law of impact.
     #[inline(always)]
     pub(crate) fn through<const N: usize>(&self, rows: &mut Rows<L, N>) {
@@ -233,9 +255,9 @@ impl BounceMap<f64> {
         }
     }
 
-    /// See [`crate::motion::step_map::StepMap::magnification`].
+    /// See [`crate::motion::step_map::StepMap::magnification_squared`].
     #[inline(always)]
-    pub(crate) fn magnification(&self) -> f64 {
+    pub(crate) fn magnification_squared(&self) -> f64 {
         let [[vx, vy, vtheta], after] = self.velocities;
         let (ax, ay) = (self.force.x, self.force.y);
         let mut rate = [vx, vy, vtheta, ax, ay, 0.0, 0.0].map(|component| [component]);
@@ -249,7 +271,7 @@ impl BounceMap<f64> {
             -rate[5][0],
         ];
         let square = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>();
-        (square(&jump) * square(&self.delay)).sqrt()
+        square(&jump) * square(&self.delay)
     }
 
     /// ż just before the impact.
@@ -349,7 +371,7 @@ mod tests {
                 theirs.carry_at_one_time(&mut b);
                 (a[6], b[6]) = ([0.0; 7], [0.0; 7]);
                 assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
-                let (a, b) = (ours.magnification(), theirs.magnification());
+                let (a, b) = (ours.magnification_squared(), theirs.magnification_squared());
                 assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
                 bounces += 1;
             }

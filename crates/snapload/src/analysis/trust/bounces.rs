@@ -32,9 +32,8 @@ pub(super) struct Followed<L> {
 
 /// What a bounce made of it.
 pub(super) struct Through<L: Lane> {
-    /// Just before the impact: told at the previous event's time, and at its own.
-    pub(super) along: Rows<L, COLUMNS>,
-    pub(super) met: Rows<L, COLUMNS>,
+    /// Squares of the standard deviations just before the impact.
+    pub(super) met: [L; 7],
     pub(super) after: Parts<L>,
     /// Whether it is certain that no neighbour has another event, and that the error is within the
     /// tolerance.
@@ -57,34 +56,37 @@ impl<L: Lane> Followed<L> {
         }
     }
 
+    /// The parts just before the impact: told at the previous event's time, and at its own.
     #[inline(always)]
-    pub(super) fn through(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
-        let mut rounding = BounceRounding::of(bounced, self.slant);
-        let [sign, other_sign] = self.parts.signs();
-        rounding.give(sign, other_sign);
+    pub(super) fn before(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> [Rows<L, COLUMNS>; 2] {
         let mut rows = self.parts.rows;
         map.along(&mut rows);
-        rounding.add_location(bounced, &mut rows);
+        BounceRounding::of(self, bounced).add_location(bounced, &mut rows);
         let along = rows;
-        let later = map.meet(&mut rows);
-        let met = rows;
-        map.through(&mut rows);
-        rounding.add(map, &mut rows);
-        let after = self.parts.with(rows);
-        let reach = Reach::of(bounced, squares(&met), square(&later));
-        let known = reach.error(&after.rows, rounding.place_squared()) * SAFE;
+        map.meet(&mut rows);
+        [along, rows]
+    }
+
+    #[inline(always)]
+    pub(super) fn through(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
+        let rounding = BounceRounding::of(self, bounced);
+        let mut after = self.parts;
+        let rows = &mut after.rows;
+        map.along(rows);
+        rounding.add_location(bounced, rows);
+        let later = map.meet(rows);
+        let met = squares(rows);
+        let other = map.along_other(bounced, rows, &later);
+        map.through(rows);
+        rounding.add(map, rows);
+        let reach = Reach::of(bounced, met, square(&later), other.map(|row| square(&row)));
+        let known = reach.error(rows, rounding.place_squared()) * SAFE;
         let quiet = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
             & reach.stops_nowhere(bounced);
-        let mut after = after;
         after.turn();
-        Through {
-            along,
-            met,
-            after,
-            quiet,
-        }
+        Through { met, after, quiet }
     }
 }
 
@@ -106,8 +108,17 @@ struct BounceRounding<L> {
 }
 
 impl<L: Lane> BounceRounding<L> {
+    /// Of a bounce, with the signs of the step.
     #[inline(always)]
-    fn of(bounced: &Bounced<L>, slant: L) -> Self {
+    fn of(followed: &Followed<L>, bounced: &Bounced<L>) -> Self {
+        let mut rounding = Self::sizes(bounced, followed.slant);
+        let [sign, other_sign] = followed.parts.signs();
+        rounding.give(sign, other_sign);
+        rounding
+    }
+
+    #[inline(always)]
+    fn sizes(bounced: &Bounced<L>, slant: L) -> Self {
         let (start, before, after) = (&bounced.from.state, bounced.before, bounced.after);
         let s = bounced.t - bounced.from.t;
         let Normal { n, arm } = bounced.course.normal;
@@ -250,30 +261,22 @@ struct Reach<L> {
     met: [L; 7],
     /// Of the time by which the impact comes later.
     later: L,
-    /// Of the place that the fairleads have then, at whatever time it is told; of the rotation and
-    /// of the height likewise.
-    place: L,
+    /// Along the other cable, at whatever time it is told; of the rotation and of the height
+    /// likewise.
+    other: L,
     theta: L,
     height: L,
 }
 
 impl<L: Lane> Reach<L> {
     #[inline(always)]
-    fn of(bounced: &Bounced<L>, met: [L; 7], later: L) -> Self {
+    fn of(bounced: &Bounced<L>, met: [L; 7], later: L, [along, at_end]: [L; 2]) -> Self {
         let before = bounced.before;
-        let [one, two] = bounced.two_cables.reach;
-        let reach = one.larger(two);
-        let speed = before
-            .vtheta
-            .abs()
-            .mul_add(reach, before.velocity().length_bound());
-        // (Σ of three)² ≤ 3 Σ of squares, and what the time adds is one more.
-        let place = (reach * reach).mul_add(met[2], met[0] + met[1]);
         let told = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
         Self {
             met,
             later,
-            place: told(place * 3.0, speed),
+            other: along.larger(at_end),
             theta: told(met[2], before.vtheta),
             height: told(met[1], before.vy),
         }
@@ -337,7 +340,7 @@ impl<L: Lane> Reach<L> {
             .larger(bounced.course.late)
             .larger(bounced.other_gap[0]);
         const FACTOR: f64 = 4.0 * REACH * REACH * SAFE;
-        let margin = length * length * self.place * FACTOR;
+        let margin = length * length * self.other * FACTOR;
         largest.below(L::ZERO) & margin.below(largest * largest)
     }
 

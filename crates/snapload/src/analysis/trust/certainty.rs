@@ -21,7 +21,7 @@ impl Kernel for Following<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.0.follow(self.1, self.2);
+        self.0.follow(self.1, self.2, |_| {});
     }
 }
 

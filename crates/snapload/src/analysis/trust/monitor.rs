@@ -73,29 +73,16 @@ impl TrustMonitor {
     fn follow_here(&mut self, simulation: &Simulation, step: &Step) {
         self.end = step.t_end;
         let before = self.spread.impacts;
-        let (error, map) = self.spread.follow(simulation, step);
-        self.note_graze(simulation, step, &map);
+        let (frame, grazes) = (&mut self.frame, &mut self.grazes);
+        let error = self.spread.follow(simulation, step, |map| {
+            grazes.extend(graze(before + 1, simulation, step, &map));
+            match map {
+                LinearMap::Bounce(map) => frame.follow_bounce(map),
+                LinearMap::Step(map) => frame.follow(map),
+            }
+        });
         let rows = self.spread.impacts - before;
         self.errors.extend(std::iter::repeat_n(error, rows));
-        match &map {
-            LinearMap::Bounce(map) => self.frame.follow_bounce(map),
-            LinearMap::Step(map) => self.frame.follow(map),
-        }
-    }
-
-    #[inline(always)]
-    fn note_graze(&mut self, simulation: &Simulation, step: &Step, map: &LinearMap) {
-        let factor = map.magnification();
-        if factor > MAGNIFIES
-            && let Some(closing) = map.closing(simulation, step)
-            && closing.alpha < 0.0
-        {
-            self.grazes.push(Graze {
-                impact: self.errors.len() + 1,
-                v_n: closing.v_n,
-                factor,
-            });
-        }
     }
 
     /// Where trust has ended, if it has.
@@ -117,4 +104,19 @@ impl TrustMonitor {
             exponents: self.frame.exponents(self.end - self.begin),
         }
     }
+}
+
+/// The impact of a step, if its gap's closing slows down and it magnifies deviations much.
+#[inline(always)]
+fn graze(impact: usize, simulation: &Simulation, step: &Step, map: &LinearMap) -> Option<Graze> {
+    let square = map.magnification_squared();
+    if square <= MAGNIFIES * MAGNIFIES {
+        return None;
+    }
+    let closing = map.closing(simulation, step)?;
+    (closing.alpha < 0.0).then(|| Graze {
+        impact,
+        v_n: closing.v_n,
+        factor: square.sqrt(),
+    })
 }

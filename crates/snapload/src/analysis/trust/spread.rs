@@ -5,7 +5,7 @@ use crate::analysis::trust::causes::{
     Approach, Closing, Neighbours, Spread, cause, cause_at_start, may_stop_at_start,
 };
 use crate::analysis::trust::covariance::{CovarianceFactor, LOST};
-use crate::analysis::trust::parts::squares;
+use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::rounding::{self, Rounding};
 use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
 use crate::arithmetic::dual::Dual;
@@ -63,29 +63,20 @@ fn uniform(size: f64) -> f64 {
 }
 
 /// What a step does to deviations.
-pub(super) enum LinearMap {
+pub(super) enum LinearMap<'a> {
     /// That of a bounce.
-    Bounce(BounceMap<f64>),
+    Bounce(&'a BounceMap<f64>),
     /// That of any step.
-    Step(StepMap),
+    Step(&'a StepMap),
 }
 
-impl LinearMap {
-    /// Of the step that `simulation` has just made.
+impl LinearMap<'_> {
+    /// The square of [`StepMap::magnification_squared`].
     #[inline(always)]
-    fn of(tangent: &Tangent, simulation: &Simulation, step: &Step) -> Self {
-        match simulation.bounced(step) {
-            Some(bounced) => Self::Bounce(BounceMap::of(&bounced)),
-            None => Self::Step(tangent.of_step(simulation, step)),
-        }
-    }
-
-    /// See [`StepMap::magnification`].
-    #[inline(always)]
-    pub(super) fn magnification(&self) -> f64 {
+    pub(super) fn magnification_squared(&self) -> f64 {
         match self {
-            Self::Bounce(map) => map.magnification(),
-            Self::Step(map) => map.magnification(),
+            Self::Bounce(map) => map.magnification_squared(),
+            Self::Step(map) => map.magnification_squared(),
         }
     }
 
@@ -104,20 +95,20 @@ impl LinearMap {
     }
 
     /// How the gap of the one cable that snaps closes, if it does.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
         Closing::of(simulation, step, &self.approach())
     }
 }
 
 /// Any step to be carried through, by the best instructions for it.
-struct Carrying<'a>(&'a mut SpreadMonitor, &'a Simulation, &'a Step);
+struct Carrying<'a, F>(&'a mut SpreadMonitor, &'a Simulation, &'a Step, F);
 
-impl Kernel for Carrying<'_> {
-    type Output = (f64, LinearMap);
+impl<F: FnOnce(LinearMap)> Kernel for Carrying<'_, F> {
+    type Output = f64;
     #[inline(always)]
-    fn run(self) -> Self::Output {
-        self.0.carry(self.1, self.2)
+    fn run(self) -> f64 {
+        self.0.carry(self.1, self.2, self.3)
     }
 }
 
@@ -192,26 +183,34 @@ impl SpreadMonitor {
         }
     }
 
-    /// Takes in the step that `simulation` has just made; returns the error at its event and what
-    /// it does to deviations.
+    /// Takes in the step that `simulation` has just made, and shows what it does to deviations;
+    /// returns the error at its event.
     #[inline(always)]
-    pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> (f64, LinearMap) {
-        let rows = step.impacts().count();
-        let (error, map) = if self.is_lost() {
-            self.lose(step, HorizonCause::Tolerance);
-            (
-                f64::INFINITY,
-                LinearMap::of(&self.tangent, simulation, step),
-            )
-        } else {
-            match simulation.bounced(step).filter(|_| self.is_settled_in()) {
-                Some(bounced) => self.carry_bounce(simulation, step, &bounced),
-                None => dispatch(Carrying(self, simulation, step)),
+    pub(super) fn follow(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        show: impl FnOnce(LinearMap),
+    ) -> f64 {
+        let bounced = simulation.bounced(step);
+        let lost = self.is_lost();
+        let error = match bounced {
+            Some(bounced) if lost => {
+                show(LinearMap::Bounce(&BounceMap::of(&bounced)));
+                f64::INFINITY
             }
+            Some(bounced) if self.is_settled_in() => {
+                self.carry_bounce(simulation, step, &bounced, show)
+            }
+            _ if lost => {
+                show(LinearMap::Step(&self.tangent.of_step(simulation, step)));
+                f64::INFINITY
+            }
+            _ => dispatch(Carrying(self, simulation, step, show)),
         };
-        self.impacts += rows;
+        self.impacts += step.impacts().count();
         self.steps = (self.steps + 1).min(EXACT_STEPS);
-        (error, map)
+        error
     }
 
     /// Whether bounces may be followed as [`crate::analysis::trust::parts`] says.
@@ -251,36 +250,54 @@ impl SpreadMonitor {
         simulation: &Simulation,
         step: &Step,
         bounced: &Bounced<f64>,
-    ) -> (f64, LinearMap) {
+        show: impl FnOnce(LinearMap),
+    ) -> f64 {
         let map = BounceMap::of(bounced);
-        let through = self.followed().through(bounced, &map);
-        let map = LinearMap::Bounce(map);
-        if !through.quiet {
-            let told = |rows| CovarianceFactor {
-                parts: self.covariance.parts.with(rows),
-                columns: Vec::new(),
-            };
-            let (along, met) = (told(through.along), told(through.met));
-            let neighbours = Neighbours {
-                along: Spread::of(&along),
-                met: Spread::of(&met),
-                late: 0.0,
-            };
-            let approach = map.approach();
-            let closing = Closing::of(simulation, step, &approach);
-            if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
-                self.lose(step, cause);
-            }
+        show(LinearMap::Bounce(&map));
+        let followed = self.followed();
+        let through = followed.through(bounced, &map);
+        if !through.quiet && self.horizon.is_none() {
+            self.ask_for_cause(simulation, step, followed.before(bounced, &map), &map);
         }
         self.covariance.parts = through.after;
-        let squares = [squares(&through.met), squares(&through.after.rows)];
-        (self.judge(step, &squares), map)
+        let after = squares(&through.after.rows);
+        self.judge(step, &[through.met, after])
+    }
+
+    /// Whether neighbours may have another event than a bounce, of which the parts just before it
+    /// are given.
+    #[inline(never)]
+    fn ask_for_cause(
+        &mut self,
+        simulation: &Simulation,
+        step: &Step,
+        before: [Block<COLUMNS>; 2],
+        map: &BounceMap<f64>,
+    ) {
+        let [along, met] = before.map(|rows| CovarianceFactor {
+            parts: self.covariance.parts.with(rows),
+            columns: Vec::new(),
+        });
+        let neighbours = Neighbours {
+            along: Spread::of(&along),
+            met: Spread::of(&met),
+            late: 0.0,
+        };
+        let approach = Approach {
+            rate: map.rate(),
+            delay: map.delay(),
+        };
+        let closing = Closing::of(simulation, step, &approach);
+        if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
+            self.lose(step, cause);
+        }
     }
 
     /// Carries the spread through any step.
     #[inline(always)]
-    fn carry(&mut self, simulation: &Simulation, step: &Step) -> (f64, LinearMap) {
+    fn carry(&mut self, simulation: &Simulation, step: &Step, show: impl FnOnce(LinearMap)) -> f64 {
         let map = self.tangent.of_step(simulation, step);
+        show(LinearMap::Step(&map));
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
         let rounding = Rounding::of_step(simulation, step, &map, self.slant);
@@ -294,40 +311,38 @@ impl SpreadMonitor {
             met: Spread::of(&met),
             late: rounding.late,
         };
-        let map = LinearMap::Step(map);
-        let approach = map.approach();
+        let approach = LinearMap::Step(&map).approach();
         let closing = Closing::of(simulation, step, &approach);
-        if let Some(cause) = cause(simulation, step, &approach, &neighbours, closing) {
+        if self.horizon.is_none()
+            && let Some(cause) = cause(simulation, step, &approach, &neighbours, closing)
+        {
             self.lose(step, cause);
         }
-        let LinearMap::Step(through) = &map else {
-            return (f64::INFINITY, map);
-        };
-        let mut after = met.carried(|w| through.carry_through(w), column(2));
+        let mut after = met.carried(|w| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
         let squared = |sizes: Deviation| sizes.map(|size| size * size);
         let squares = [squared(neighbours.met.sizes), squared(after.sizes())];
         self.covariance = after;
         self.lost = self.covariance.is_lost();
-        (self.judge(step, &squares), map)
+        self.judge(step, &squares)
     }
 
     /// The error at an event, of the squares of the standard deviations just before it and after.
     #[inline(always)]
     fn judge(&mut self, step: &Step, [before, after]: &[Deviation; 2]) -> f64 {
-        let largest = relative(before, &step.before, step.t_end).max(relative(
-            after,
-            &step.after,
-            step.t_end,
-        ));
+        let largest = larger(
+            relative(before, &step.before, step.t_end),
+            relative(after, &step.after, step.t_end),
+        );
         let error = ERROR * largest.sqrt();
         self.end_error = if step.stop == Some(Stop::EndTime) {
             0.0
         } else {
             ERROR * after[6].sqrt()
         };
-        self.lost |= !(error < LOST);
-        if !(error <= self.tolerance) {
+        let all: f64 = before.iter().chain(after).sum();
+        self.lost |= !(all < LOST * LOST);
+        if error > self.tolerance || self.lost {
             self.lose(step, HorizonCause::Tolerance);
         }
         if self.is_lost() { f64::INFINITY } else { error }
@@ -392,9 +407,19 @@ impl UncertainKey {
 #[inline(always)]
 fn relative(squares: &Deviation, state: &State, t: f64) -> f64 {
     let [x, y, theta, vx, vy, vtheta] = state.components();
-    let mut largest = 0.0_f64;
-    for (square, value) in squares.iter().zip([x, y, theta, vx, vy, vtheta, t]) {
-        largest = largest.max(square / (value * value).max(1.0));
+    let mut ratios = [0.0; 8];
+    for (ratio, value) in ratios.iter_mut().zip([x, y, theta, vx, vy, vtheta, t, 1.0]) {
+        *ratio = larger(value * value, 1.0);
     }
-    largest
+    for (ratio, square) in ratios.iter_mut().zip(squares) {
+        *ratio = square / *ratio;
+    }
+    ratios[7] = 0.0;
+    ratios.into_iter().fold(0.0, larger)
+}
+
+/// The larger of two numbers, in one instruction.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
