@@ -204,8 +204,6 @@ pub(crate) fn slopes_of_acceleration(
     state: &State,
     taut: TautSet,
 ) -> Option<[[f64; 6]; 3]> {
-    /// Cables whose W is closer to singular than this are left to the general solver.
-    const NEARLY_DEPENDENT: f64 = 1e-6;
     let mut cables = taut.iter();
     let first = cables.next()?;
     let second = cables.next();
@@ -213,54 +211,94 @@ pub(crate) fn slopes_of_acceleration(
         return None;
     }
     let (force, spin) = (system.forcing.at(t), state.vtheta);
-    let inverse_inertia = system.body.inverse_inertia();
     // One cable is two of which the other carries nothing.
-    let pair = [first, second.unwrap_or(first)].map(|k| TautCable::new(system, state, k));
-    let [one, two] = [&pair[0].normal, &pair[1].normal];
-    let w = |a: &Normal, b: &Normal| a.coupling(b, inverse_inertia);
-    let (across, inverse) = (w(one, two), [w(one, one), w(two, two)]);
-    let determinant = inverse[0] * inverse[1] - across * across;
-    if second.is_some() && determinant < NEARLY_DEPENDENT * inverse[0] * inverse[1] {
-        return None;
-    }
-    let solved = |load: [f64; 2]| match second {
-        None => [load[0] / inverse[0], 0.0],
-        Some(_) => [
-            (inverse[1] * load[0] - across * load[1]) / determinant,
-            (inverse[0] * load[1] - across * load[0]) / determinant,
-        ],
-    };
-    let pulls = |normals: [&Normal; 2], tension: [f64; 2]| {
-        let [a, b] = normals;
-        [
-            a.n.x * tension[0] + b.n.x * tension[1],
-            a.n.y * tension[0] + b.n.y * tension[1],
-            (a.arm * tension[0] + b.arm * tension[1]) * inverse_inertia,
-        ]
-    };
-    let along =
-        |normal: &Normal, p: &[f64; 3]| normal.n.x * p[0] + normal.n.y * p[1] + normal.arm * p[2];
-    let tension = solved([pair[0].load(force, spin), pair[1].load(force, spin)]);
-    let pull = pulls([one, two], tension);
+    let one = TautCable::new(system, state, first);
+    let two = TautCable::new(system, state, second.unwrap_or(first));
+    let pair = Pair::new(&one.normal, &two.normal, system, second.is_some())?;
+    let tension = pair.solved([one.load(force, spin), two.load(force, spin)]);
+    let pull = pair.pulls([&one.normal, &two.normal], tension);
     let mut slopes = [[0.0; 6]; 3];
     for k in 0..6 {
         let mut by = [0.0; 6];
         by[k] = 1.0;
-        let (dg, db) = pair[0].change(force, spin, &by);
-        let (dg_two, db_two) = pair[1].change(force, spin, &by);
-        let turned = pulls([&dg, &dg_two], tension);
-        let more = pulls(
-            [one, two],
-            solved([
-                db - along(&dg, &pull) - along(one, &turned),
-                db_two - along(&dg_two, &pull) - along(two, &turned),
-            ]),
-        );
+        let (dg, db) = one.change(force, spin, &by);
+        let (dg_two, db_two) = two.change(force, spin, &by);
+        let turned = pair.pulls([&dg, &dg_two], tension);
+        let load = [
+            db - along(&dg, &pull) - along(&one.normal, &turned),
+            db_two - along(&dg_two, &pull) - along(&two.normal, &turned),
+        ];
+        let more = pair.pulls([&one.normal, &two.normal], pair.solved(load));
         for i in 0..3 {
             slopes[i][k] = -(turned[i] + more[i]);
         }
     }
     Some(slopes)
+}
+
+/// W of two cables, or of one and nothing.
+struct Pair {
+    inverse_inertia: f64,
+    /// W_11, W_12 and W_22.
+    w: [f64; 3],
+    /// 1/W_11 of one cable, 1/det W of two.
+    scale: f64,
+    both: bool,
+}
+
+impl Pair {
+    /// None if the two depend on each other, or all but do.
+    #[inline(always)]
+    fn new(one: &Normal, two: &Normal, system: &System, both: bool) -> Option<Self> {
+        /// Cables whose W is closer to singular than this are left to the general solver.
+        const NEARLY_DEPENDENT: f64 = 1e-6;
+        let inverse_inertia = system.body.inverse_inertia();
+        let w = [
+            one.coupling(one, inverse_inertia),
+            one.coupling(two, inverse_inertia),
+            two.coupling(two, inverse_inertia),
+        ];
+        let determinant = w[0] * w[2] - w[1] * w[1];
+        if both && determinant < NEARLY_DEPENDENT * w[0] * w[2] {
+            return None;
+        }
+        Some(Self {
+            inverse_inertia,
+            w,
+            scale: 1.0 / if both { determinant } else { w[0] },
+            both,
+        })
+    }
+
+    /// W⁻¹ b.
+    #[inline(always)]
+    fn solved(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        let [one, across, two] = self.w;
+        if self.both {
+            [
+                (two * a - across * b) * self.scale,
+                (one * b - across * a) * self.scale,
+            ]
+        } else {
+            [a * self.scale, 0.0]
+        }
+    }
+
+    /// M⁻¹ Gᵀ T.
+    #[inline(always)]
+    fn pulls(&self, [a, b]: [&Normal; 2], tension: [f64; 2]) -> [f64; 3] {
+        [
+            a.n.x * tension[0] + b.n.x * tension[1],
+            a.n.y * tension[0] + b.n.y * tension[1],
+            (a.arm * tension[0] + b.arm * tension[1]) * self.inverse_inertia,
+        ]
+    }
+}
+
+/// G p.
+#[inline(always)]
+fn along(normal: &Normal, [x, y, theta]: &[f64; 3]) -> f64 {
+    normal.n.x * x + normal.n.y * y + normal.arm * theta
 }
 
 /// g̈/(2r) of a closed cable while the cables of `taut` pull.

@@ -90,6 +90,8 @@ pub(crate) struct BounceMap<L> {
     normal: Normal<L>,
     /// κ of x, y and θ.
     turn: [L; 3],
+    /// δv_n of κ and of κ − δθ.
+    closing: [L; 2],
     /// δp of G δv, of κ and of κ − δθ.
     gains: [L; 3],
     impulse: L,
@@ -118,6 +120,7 @@ impl<L: Lane> BounceMap<L> {
         let turns = normal.arm * 2.0 * swing * inverse_inertia;
         let law = two_cables.contact;
         let by_normal_velocity = law.impulse_per_velocity(w);
+        let closing = [across.dot(before.velocity()), swing * before.vtheta];
         Self {
             s,
             lag: [
@@ -131,10 +134,11 @@ impl<L: Lane> BounceMap<L> {
             delay: [normal.n.x, normal.n.y, normal.arm].map(|g| -(g * sooner)),
             normal,
             turn: [across.x, across.y, swing].map(|part| part * per_length),
+            closing,
             gains: [
                 by_normal_velocity,
-                by_normal_velocity * across.dot(before.velocity()),
-                law.snap_slope([bounced.v_n, w], [swing * before.vtheta, turns]),
+                by_normal_velocity * closing[0],
+                law.snap_slope([bounced.v_n, w], [closing[1], turns]),
             ],
             impulse: bounced.impulse,
             impulse_arm: bounced.impulse * swing,
@@ -203,22 +207,26 @@ impl<L: Lane> BounceMap<L> {
         all
     }
 
-    /// Through the law of impact.
+    /// Through the law of impact; returns δv_n of each.
     #[inline(always)]
-    pub(crate) fn through<const N: usize>(&self, rows: &mut Rows<L, N>) {
+    pub(crate) fn through<const N: usize>(&self, rows: &mut Rows<L, N>) -> [L; N] {
         let Normal { n, arm } = self.normal;
         let [tx, ty, ttheta] = self.turn;
         let [by_velocity, ..] = self.gains;
-        let g = [n.x, n.y, arm].map(|g| g * by_velocity);
+        let [by_kappa, by_slip] = self.closing;
+        let mut all = [L::ZERO; N];
         for k in 0..N {
             let [x, y, theta, vx, vy, vtheta, _] = column(rows, k);
             let kappa = tx.mul_add(x, ty.mul_add(y, ttheta * theta));
-            let along = g[0].mul_add(vx, g[1].mul_add(vy, g[2] * vtheta));
-            let change = self.law_of_turning(along, kappa, kappa - theta);
+            let along = n.x.mul_add(vx, n.y.mul_add(vy, arm * vtheta));
+            let slip = kappa - theta;
+            all[k] = by_kappa.mul_add(kappa, by_slip.mul_add(slip, along));
+            let change = self.law_of_turning(along * by_velocity, kappa, slip);
             rows[3][k] = vx + change[0];
             rows[4][k] = vy + change[1];
             rows[5][k] = vtheta + change[2];
         }
+        all
     }
 
     /// δ(ẋ, ẏ, θ̇) after the impact, where δp is `along` besides, the normal turns by κ, and `slip`

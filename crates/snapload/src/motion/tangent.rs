@@ -106,22 +106,19 @@ impl Tangent {
     fn driven_flow(&self, simulation: &Simulation, step: &Step) -> Matrix {
         let s = step.t_end - step.t_start;
         let system = simulation.system();
-        let jacobian = |s: f64| {
-            let (t, state) = (step.t_start + s, simulation.within(step, s));
-            slopes_of_acceleration(system, t, &state, step.taut).unwrap_or_else(|| {
-                let t = Number::constant(t);
-                acceleration(&self.system, t, &variables(&state), step.taut).map(|a| a.slope)
-            })
-        };
         let mut phi = identity();
-        let mut left = jacobian(0.0);
+        let mut left = self.slopes_within(simulation, step, 0.0);
         let pace = pace_of_deviations(&left, system.body.inertia());
         let pace = (SUBSTEPS / simulation.expansion()).max(pace / RADIANS);
         let count = (pace * s).ceil().max(1.0);
         let h = s / count;
         for k in 0..count as u32 {
             let at = f64::from(k) * h;
-            let (middle, right) = (jacobian(at + 0.5 * h), jacobian(at + h));
+            let mut ahead = [left; 2];
+            for (ahead, part) in ahead.iter_mut().zip([0.5, 1.0]) {
+                *ahead = self.slopes_within(simulation, step, at + part * h);
+            }
+            let [middle, right] = ahead;
             let k1 = change(&left, &phi);
             let k2 = change(&middle, &plus(&phi, &k1, 0.5 * h));
             let k3 = change(&middle, &plus(&phi, &k2, 0.5 * h));
@@ -131,6 +128,19 @@ impl Tangent {
             left = right;
         }
         phi.map(|[x, y, theta, vx, vy, vtheta, ..]| [x, y, theta, vx, vy, vtheta])
+    }
+
+    /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.
+    #[inline(always)]
+    fn slopes_within(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
+        let (t, state) = (step.t_start + s, simulation.within(step, s));
+        match slopes_of_acceleration(simulation.system(), t, &state, step.taut) {
+            Some(slopes) => slopes,
+            None => {
+                let t = Number::constant(t);
+                acceleration(&self.system, t, &variables(&state), step.taut).map(|a| a.slope)
+            }
+        }
     }
 
     /// −∇h/ḣ of what was reached: a gap, or what a limit bounds. A tension that is lost changes
@@ -170,6 +180,7 @@ impl Tangent {
 }
 
 /// A state as the six variables that derivatives are taken by.
+#[inline(always)]
 fn variables(state: &State) -> State<Number> {
     let mut i = 0;
     State::from_components(state.components().map(|component| {
@@ -218,6 +229,7 @@ fn plus(w: &Columns, k: &Columns, h: f64) -> Columns {
 
 /// A bound on how fast deviations swing or decay \[1/T\]: the accelerations of a unit of position and
 /// of a unit of velocity, with θ in units in which the inertia is 1.
+#[inline(always)]
 fn pace_of_deviations(lower: &[[f64; 6]; 3], inertia: f64) -> f64 {
     let turn = if inertia > 0.0 { inertia.sqrt() } else { 1.0 };
     let units = [1.0, 1.0, turn];
@@ -231,6 +243,7 @@ fn pace_of_deviations(lower: &[[f64; 6]; 3], inertia: f64) -> f64 {
     by_position.sqrt().sqrt() + by_velocity.sqrt()
 }
 
+#[inline(always)]
 fn identity() -> Columns {
     let mut columns = [[0.0; 8]; 6];
     for (i, row) in columns.iter_mut().enumerate() {

@@ -41,19 +41,12 @@ pub(super) struct Through<L: Lane> {
 }
 
 impl<L: Lane> Followed<L> {
-    /// What `number` makes of each number and the other's.
+    /// Each of its numbers with the other's.
     #[inline(always)]
-    pub(super) fn zip_with<M: Copy, U: Copy>(
-        &self,
-        other: &Followed<M>,
-        zero: U,
-        number: impl Fn(L, M) -> U,
-    ) -> Followed<U> {
-        Followed {
-            parts: self.parts.zip_with(&other.parts, zero, &number),
-            slant: number(self.slant, other.slant),
-            tolerance: number(self.tolerance, other.tolerance),
-        }
+    pub(super) fn pair_up<M>(&mut self, other: &Followed<M>, mut each: impl FnMut(&mut L, &M)) {
+        self.parts.pair_up(&other.parts, &mut each);
+        each(&mut self.slant, &other.slant);
+        each(&mut self.tolerance, &other.tolerance);
     }
 
     /// The parts just before the impact: told at the previous event's time, and at its own.
@@ -77,9 +70,14 @@ impl<L: Lane> Followed<L> {
         let later = map.meet(rows);
         let met = squares(rows);
         let other = map.along_other(bounced, rows, &later);
-        map.through(rows);
+        let closing = map.through(rows);
         rounding.add(map, rows);
-        let reach = Reach::of(bounced, met, square(&later), other.map(|row| square(&row)));
+        let reach = Reach::of(
+            bounced,
+            met,
+            [square(&later), square(&closing)],
+            [square(&other[0]), square(&other[1])],
+        );
         let known = reach.error(rows, rounding.place_squared()) * SAFE;
         let quiet = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
@@ -259,8 +257,9 @@ impl<L: Lane> BounceRounding<L> {
 struct Reach<L> {
     /// Of each component, at the neighbour's own impact.
     met: [L; 7],
-    /// Of the time by which the impact comes later.
+    /// Of the time by which the impact comes later, and of its normal velocity.
     later: L,
+    closing: L,
     /// Along the other cable, at whatever time it is told; of the rotation and of the height
     /// likewise.
     other: L,
@@ -270,12 +269,18 @@ struct Reach<L> {
 
 impl<L: Lane> Reach<L> {
     #[inline(always)]
-    fn of(bounced: &Bounced<L>, met: [L; 7], later: L, [along, at_end]: [L; 2]) -> Self {
+    fn of(
+        bounced: &Bounced<L>,
+        met: [L; 7],
+        [later, closing]: [L; 2],
+        [along, at_end]: [L; 2],
+    ) -> Self {
         let before = bounced.before;
         let told = |square: L, rate: L| (rate * rate).mul_add(later, square) * 2.0;
         Self {
             met,
             later,
+            closing,
             other: along.larger(at_end),
             theta: told(met[2], before.vtheta),
             height: told(met[1], before.vy),
@@ -307,20 +312,10 @@ impl<L: Lane> Reach<L> {
         let slowing = (before.vtheta * before.vtheta).mul_add(reach, two_cables.force[0]);
         let v_n = bounced.v_n;
         let closes = (self.later * slowing * slowing * (4.0 * SQUARE)).below(v_n * v_n);
-        // n turns by at most 1/r, and by the lever over r.
-        let [per_length, _] = bounced.each(|k| two_cables.cables[k].per_length());
-        let speed = before
-            .vtheta
-            .abs()
-            .mul_add(reach, before.velocity().length_bound());
-        let turns = speed * (reach + 1.0) * (reach + 1.0) * per_length;
-        let [x, y, theta, vx, vy, vtheta, tau] = self.met;
-        let normal_velocity =
-            (turns * turns).mul_add(x + y + theta, (reach * reach).mul_add(vtheta, vx + vy));
         let left = v_n - two_cables.v_stick;
-        let rebounds = (normal_velocity * (6.0 * SQUARE)).below(left * left);
+        let rebounds = (self.closing * SQUARE).below(left * left);
         let left = two_cables.t_end - bounced.t;
-        closes & rebounds & (tau * SQUARE).below(left * left)
+        closes & rebounds & (self.met[6] * SQUARE).below(left * left)
     }
 
     /// Whether the other gap stays open by more than neighbours reach. Where that cable was closed

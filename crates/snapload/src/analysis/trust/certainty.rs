@@ -21,7 +21,7 @@ impl Kernel for Following<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.0.follow(self.1, self.2, |_| {});
+        self.0.follow(self.1, self.2, &mut ());
     }
 }
 
@@ -64,21 +64,19 @@ impl<L: Doubles> Beside<L> for Followed<L> {
 
     #[inline(always)]
     fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
-        let chosen = |yes, no| L::select(mask, yes, no);
-        yes.zip_with(no, L::ZERO, chosen)
+        let mut chosen = *no;
+        chosen.pair_up(yes, |chosen, yes| *chosen = L::select(mask, *yes, *chosen));
+        chosen
     }
 
     fn put(&mut self, lane: usize, alone: &SpreadMonitor) {
-        let put = |mut all: L, one| {
-            all.set(lane, one);
-            all
-        };
-        *self = self.zip_with(&alone.followed(), L::ZERO, put);
+        self.pair_up(&alone.followed(), |all, one| all.set(lane, *one));
     }
 
     fn get(&self, lane: usize, alone: &mut SpreadMonitor, impacts: u64) {
-        let get = |all: L, _| all.get(lane);
-        alone.go_on(self.zip_with(self, 0.0, get), impacts);
+        let mut one = alone.followed();
+        one.pair_up(self, |one, all| *one = all.get(lane));
+        alone.go_on(one, impacts);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Follows a run and keeps account of what is known of it.
 
 use crate::analysis::lyapunov::Frame;
-use crate::analysis::trust::spread::{LinearMap, SpreadMonitor};
+use crate::analysis::trust::spread::{LinearMap, Onlooker, SpreadMonitor};
 use crate::analysis::trust::{Graze, Horizon, Trust, Uncertainty};
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
@@ -73,14 +73,13 @@ impl TrustMonitor {
     fn follow_here(&mut self, simulation: &Simulation, step: &Step) {
         self.end = step.t_end;
         let before = self.spread.impacts;
-        let (frame, grazes) = (&mut self.frame, &mut self.grazes);
-        let error = self.spread.follow(simulation, step, |map| {
-            grazes.extend(graze(before + 1, simulation, step, &map));
-            match map {
-                LinearMap::Bounce(map) => frame.follow_bounce(map),
-                LinearMap::Step(map) => frame.follow(map),
-            }
-        });
+        let mut records = Records {
+            frame: &mut self.frame,
+            grazes: &mut self.grazes,
+            impact: before + 1,
+            latest: (simulation, step),
+        };
+        let error = self.spread.follow(simulation, step, &mut records);
         let rows = self.spread.impacts - before;
         self.errors.extend(std::iter::repeat_n(error, rows));
     }
@@ -106,17 +105,41 @@ impl TrustMonitor {
     }
 }
 
-/// The impact of a step, if its gap's closing slows down and it magnifies deviations much.
-#[inline(always)]
-fn graze(impact: usize, simulation: &Simulation, step: &Step, map: &LinearMap) -> Option<Graze> {
-    let square = map.magnification_squared();
-    if square <= MAGNIFIES * MAGNIFIES {
-        return None;
+/// What is kept of what the latest step does to deviations.
+struct Records<'a> {
+    frame: &'a mut Frame,
+    grazes: &'a mut Vec<Graze>,
+    /// The number of its impact.
+    impact: usize,
+    latest: (&'a Simulation, &'a Step),
+}
+
+impl Onlooker for Records<'_> {
+    #[inline(always)]
+    fn see(&mut self, map: LinearMap) {
+        let square = map.magnification_squared();
+        if square > MAGNIFIES * MAGNIFIES {
+            self.note_graze(&map, square.sqrt());
+        }
+        match map {
+            LinearMap::Bounce(map) => self.frame.follow_bounce(map),
+            LinearMap::Step(map) => self.frame.follow(map),
+        }
     }
-    let closing = map.closing(simulation, step)?;
-    (closing.alpha < 0.0).then(|| Graze {
-        impact,
-        v_n: closing.v_n,
-        factor: square.sqrt(),
-    })
+}
+
+impl Records<'_> {
+    /// An impact that magnifies deviations is a graze if the closing of its gap slows down.
+    #[inline(always)]
+    fn note_graze(&mut self, map: &LinearMap, factor: f64) {
+        let (simulation, step) = self.latest;
+        let closing = map.closing(simulation, step);
+        if let Some(closing) = closing.filter(|closing| closing.alpha < 0.0) {
+            self.grazes.push(Graze {
+                impact: self.impact,
+                v_n: closing.v_n,
+                factor,
+            });
+        }
+    }
 }

@@ -69,24 +69,15 @@ impl<L: Lane> Parts<L> {
         self.signs = self.signs.next();
     }
 
-    /// What `number` makes of each number and the other's.
+    /// Each of its numbers with the other's.
     #[inline(always)]
-    pub(super) fn zip_with<M: Copy, U: Copy>(
-        &self,
-        other: &Parts<M>,
-        zero: U,
-        number: impl Fn(L, M) -> U,
-    ) -> Parts<U> {
-        let mut rows = [[zero; COLUMNS]; 7];
-        for i in 0..7 {
-            for k in 0..COLUMNS {
-                rows[i][k] = number(self.rows[i][k], other.rows[i][k]);
+    pub(super) fn pair_up<M>(&mut self, other: &Parts<M>, mut each: impl FnMut(&mut L, &M)) {
+        for (row, others) in self.rows.iter_mut().zip(&other.rows) {
+            for (one, other) in row.iter_mut().zip(others) {
+                each(one, other);
             }
         }
-        Parts {
-            rows,
-            signs: Signs(number(self.signs.0, other.signs.0)),
-        }
+        each(&mut self.signs.0, &other.signs.0);
     }
 }
 

@@ -32,7 +32,8 @@ const EXACT_STEPS: u32 = 4;
 #[derive(Clone, Debug)]
 pub(super) struct SpreadMonitor {
     tolerance: f64,
-    tangent: Tangent,
+    /// Made for the first step that is followed by it.
+    tangent: Option<Box<Tangent>>,
     pub(super) covariance: CovarianceFactor,
     /// How many roundings the cables are off by in their direction.
     slant: f64,
@@ -95,16 +96,28 @@ impl LinearMap<'_> {
     }
 
     /// How the gap of the one cable that snaps closes, if it does.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn closing(&self, simulation: &Simulation, step: &Step) -> Option<Closing> {
         Closing::of(simulation, step, &self.approach())
     }
 }
 
-/// Any step to be carried through, by the best instructions for it.
-struct Carrying<'a, F>(&'a mut SpreadMonitor, &'a Simulation, &'a Step, F);
+/// What is shown what each step does to deviations. A closure would be compiled without the
+/// processor's own instructions.
+pub(super) trait Onlooker {
+    /// Is shown it.
+    fn see(&mut self, map: LinearMap);
+}
 
-impl<F: FnOnce(LinearMap)> Kernel for Carrying<'_, F> {
+impl Onlooker for () {
+    #[inline(always)]
+    fn see(&mut self, _: LinearMap) {}
+}
+
+/// Any step to be carried through, by the best instructions for it.
+struct Carrying<'a, O>(&'a mut SpreadMonitor, &'a Simulation, &'a Step, &'a mut O);
+
+impl<O: Onlooker> Kernel for Carrying<'_, O> {
     type Output = f64;
     #[inline(always)]
     fn run(self) -> f64 {
@@ -115,13 +128,12 @@ impl<F: FnOnce(LinearMap)> Kernel for Carrying<'_, F> {
 impl SpreadMonitor {
     /// Of a motion about to begin, whose start may be off by `start`.
     pub(super) fn new(simulation: &Simulation, start: &[f64; 6], tolerance: f64) -> Self {
-        let tangent = Tangent::new(simulation.system());
         let [x, y, theta, vx, vy, vtheta] = start.map(uniform);
         let mut covariance =
             CovarianceFactor::along_components(&[x, y, theta, vx, vy, vtheta, 0.0]);
         let cause = cause_at_start(simulation, &covariance);
         if !simulation.closed().is_empty() {
-            let projection = tangent.of_start(simulation);
+            let projection = Tangent::new(simulation.system()).of_start(simulation);
             let project = |block: &mut Block<_>| {
                 let projected = projection.map(|row| combined(block, &row));
                 block[..6].copy_from_slice(&projected);
@@ -145,7 +157,7 @@ impl SpreadMonitor {
         });
         Self {
             tolerance,
-            tangent,
+            tangent: None,
             covariance,
             slant: 1.0,
             keys: Vec::new(),
@@ -190,27 +202,35 @@ impl SpreadMonitor {
         &mut self,
         simulation: &Simulation,
         step: &Step,
-        show: impl FnOnce(LinearMap),
+        onlooker: &mut impl Onlooker,
     ) -> f64 {
         let bounced = simulation.bounced(step);
         let lost = self.is_lost();
         let error = match bounced {
             Some(bounced) if lost => {
-                show(LinearMap::Bounce(&BounceMap::of(&bounced)));
+                onlooker.see(LinearMap::Bounce(&BounceMap::of(&bounced)));
                 f64::INFINITY
             }
             Some(bounced) if self.is_settled_in() => {
-                self.carry_bounce(simulation, step, &bounced, show)
+                self.carry_bounce(simulation, step, &bounced, onlooker)
             }
             _ if lost => {
-                show(LinearMap::Step(&self.tangent.of_step(simulation, step)));
+                onlooker.see(LinearMap::Step(
+                    &self.tangent(simulation).of_step(simulation, step),
+                ));
                 f64::INFINITY
             }
-            _ => dispatch(Carrying(self, simulation, step, show)),
+            _ => dispatch(Carrying(self, simulation, step, onlooker)),
         };
         self.impacts += step.impacts().count();
         self.steps = (self.steps + 1).min(EXACT_STEPS);
         error
+    }
+
+    #[inline(always)]
+    fn tangent(&mut self, simulation: &Simulation) -> &Tangent {
+        self.tangent
+            .get_or_insert_with(|| Box::new(Tangent::new(simulation.system())))
     }
 
     /// Whether bounces may be followed as [`crate::analysis::trust::parts`] says.
@@ -250,10 +270,10 @@ impl SpreadMonitor {
         simulation: &Simulation,
         step: &Step,
         bounced: &Bounced<f64>,
-        show: impl FnOnce(LinearMap),
+        onlooker: &mut impl Onlooker,
     ) -> f64 {
         let map = BounceMap::of(bounced);
-        show(LinearMap::Bounce(&map));
+        onlooker.see(LinearMap::Bounce(&map));
         let followed = self.followed();
         let through = followed.through(bounced, &map);
         if !through.quiet && self.horizon.is_none() {
@@ -266,7 +286,7 @@ impl SpreadMonitor {
 
     /// Whether neighbours may have another event than a bounce, of which the parts just before it
     /// are given.
-    #[inline(never)]
+    #[inline(always)]
     fn ask_for_cause(
         &mut self,
         simulation: &Simulation,
@@ -295,9 +315,9 @@ impl SpreadMonitor {
 
     /// Carries the spread through any step.
     #[inline(always)]
-    fn carry(&mut self, simulation: &Simulation, step: &Step, show: impl FnOnce(LinearMap)) -> f64 {
-        let map = self.tangent.of_step(simulation, step);
-        show(LinearMap::Step(&map));
+    fn carry(&mut self, simulation: &Simulation, step: &Step, onlooker: &mut impl Onlooker) -> f64 {
+        let map = self.tangent(simulation).of_step(simulation, step);
+        onlooker.see(LinearMap::Step(&map));
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
         let rounding = Rounding::of_step(simulation, step, &map, self.slant);

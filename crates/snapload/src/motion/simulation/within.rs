@@ -96,6 +96,7 @@ impl<T: Real> Stretch<'_, T> {
 
 impl<T: Real> Simulation<T> {
     /// The state a time `s` into the stretch that the latest step made.
+    #[inline(always)]
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
         self.motion(step.taut).state(s)
     }
