@@ -314,30 +314,6 @@ impl Row {
     }
 }
 
-#[test]
-#[ignore]
-fn diag() {
-    for j in (0..96).filter(|k| k % 8 == 1).map(Judged::new) {
-        let r = j.ratios();
-        let over = r.iter().filter(|r| **r > 3.0).count();
-        if over > 0 {
-            println!(
-                "{} {} of {} first {:?}",
-                j.index,
-                over,
-                r.len(),
-                r.iter().position(|r| *r > 3.0)
-            );
-            for k in (0..r.len()).step_by(10) {
-                println!(
-                    "{k} {:.2} {:.2e} {:.2e}",
-                    r[k], j.differences[k], j.trusts[0].errors[k]
-                );
-            }
-        }
-    }
-}
-
 fn judged(count: usize) -> Vec<Judged> {
     (0..count).into_par_iter().map(Judged::new).collect()
 }

@@ -162,6 +162,7 @@ fn stored(
     keep_known_gap(simulation, step, &mut closed, &mut parts);
     Constraints::of(system, after, step.taut_after, Metric::of_masses(system))
         .keep_parts(&mut parts, 3);
+    add_residual(system, step, &mut parts);
     if let (Some(law), Some(cable)) = (map.slopes_of_law(), step.event.closed.iter().next()) {
         // The law is told a direction that is off by a rounding, and a rotation likewise.
         let length = 0.5 * slant * system.cables[cable].length();
@@ -172,6 +173,29 @@ fn stored(
         }
     }
     parts
+}
+
+/// What is left of the normal velocities where several impulses are solved for: W p = b holds up to
+/// the rounding of its summands, and cables that hardly differ in direction make much of it.
+#[inline(always)]
+fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
+    let (mut count, mut summands) = (0, 0.0);
+    for impact in step.impacts() {
+        let normal = system.cables[impact.cable].normal(&step.before);
+        summands += impact.impulse * normal.coupling(&normal, system.body.inverse_inertia());
+        count += 1;
+    }
+    if count < 2 {
+        return;
+    }
+    let metric = Metric::of_masses(system);
+    let closed = Constraints::of(system, &step.before, step.event.closed, metric);
+    for (k, column) in [0, 1, PARTS].into_iter().enumerate().take(closed.count) {
+        let size = ROUNDING * summands / closed.lengths[k];
+        for i in 0..3 {
+            parts[3 + i][column] += metric.0[i] * closed.normals[k][i] * size;
+        }
+    }
 }
 
 /// A part for each component and for the time, which is rounded as such and as the forcing's phase.
@@ -260,6 +284,8 @@ impl Metric {
 /// The normals of some cables in (x, y, θ), orthonormal in a metric; three at most are independent.
 struct Constraints {
     normals: [[f64; 3]; 3],
+    /// What each had of its length that is independent of those before it.
+    lengths: [f64; 3],
     count: usize,
     metric: Metric,
 }
@@ -269,6 +295,7 @@ impl Constraints {
     fn of(system: &System, state: &State, set: TautSet, metric: Metric) -> Self {
         let mut all = Self {
             normals: [[0.0; 3]; 3],
+            lengths: [1.0; 3],
             count: 0,
             metric,
         };
@@ -296,6 +323,7 @@ impl Constraints {
             *component /= left;
         }
         self.normals[self.count] = normal;
+        self.lengths[self.count] = left;
         self.count += 1;
         Some(left)
     }
