@@ -59,7 +59,7 @@ impl Frame {
         for entry in self.directions[..6].as_flattened() {
             largest = largest.max(entry.abs());
         }
-        if self.bounces == MOST_BOUNCES || !(largest < GROWN) {
+        if self.bounces == MOST_BOUNCES || largest >= GROWN {
             self.make_orthogonal();
         }
     }

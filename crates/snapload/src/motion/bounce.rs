@@ -128,8 +128,8 @@ pub(crate) fn bounce<L: Lane>(two_cables: &TwoCableSystem<L>, from: &AfterImpact
             found & s.below(horizon) & alone & open & stops_nowhere(two_cables, from, *s, state);
         let top_known = !rises_above(two_cables, from, *s, state);
         let forces = [start.force_at_start, end.force];
-        let flight = (second, &end, (arrived, top_known));
-        land(two_cables, from, flight, (forces, openness))
+        let known = [arrived, top_known];
+        land(two_cables, from, second, &end, known, (forces, openness))
     })
 }
 
@@ -229,7 +229,9 @@ fn put_back<L: Lane>(
 fn land<L: Lane>(
     two_cables: &TwoCableSystem<L>,
     from: &AfterImpact<L>,
-    (second, end, (arrived, top_known)): (L::Mask, &FlightEnd<L>, (L::Mask, L::Mask)),
+    second: L::Mask,
+    end: &FlightEnd<L>,
+    [arrived, top_known]: [L::Mask; 2],
     (forces, openness): ([Vector2<L>; 2], [Openness<L>; 2]),
 ) -> Bounce<L> {
     apart!(L, {

@@ -11,6 +11,10 @@
 //! δp = (1 + e) (δv_n/w − v_n δw/w²)
 //! δv⁺ = δv − n δp − p κ t                    δθ̇⁺ = δθ̇ − (s δp + p c (κ − δθ))/I
 //! ```
+#![expect(
+    clippy::needless_range_loop,
+    reason = "a deviation is an entry of every row"
+)]
 
 use crate::arithmetic::lane::Lane;
 use crate::arithmetic::plane::Vector2;

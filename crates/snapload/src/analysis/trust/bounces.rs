@@ -7,6 +7,10 @@
 //! known better, as far as that allows. Whether neighbours may leave the run's sequence of events is
 //! asked by bounds here, without roots: where one of them does not hold,
 //! [`crate::analysis::trust::causes`] decides.
+#![expect(
+    clippy::needless_range_loop,
+    reason = "a deviation is an entry of every row"
+)]
 
 use crate::analysis::trust::causes::REACH;
 use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};

@@ -16,6 +16,7 @@ mod monitor;
 mod parts;
 mod rounding;
 mod spread;
+mod uncertain_key;
 
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;

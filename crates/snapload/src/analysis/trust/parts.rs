@@ -137,10 +137,10 @@ mod tests {
 
     fn carried(columns: &Rows<f64, COLUMNS>, step: usize) -> Rows<f64, COLUMNS> {
         let mut next = [[0.0; COLUMNS]; 7];
-        for i in 0..7 {
-            for j in 0..7 {
-                for k in 0..COLUMNS {
-                    next[i][k] += entry(step, i, j) * columns[j][k];
+        for (i, row) in next.iter_mut().enumerate() {
+            for (j, column) in columns.iter().enumerate() {
+                for (sum, part) in row.iter_mut().zip(column) {
+                    *sum += entry(step, i, j) * part;
                 }
             }
         }

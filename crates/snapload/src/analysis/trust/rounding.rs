@@ -190,7 +190,11 @@ fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
     }
     let metric = Metric::of_masses(system);
     let closed = Constraints::of(system, &step.before, step.event.closed, metric);
-    for (k, column) in [0, 1, PARTS].into_iter().enumerate().take(closed.count) {
+    for (k, column) in [PARTS - 1, PARTS, PARTS - 2]
+        .into_iter()
+        .enumerate()
+        .take(closed.count)
+    {
         let size = ROUNDING * summands / closed.lengths[k];
         for i in 0..3 {
             parts[3 + i][column] += metric.0[i] * closed.normals[k][i] * size;

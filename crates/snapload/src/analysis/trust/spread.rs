@@ -7,12 +7,11 @@ use crate::analysis::trust::causes::{
 use crate::analysis::trust::covariance::{CovarianceFactor, LOST};
 use crate::analysis::trust::parts::{COLUMNS, squares};
 use crate::analysis::trust::rounding::{self, Rounding};
+use crate::analysis::trust::uncertain_key::{UncertainKey, uniform};
 use crate::analysis::trust::{Horizon, HorizonCause, Uncertainty};
-use crate::arithmetic::dual::Dual;
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
 use crate::case::error::CaseError;
-use crate::case::value::Value;
 use crate::model::rules::Stop;
 use crate::model::state::State;
 use crate::motion::bounce_map::{BounceMap, Bounced};
@@ -46,21 +45,6 @@ pub(super) struct SpreadMonitor {
     /// Whether no digit is left.
     lost: bool,
     pub(super) end_error: f64,
-}
-
-/// The same run with its derivatives by an uncertain parameter.
-#[derive(Clone, Debug)]
-struct UncertainKey {
-    simulation: Simulation<Dual<f64, 1>>,
-    /// Standard deviation of the parameter.
-    size: f64,
-    /// That of (w, τ), at the latest event.
-    deviation: Deviation,
-}
-
-/// The standard deviation of a value that lies anywhere within ± `size`.
-fn uniform(size: f64) -> f64 {
-    size / 3.0_f64.sqrt()
 }
 
 /// What a step does to deviations.
@@ -156,6 +140,7 @@ impl SpreadMonitor {
             cause,
         });
         Self {
+            lost: covariance.is_lost(),
             tolerance,
             tangent: None,
             covariance,
@@ -164,7 +149,6 @@ impl SpreadMonitor {
             impacts: 0,
             steps: 0,
             horizon,
-            lost: false,
             end_error: 0.0,
         }
     }
@@ -206,6 +190,9 @@ impl SpreadMonitor {
     ) -> f64 {
         let bounced = simulation.bounced(step);
         let lost = self.is_lost();
+        if lost {
+            self.lose(step, HorizonCause::Tolerance);
+        }
         let error = match bounced {
             Some(bounced) if lost => {
                 onlooker.see(LinearMap::Bounce(&BounceMap::of(&bounced)));
@@ -361,7 +348,7 @@ impl SpreadMonitor {
             ERROR * after[6].sqrt()
         };
         let all: f64 = before.iter().chain(after).sum();
-        self.lost |= !(all < LOST * LOST);
+        self.lost |= !all.is_finite() || all >= LOST * LOST;
         if error > self.tolerance || self.lost {
             self.lose(step, HorizonCause::Tolerance);
         }
@@ -376,50 +363,6 @@ impl SpreadMonitor {
             impact: self.impacts + 1,
             cause,
         });
-    }
-}
-
-impl UncertainKey {
-    fn new(case: &Case, name: &'static str, size: f64) -> Result<Self, CaseError> {
-        if !case.parameters().moves_by(name) {
-            let allowed = "no uncertainty, as this case has no such quantity";
-            return Err(CaseError::value(name, Value::Number(size), allowed));
-        }
-        let lift = |key, number| {
-            if key == name {
-                Dual::variable(number, 0)
-            } else {
-                Dual::constant(number)
-            }
-        };
-        let simulation = case.simulation_over(lift).map_err(|_| {
-            let allowed = "an uncertainty about a start that is not on the very edge";
-            CaseError::value(name, Value::Number(size), allowed)
-        })?;
-        let size = uniform(size);
-        let w = simulation.state().components().map(|c| c.slope[0] * size);
-        Ok(Self {
-            simulation,
-            size,
-            deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
-        })
-    }
-
-    /// The deviation just before the event told at the time of the last one, just before it at its
-    /// own time, and after it.
-    fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
-        let Some(step) = self.simulation.step() else {
-            return [self.deviation; 3];
-        };
-        let tau = step.t_end.slope[0] * self.size;
-        let at = |state: &State<Dual<f64, 1>>| -> Deviation {
-            let w = state.components().map(|c| c.slope[0] * self.size);
-            [w[0], w[1], w[2], w[3], w[4], w[5], tau]
-        };
-        let met = at(&step.before);
-        let along = map.before_meeting(&met, self.deviation[6]);
-        self.deviation = at(&step.after);
-        [along, met, self.deviation]
     }
 }
 

@@ -1,0 +1,68 @@
+//! A parameter that is in doubt, beside a run.
+
+use crate::arithmetic::dual::Dual;
+use crate::case::Case;
+use crate::case::error::CaseError;
+use crate::case::value::Value;
+use crate::model::state::State;
+use crate::motion::simulation::Simulation;
+use crate::motion::step_map::{Deviation, StepMap};
+
+/// The same run with its derivatives by an uncertain parameter.
+#[derive(Clone, Debug)]
+pub(super) struct UncertainKey {
+    simulation: Simulation<Dual<f64, 1>>,
+    /// Standard deviation of the parameter.
+    size: f64,
+    /// That of (w, τ), at the latest event.
+    pub(super) deviation: Deviation,
+}
+
+/// The standard deviation of a value that lies anywhere within ± `size`.
+pub(super) fn uniform(size: f64) -> f64 {
+    size / 3.0_f64.sqrt()
+}
+
+impl UncertainKey {
+    pub(super) fn new(case: &Case, name: &'static str, size: f64) -> Result<Self, CaseError> {
+        if !case.parameters().moves_by(name) {
+            let allowed = "no uncertainty, as this case has no such quantity";
+            return Err(CaseError::value(name, Value::Number(size), allowed));
+        }
+        let lift = |key, number| {
+            if key == name {
+                Dual::variable(number, 0)
+            } else {
+                Dual::constant(number)
+            }
+        };
+        let simulation = case.simulation_over(lift).map_err(|_| {
+            let allowed = "an uncertainty about a start that is not on the very edge";
+            CaseError::value(name, Value::Number(size), allowed)
+        })?;
+        let size = uniform(size);
+        let w = simulation.state().components().map(|c| c.slope[0] * size);
+        Ok(Self {
+            simulation,
+            size,
+            deviation: [w[0], w[1], w[2], w[3], w[4], w[5], 0.0],
+        })
+    }
+
+    /// The deviation just before the event told at the time of the last one, just before it at its
+    /// own time, and after it.
+    pub(super) fn step(&mut self, map: &StepMap) -> [Deviation; 3] {
+        let Some(step) = self.simulation.step() else {
+            return [self.deviation; 3];
+        };
+        let tau = step.t_end.slope[0] * self.size;
+        let at = |state: &State<Dual<f64, 1>>| -> Deviation {
+            let w = state.components().map(|c| c.slope[0] * self.size);
+            [w[0], w[1], w[2], w[3], w[4], w[5], tau]
+        };
+        let met = at(&step.before);
+        let along = map.before_meeting(&met, self.deviation[6]);
+        self.deviation = at(&step.after);
+        [along, met, self.deviation]
+    }
+}
