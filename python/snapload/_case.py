@@ -120,7 +120,7 @@ class Case(KeyValues):
         *,
         uncertainty: Uncertainty = None,
         tolerance: float = 1e-3,
-        members: int = 1000,
+        members: int | None = None,
         seed: int = 1,
     ) -> Run:
         """Runs the case to its end, and says how far the run can be trusted.
@@ -132,8 +132,9 @@ class Case(KeyValues):
             Nothing but rounding if left out.
         tolerance : float
             Error of state and time above which a result counts as not known.
-        members : int
-            Neighbours to run where the end is past the horizon; 0 for none.
+        members : int, optional
+            Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if those
+            end alike.
         seed : int
             Which neighbours.
 
@@ -151,7 +152,8 @@ class Case(KeyValues):
         -----
         Python's lock is released meanwhile, and Ctrl-C ends it.
         """
-        members, seed = whole("members", members, 0, 10**9), whole("seed", seed, 0, 2**64 - 1)
+        members = members if members is None else whole("members", members, 0, 10**9)
+        seed = whole("seed", seed, 0, 2**64 - 1)
         return Run(_engine.run(self._engine, plain(uncertainty), tolerance, members, seed), self)
 
     def __eq__(self, other: object) -> bool:

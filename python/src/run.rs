@@ -221,7 +221,7 @@ pub(crate) fn run(
     case: &Case,
     uncertainty: Option<&Bound<'_, PyAny>>,
     tolerance: f64,
-    members: u32,
+    members: Option<u32>,
     seed: u64,
 ) -> PyResult<Run> {
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;

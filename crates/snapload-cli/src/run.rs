@@ -7,7 +7,7 @@ use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
 use snapload::Case;
-use snapload::analysis::{DEFAULT_MEMBERS, Progress};
+use snapload::analysis::Progress;
 use snapload_report::{Report, Sampling, Trusted, case_in_words, summary, tables, write_json};
 use std::path::{Path, PathBuf};
 
@@ -40,9 +40,10 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,
-    /// Neighbours to run where the end is past the horizon; 0 for none
-    #[arg(long, value_name = "N", default_value_t = DEFAULT_MEMBERS)]
-    ensemble: u32,
+    /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if
+    /// those end alike
+    #[arg(long, value_name = "N")]
+    ensemble: Option<u32>,
     /// Time step of the motion in --json and --out
     #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
     sample: Option<f64>,

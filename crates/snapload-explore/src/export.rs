@@ -5,7 +5,7 @@ use crate::run::follow;
 use crate::work::Allowance;
 use serde::Deserialize;
 use snapload::Case;
-use snapload::analysis::{DEFAULT_MEMBERS, Progress, Uncertainty, Unfinished};
+use snapload::analysis::{Progress, Uncertainty, Unfinished};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
     Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
@@ -130,7 +130,7 @@ impl File {
             let written = tables::impacts(&run.run, run.trust.digits(), out);
             return written.map_err(Refusal::failed);
         }
-        let run = run.completed(case, DEFAULT_MEMBERS, SEED, &go_on);
+        let run = run.completed(case, None, SEED, &go_on);
         let run = run.map_err(refuse)?;
         let report = Report::new(case.parameters(), &run, None, &go_on);
         write_json(&report, out).map_err(Refusal::failed)

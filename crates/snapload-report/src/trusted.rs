@@ -1,7 +1,7 @@
 //! A run with what is known of it: how far it can be trusted, and how its neighbours end.
 use snapload::analysis::{
-    Ensemble, Horizon, HorizonCause, OnProgress, Sensitivity, Tally, Trust, Uncertainty,
-    Unfinished, sensitivity, trusted_run,
+    DEFAULT_MEMBERS, Ensemble, Horizon, HorizonCause, OnProgress, Sensitivity, Tally, Trust,
+    Uncertainty, Unfinished, sensitivity, trusted_run,
 };
 use snapload::{Case, Trajectory};
 
@@ -25,7 +25,8 @@ pub struct Trusted {
 }
 
 impl Trusted {
-    /// Runs a case, and so many of its neighbours where it takes them.
+    /// Runs a case, and so many of its neighbours where it takes them; if no number is given, as many
+    /// as it takes to tell how they end, up to [`DEFAULT_MEMBERS`].
     ///
     /// # Errors
     /// A [`snapload::CaseError`] if a key that is uncertain can not be varied about this start, and
@@ -33,7 +34,7 @@ impl Trusted {
     pub fn run(
         case: &Case,
         uncertainty: Uncertainty,
-        members: u32,
+        members: Option<u32>,
         seed: u64,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
@@ -70,21 +71,25 @@ impl Trusted {
     pub fn completed(
         mut self,
         case: &Case,
-        members: u32,
+        members: Option<u32>,
         seed: u64,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
         self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
         self.seed = seed;
         if self.takes_neighbours(members) {
-            let ensemble = Ensemble::about(case, &self.uncertainty, members, seed);
-            self.tally = Some(ensemble.tally(on_progress)?);
+            let count = members.unwrap_or(DEFAULT_MEMBERS);
+            let ensemble = Ensemble::about(case, &self.uncertainty, count, seed);
+            self.tally = Some(match members {
+                Some(_) => ensemble.tally(on_progress)?,
+                None => ensemble.tally_until_clear(on_progress)?,
+            });
         }
         Ok(self)
     }
 
-    fn takes_neighbours(&self, members: u32) -> bool {
-        members > 0 && !self.trust.decides_the_end()
+    fn takes_neighbours(&self, members: Option<u32>) -> bool {
+        members != Some(0) && !self.trust.decides_the_end()
     }
 
     /// Where trust ends, as pictures show it.

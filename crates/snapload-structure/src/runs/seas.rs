@@ -121,6 +121,7 @@ impl Seas {
         failed.map(|failed| Share {
             count: failed.iter().filter(|failed| **failed).count(),
             of: self.records.len(),
+            clear: false,
         })
     }
 

@@ -74,6 +74,7 @@ fn exceeding(
         Share {
             count: if run.end().reason.exceeds() { all } else { 0 },
             of: all,
+            clear: false,
         }
     } else {
         ensemble.tally(on_progress)?.exceeding()
