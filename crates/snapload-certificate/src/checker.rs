@@ -4,8 +4,9 @@
 
 use crate::arithmetic::ball::Ball;
 use crate::case::ExactCase;
-use crate::format::{FORMAT, MODEL, UNDECIDED, Written, decimal};
-use crate::proof::{ProvedEnd, ProvedImpact, Reason, prove};
+use crate::format::{FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, Written, decimal};
+use crate::proof::prove;
+use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedStretch, Reason};
 use crate::verdict::{Trouble, with_more_bits};
 use std::ops::ControlFlow;
 
@@ -68,7 +69,8 @@ pub fn check(text: &str) -> Verdict {
 
 /// Whether it is a certificate of this format, with a legal case and decimals where they belong.
 fn shape(certificate: &Written) -> Result<ExactCase, String> {
-    if certificate.format != FORMAT || certificate.model != MODEL {
+    let is_known = [FORMAT, TAUT_FORMAT].contains(&certificate.format.as_str());
+    if !is_known || certificate.model != MODEL {
         return Err(format!(
             "format {:?} of model {:?} is not known",
             certificate.format, certificate.model
@@ -77,12 +79,18 @@ fn shape(certificate: &Written) -> Result<ExactCase, String> {
     if !BITS.contains(&certificate.bits) {
         return Err(format!("bits = {} is not allowed", certificate.bits));
     }
-    for (cable, t, v_n) in &certificate.impacts {
-        if !(1..=2).contains(cable) {
-            return Err(format!("there is no cable {cable}"));
+    for line in &certificate.impacts {
+        match line {
+            Line::Impact(cable, t, v_n) if (1..=2).contains(cable) => {
+                decimal("the time", t)?;
+                decimal("v_n", v_n)?;
+            }
+            Line::Stretch(stretch) if certificate.format == TAUT_FORMAT => {
+                decimal("the time", &stretch.from)?;
+                decimal("the time", &stretch.until)?;
+            }
+            _ => return Err("a line that is neither an impact nor a stretch".to_owned()),
         }
-        decimal("the time", t)?;
-        decimal("v_n", v_n)?;
     }
     let end = &certificate.end;
     match (&end.t, &end.state) {
@@ -102,15 +110,16 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
     let claims = &certificate.impacts;
     let is_partial = certificate.end.reason == UNDECIDED;
     let first = certificate.bits.div_ceil(64) as usize;
-    let result = with_more_bits(Some(first), |limbs| {
+    let result = with_more_bits(first, |limbs| {
         if is_partial && claims.is_empty() {
             return Ok(());
         }
         let mut seen = 0;
-        let proved = prove(case, limbs, &mut |impact| {
+        let taut = certificate.format == TAUT_FORMAT;
+        let proved = prove(case, limbs, taut, &mut |proved| {
             seen += 1;
             let enough = is_partial && seen == claims.len();
-            match (agrees(impact, seen, claims.get(seen - 1)), enough) {
+            match (agrees(&proved, seen, claims.get(seen - 1)), enough) {
                 (Err(trouble), _) => ControlFlow::Break(trouble),
                 (Ok(()), true) => ControlFlow::Break(Trouble::Enough),
                 (Ok(()), false) => ControlFlow::Continue(()),
@@ -126,7 +135,10 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             Ok(end) => end_agrees(&end, certificate),
         }
     });
-    let impacts = claims.len();
+    let impacts = claims
+        .iter()
+        .filter(|line| matches!(line, Line::Impact(..)))
+        .count();
     match (result, Reason::named(&certificate.end.reason)) {
         (Ok((_, limbs)), Some(reason)) => Verdict::Proved {
             impacts,
@@ -139,7 +151,7 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
             bits: 64 * limbs,
         },
         (Err(Trouble::False(what)), _) => Verdict::Refused(what),
-        (Err(Trouble::Undecided { what, t }), _) => {
+        (Err(Trouble::Undecided { what, t, .. }), _) => {
             let at = t.map_or_else(String::new, |t| format!(", after t = {t}"));
             Verdict::Undecided(format!("{what}{at}"))
         }
@@ -149,18 +161,40 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
     }
 }
 
-/// Whether an impact is the one that is claimed.
-fn agrees(
+/// Whether what is proved next is what is claimed next.
+fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Trouble> {
+    match (proved, claim) {
+        (Proved::Impact(impact), Some(Line::Impact(cable, t, v_n))) => {
+            impact_agrees(impact, nth, (*cable, t, v_n))
+        }
+        (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
+            let ProvedStretch {
+                cable,
+                from,
+                until,
+                event,
+            } = ours;
+            if theirs.mode != [*cable as u8 + 1] || theirs.event != *event {
+                return Err(Trouble::False(format!(
+                    "stretch {nth} is of cable {} and ends with {event}",
+                    cable + 1
+                )));
+            }
+            equals(&format!("the begin of stretch {nth}"), from, &theirs.from)?;
+            equals(&format!("the end of stretch {nth}"), until, &theirs.until)
+        }
+        _ => Err(Trouble::False(format!(
+            "line {nth} of the run is another than is claimed, or more"
+        ))),
+    }
+}
+
+fn impact_agrees(
     impact: &ProvedImpact,
     nth: usize,
-    claim: Option<&(u8, String, String)>,
+    (cable, t, v_n): (u8, &str, &str),
 ) -> Result<(), Trouble> {
-    let Some((cable, t, v_n)) = claim else {
-        return Err(Trouble::False(format!(
-            "there is an impact {nth}, which is not claimed"
-        )));
-    };
-    if impact.cable + 1 != usize::from(*cable) {
+    if impact.cable + 1 != usize::from(cable) {
         return Err(Trouble::False(format!(
             "impact {nth} is of cable {}, and cable {cable} is claimed",
             impact.cable + 1

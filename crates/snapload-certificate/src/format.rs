@@ -6,6 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 /// The format of certificates of slack flight.
 pub(crate) const FORMAT: &str = "snapload-certificate-1";
+/// The format of certificates that go on where a cable stays taut.
+pub(crate) const TAUT_FORMAT: &str = "snapload-certificate-2";
 /// The model that they speak of.
 pub(crate) const MODEL: &str = "snapload model 1";
 /// The end of a certificate that proves the beginning of a run.
@@ -19,9 +21,38 @@ pub(crate) struct Written {
     pub(crate) model: String,
     pub(crate) bits: u64,
     pub(crate) case: WrittenCase,
-    /// Cable from 1, time, normal velocity.
-    pub(crate) impacts: Vec<(u8, String, String)>,
+    pub(crate) impacts: Vec<Line>,
     pub(crate) end: WrittenEnd,
+}
+
+/// One after the other what a run has.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Line {
+    /// Cable from 1, time, normal velocity.
+    Impact(u8, String, String),
+    Stretch(Stretch),
+}
+
+impl Line {
+    /// When it is, or ends.
+    pub(crate) fn time(&self) -> &str {
+        match self {
+            Self::Impact(_, t, _) => t,
+            Self::Stretch(stretch) => &stretch.until,
+        }
+    }
+}
+
+/// A stretch of motion with one taut cable.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Stretch {
+    /// The taut cables, from 1.
+    pub(crate) mode: Vec<u8>,
+    pub(crate) from: String,
+    pub(crate) until: String,
+    pub(crate) event: String,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]

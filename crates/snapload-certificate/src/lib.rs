@@ -13,7 +13,7 @@
 //!
 //! let case = Parameters { e: 0.5, ..Parameters::STANDARD };
 //! let case = ExactCase::of(&case, |_| None).expect("a legal case");
-//! let proof = certify(&case, &mut |_| ControlFlow::Continue(())).expect("not cancelled");
+//! let proof = certify(&case, false, &mut |_| ControlFlow::Continue(())).expect("not cancelled");
 //! let proof = proof.expect("a legal start");
 //! assert!(matches!(proof.end, Ended::Proved(_)));
 //! assert!(matches!(check(&proof.text()), Verdict::Proved { .. }));
@@ -25,12 +25,15 @@ mod checker;
 mod format;
 mod model;
 mod proof;
+mod proved;
+mod run;
 mod slack;
+mod taut;
 mod verdict;
 mod writer;
 
 pub use arithmetic::decimal::Decimal;
 pub use case::{ExactCase, NUMBERS};
 pub use checker::{Verdict, check};
-pub use proof::Reason;
+pub use proved::Reason;
 pub use writer::{Cancelled, Certification, Ended, certify};

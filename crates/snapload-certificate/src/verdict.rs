@@ -9,6 +9,8 @@ pub(crate) enum Trouble {
         what: String,
         /// Next to when.
         t: Option<f64>,
+        /// Whether more bits may decide it.
+        more_bits: bool,
     },
     /// The model has no such motion, or what is claimed of it is false.
     False(String),
@@ -24,15 +26,26 @@ impl Trouble {
         Self::Undecided {
             what: what.into(),
             t: None,
+            more_bits: true,
+        }
+    }
+
+    /// Something that this program has no proof of, with any bits.
+    pub(crate) fn beyond(what: impl Into<String>) -> Self {
+        Self::Undecided {
+            what: what.into(),
+            t: None,
+            more_bits: false,
         }
     }
 
     /// The same with the time, where it is not known yet.
     pub(crate) fn at(self, time: f64) -> Self {
         match self {
-            Self::Undecided { what, t } => Self::Undecided {
+            Self::Undecided { what, t, more_bits } => Self::Undecided {
                 what,
                 t: t.or(Some(time)),
+                more_bits,
             },
             other => other,
         }
@@ -40,18 +53,20 @@ impl Trouble {
 }
 
 /// So many limbs of 64 bits does a proof begin with, and so many has it at most: 2944 bits.
-const FIRST_LIMBS: usize = 4;
+pub(crate) const FIRST_LIMBS: usize = 4;
 pub(crate) const MOST_LIMBS: usize = 46;
 
 /// Tries with more and more bits, each time a third more, while something stays undecided.
 pub(crate) fn with_more_bits<T>(
-    first: Option<usize>,
+    first: usize,
     mut attempt: impl FnMut(usize) -> Result<T, Trouble>,
 ) -> Result<(T, usize), Trouble> {
-    let mut limbs = first.unwrap_or(FIRST_LIMBS).clamp(2, MOST_LIMBS);
+    let mut limbs = first.clamp(2, MOST_LIMBS);
     loop {
         match attempt(limbs) {
-            Err(Trouble::Undecided { .. }) if limbs < MOST_LIMBS => {
+            Err(Trouble::Undecided {
+                more_bits: true, ..
+            }) if limbs < MOST_LIMBS => {
                 limbs = (limbs * 4).div_ceil(3).min(MOST_LIMBS);
             }
             result => return result.map(|found| (found, limbs)),

@@ -3,9 +3,12 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::{fixed, significant};
 use crate::case::ExactCase;
-use crate::format::{FORMAT, MODEL, UNDECIDED, Written, WrittenCase, WrittenEnd};
-use crate::proof::{ProvedImpact, Reason, prove};
-use crate::verdict::{Trouble, with_more_bits};
+use crate::format::{
+    FORMAT, Line, MODEL, Stretch, TAUT_FORMAT, UNDECIDED, Written, WrittenCase, WrittenEnd,
+};
+use crate::proof::prove;
+use crate::proved::{Proved, Reason};
+use crate::verdict::{FIRST_LIMBS, Trouble, with_more_bits};
 use serde::{Serialize, Serializer};
 use std::ops::ControlFlow;
 
@@ -19,6 +22,8 @@ const DIGITS: i64 = 17;
 pub struct Certification {
     /// How many impacts were proved.
     pub impacts: usize,
+    /// How many stretches with a taut cable.
+    pub stretches: usize,
     /// When the last thing that was proved happened: the end, or the last impact.
     pub t: String,
     /// How the run ends, or what could not be decided.
@@ -61,30 +66,36 @@ impl Serialize for Certification {
 #[derive(Clone, Copy, Debug)]
 pub struct Cancelled;
 
-/// What is to be written of impacts.
-type Lines = Vec<(u8, String, String)>;
+/// What is to be written of impacts and taut stretches.
+type Lines = Vec<Line>;
 /// The reason, time and state of an end as they are to be written.
 type PrintedEnd = (Reason, String, [String; 6]);
 
-/// Proves the run of a case; `on_impact` is told the time of each impact and may end the work.
+/// Proves the run of a case; `on_impact` is told the time of each impact and may end the work. Where a
+/// cable stays taut and no rule stops the run, the proof ends as `sticks`, or goes on if `taut`.
 ///
 /// # Errors
 /// A case without a motion, in words; or [`Cancelled`].
 pub fn certify(
     case: &ExactCase,
+    taut: bool,
     on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Result<Certification, String>, Cancelled> {
     // Of all attempts the longest.
     let (mut best, mut bits) = (Lines::new(), 0);
-    let found = with_more_bits(None, |limbs| {
+    let found = with_more_bits(if taut { 2 * FIRST_LIMBS } else { FIRST_LIMBS }, |limbs| {
         let mut impacts = Lines::new();
-        let end = attempt(case, limbs, &mut impacts, on_impact);
+        let end = attempt(case, limbs, taut, &mut impacts, on_impact);
         if impacts.len() >= best.len() {
             (best, bits) = (impacts, 64 * limbs);
         }
         end
     });
-    let last = best.last().map(|(_, t, _)| t.clone());
+    let last = best.last().map(|line| line.time().to_owned());
+    let stretches = best
+        .iter()
+        .filter(|line| matches!(line, Line::Stretch(_)))
+        .count();
     let (end, t, written) = match found {
         Ok(((reason, t, state), _)) => {
             let written = WrittenEnd {
@@ -94,7 +105,7 @@ pub fn certify(
             };
             (Ended::Proved(reason), t, written)
         }
-        Err(Trouble::Undecided { what, t }) => {
+        Err(Trouble::Undecided { what, t, .. }) => {
             let written = WrittenEnd {
                 reason: UNDECIDED.to_owned(),
                 t: None,
@@ -108,12 +119,13 @@ pub fn certify(
         Err(Trouble::Cancelled | Trouble::Enough) => return Err(Cancelled),
     };
     Ok(Ok(Certification {
-        impacts: best.len(),
+        impacts: best.len() - stretches,
+        stretches,
         t,
         end,
         bits,
         written: Written {
-            format: FORMAT.to_owned(),
+            format: if stretches > 0 { TAUT_FORMAT } else { FORMAT }.to_owned(),
             model: MODEL.to_owned(),
             bits: bits as u64,
             case: WrittenCase::of(case),
@@ -127,19 +139,20 @@ pub fn certify(
 fn attempt(
     case: &ExactCase,
     limbs: usize,
+    taut: bool,
     impacts: &mut Lines,
     on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<PrintedEnd, Trouble> {
-    let end = prove(case, limbs, &mut |impact| {
-        if on_impact(impact.t.to_f64()).is_break() {
+    let end = prove(case, limbs, taut, &mut |proved| {
+        if on_impact(proved.time().to_f64()).is_break() {
             return ControlFlow::Break(Trouble::Cancelled);
         }
-        match written(impact) {
+        match written(&proved) {
             Some(line) => {
                 impacts.push(line);
                 ControlFlow::Continue(())
             }
-            None => ControlFlow::Break(digits(impact)),
+            None => ControlFlow::Break(digits(&proved)),
         }
     })?;
     let printed = fixed(&end.t, PLACES).zip(printed(&end.state));
@@ -148,14 +161,24 @@ fn attempt(
     Ok((end.reason, t, state))
 }
 
-fn written(impact: &ProvedImpact) -> Option<(u8, String, String)> {
-    let t = fixed(&impact.t, PLACES)?;
-    let v_n = significant(&impact.v_n, DIGITS)?;
-    Some((impact.cable as u8 + 1, t, v_n))
+fn written(proved: &Proved) -> Option<Line> {
+    let t = fixed(proved.time(), PLACES)?;
+    Some(match proved {
+        Proved::Impact(impact) => {
+            let v_n = significant(&impact.v_n, DIGITS)?;
+            Line::Impact(impact.cable as u8 + 1, t, v_n)
+        }
+        Proved::Stretch(stretch) => Line::Stretch(Stretch {
+            mode: vec![stretch.cable as u8 + 1],
+            from: fixed(&stretch.from, PLACES)?,
+            until: t,
+            event: stretch.event.clone(),
+        }),
+    })
 }
 
-fn digits(impact: &ProvedImpact) -> Trouble {
-    Trouble::undecided("the digits of an impact").at(impact.t.to_f64())
+fn digits(proved: &Proved) -> Trouble {
+    Trouble::undecided("the digits of a time or speed").at(proved.time().to_f64())
 }
 
 fn printed(state: &[Ball; 6]) -> Option<[String; 6]> {

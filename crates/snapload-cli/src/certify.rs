@@ -17,7 +17,7 @@ const EXAMPLES: &str = "\
 The case is taken as the decimals that it is written in. Its motion is enclosed from impact to impact in
 numbers of many digits: that each one exists, comes next, and is of that cable, and how the run ends.
 Only what was proved is written, each number rounded to nearest at its last digit. The proof covers slack
-flight, impacts and stops; where a cable stays taut it ends.
+flight, impacts and stops; where a cable stays taut it ends, or goes on with --taut as long as one alone does.
 
 Examples:
   snapload certify
@@ -47,6 +47,9 @@ pub(crate) struct Args {
     /// Write the certificate, or what --check finds, as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
+    /// Go on where a cable stays taut, as far as one cable alone does
+    #[arg(long, conflicts_with = "check")]
+    taut: bool,
     /// Write the certificate of a proof that came to no end, too
     #[arg(long)]
     partial: bool,
@@ -72,7 +75,9 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     let begun = Instant::now();
     let bar = Bar::new();
     let t_end = input.case.parameters().t_end;
-    let proof = certify(&case, &mut |t| bar.show(Progress::new("proving", t, t_end)));
+    let proof = certify(&case, args.taut, &mut |t| {
+        bar.show(Progress::new("proving", t, t_end))
+    });
     drop(bar);
     let proof =
         proof.map_err(|Cancelled| Failure::Interrupted("nothing was written".to_owned()))?;

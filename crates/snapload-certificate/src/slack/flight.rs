@@ -3,7 +3,8 @@
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
-use crate::model::{Force, Model, State, Watched};
+use crate::model::{FIRST_TOP, Force, Model, State, Watched};
+use crate::slack::search::Path;
 
 /// A flight from a state at a time, which is a number.
 pub(crate) struct Flight<'a> {
@@ -61,9 +62,47 @@ impl<'a> Flight<'a> {
         }
         ([x, y, theta + &(spin * tau), ux, uy, spin.clone()], force)
     }
+}
 
-    pub(crate) fn watched(&self, tau: &Ball) -> Vec<Watched> {
+impl Path for Flight<'_> {
+    fn limbs(&self) -> usize {
+        self.model.limbs
+    }
+
+    fn count(&self) -> usize {
+        FIRST_TOP + if self.model.has_corners() { 2 } else { 1 }
+    }
+
+    fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
+        self.model.one_watched(which, &self.at(tau).0)
+    }
+
+    fn watched(&self, tau: &Ball) -> Vec<Watched> {
         self.model.watched(&self.at(tau).0)
+    }
+
+    /// Of a gap: g⃛ = 2 (3 Ṗ·P̈ + D·P⃛), with P̈ = f − θ̇² ρ and P⃛ = ḟ − θ̇³ ρ⟂.
+    fn third(&self, which: usize, middle: &Ball, half: Radius) -> Option<Ball> {
+        if which >= FIRST_TOP {
+            return None;
+        }
+        let m = self.model;
+        let over = middle.clone().widened(half);
+        let (state, force) = self.at(&over);
+        let end = m.end(which, &state, &m.turn(&state[2]));
+        let ([dx, dy], [px, py], [ux, uy]) = (&end.reach, &end.arm, &end.velocity);
+        let squared = state[5].squared();
+        let cubed = &squared * &state[5];
+        let second = [&force.x - &(&squared * px), &force.y - &(&squared * py)];
+        let change = if m.is_steady {
+            [Ball::zero(), Ball::zero()]
+        } else {
+            let swing = &m.f_o * &m.omega;
+            [-(&swing * &force.sine), &m.nu * &swing * &force.cosine]
+        };
+        let third = [&change[0] + &(&cubed * py), &change[1] - &(&cubed * px)];
+        let turning = (ux * &second[0] + uy * &second[1]) * Ball::integer(3);
+        Some((turning + dx * &third[0] + dy * &third[1]).twice())
     }
 
     /// Second derivatives of the watched values over a stretch of time about `middle`:
@@ -71,7 +110,7 @@ impl<'a> Flight<'a> {
     /// g̈ = 2 (|Ṗ|² + D·P̈),   P̈ = f − θ̇² ρ,
     ///
     /// with D at the middle and, by the mean value theorem, Ṗ times half the length away from it.
-    pub(crate) fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
+    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
         let m = self.model;
         let reach = Ball::within(half);
         let (state, _) = self.at(middle);

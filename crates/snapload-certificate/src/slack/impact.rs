@@ -14,8 +14,8 @@ pub(crate) struct Impact {
     /// G = (n_x, n_y, s), the derivative of the gap by (x, y, θ) over 2 r.
     g: [Ball; 3],
     /// u = M⁻¹ G.
-    u: [Ball; 3],
-    inverse_w: Ball,
+    pub(crate) u: [Ball; 3],
+    pub(crate) inverse_w: Ball,
     /// G·v⁻, above zero.
     pub(crate) v_n: Ball,
 }
@@ -42,6 +42,12 @@ impl Impact {
             inverse_w,
             v_n,
         })
+    }
+
+    /// W_ij = G_iᵀ M⁻¹ G_j of this cable and another.
+    pub(crate) fn coupling(&self, other: &Self) -> Ball {
+        let [a, b, c] = &self.u;
+        a * &other.g[0] + b * &other.g[1] + c * &other.g[2]
     }
 
     /// v − share · v_n u / w: the velocity after the impact with share 1 + e, without a normal part

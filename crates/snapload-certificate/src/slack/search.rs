@@ -4,7 +4,6 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::model::Watched;
-use crate::slack::flight::Flight;
 use crate::verdict::Trouble;
 
 /// So many pieces of one flight are looked at before it is given up.
@@ -21,6 +20,40 @@ pub(crate) struct Crossing {
     pub(crate) slope: Ball,
 }
 
+/// A stretch of motion along which values are watched, each of which has to stay below zero.
+pub(crate) trait Path {
+    /// Limbs of its numbers.
+    fn limbs(&self) -> usize;
+    /// How many values are watched.
+    fn count(&self) -> usize;
+    /// One of them, at a ball of times.
+    fn one_watched(&self, which: usize, tau: &Ball) -> Watched;
+    /// Their second derivatives over all times that differ from `middle` by at most `half`.
+    fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
+    /// All of them.
+    fn watched(&self, tau: &Ball) -> Vec<Watched> {
+        (0..self.count())
+            .map(|which| self.one_watched(which, tau))
+            .collect()
+    }
+    /// The third derivative of one of them; none if it is not known.
+    fn third(&self, _which: usize, _middle: &Ball, _half: Radius) -> Option<Ball> {
+        None
+    }
+}
+
+/// How a value leaves zero where the motion begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Zero {
+    /// Its rate is negative.
+    Opening,
+    /// Its rate and second derivative are zero, too, and its third derivative is negative.
+    Released,
+}
+
+/// Values that are zero at the instant at which the motion begins.
+pub(crate) type Zeros = Vec<(usize, Zero)>;
+
 /// A moment, which is a number, and what is watched then.
 type Moment = (Ball, Vec<Watched>);
 
@@ -34,22 +67,26 @@ enum Piece {
     Open,
 }
 
-/// The first crossing in (slack, limit], where the flight begins somewhere in ± `slack`; none if
-/// there is none. `struck` is the value that is zero where the flight begins.
+/// The first crossing in (lo, limit] of a motion that begins at some instant within the ball `begin`,
+/// no later than the number `lo`; none if there is none.
 ///
 /// # Errors
 /// [`Trouble`] where it can not be told.
 pub(crate) fn first_crossing(
-    flight: &Flight<'_>,
-    slack: Radius,
-    struck: Option<usize>,
+    path: &impl Path,
+    (begin, lo): &(Ball, Ball),
+    zeros: &Zeros,
     limit: &Ball,
 ) -> Result<Option<Crossing>, Trouble> {
-    let first = beginning(flight, slack, struck)?;
-    let mut length = likely_length(flight, &first, struck);
-    let mut at: Moment = (Ball::bound(slack), first);
-    let mut closed = struck;
+    let first = beginning(path, begin, zeros)?;
+    let mut length = likely_length(path, lo, &first, zeros);
+    let mut at: Moment = (lo.clone(), first);
+    let mut closed: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
     let mut ahead: Vec<Moment> = Vec::new();
+    if zeros.iter().any(|(_, zero)| *zero == Zero::Released) {
+        at = released(path, &at, zeros, &mut length)?;
+        closed.clear();
+    }
     for _ in 0..MOST_PIECES {
         let Some(next) = ahead.pop() else {
             if !at.0.is_below(limit) {
@@ -60,11 +97,14 @@ pub(crate) fn first_crossing(
                 to = limit.clone();
             }
             length *= 2.0;
-            ahead.push((to.clone(), flight.watched(&to)));
+            ahead.push((to.clone(), path.watched(&to)));
             continue;
         };
-        match judge(flight, &at, &next, closed) {
-            Piece::Clear => (at, closed) = (next, None),
+        match judge(path, &at, &next, &closed) {
+            Piece::Clear => {
+                at = next;
+                closed.clear();
+            }
             Piece::Crossed(which, slope) => {
                 return Ok(Some(Crossing {
                     which,
@@ -78,13 +118,78 @@ pub(crate) fn first_crossing(
                 if !(at.0.is_below(&middle) && middle.is_below(&next.0)) {
                     return Err(undecided(&next));
                 }
-                let watched = flight.watched(&middle);
+                let watched = path.watched(&middle);
                 ahead.push(next);
                 ahead.push((middle, watched));
             }
         }
     }
     Err(undecided(&at))
+}
+
+/// The first piece after a cable lost its tension: where its gap, its rate and its second derivative
+/// are zero and the third derivative is negative up to a moment, the gap is below zero after the
+/// begin up to that moment.
+fn released(
+    path: &impl Path,
+    at: &Moment,
+    zeros: &Zeros,
+    length: &mut f64,
+) -> Result<Moment, Trouble> {
+    let mut step = *length;
+    for _ in 0..60 {
+        let to = (&at.0 + &Ball::double(step)).centre();
+        // It begins at −lo at the earliest.
+        let half = Ball::double(step)
+            .half()
+            .upper()
+            .plus(at.0.upper().scaled(1));
+        let middle = (&at.0 + &Ball::double(step / 2.0)).centre();
+        let falls = zeros.iter().all(|(which, zero)| {
+            *zero != Zero::Released
+                || path
+                    .third(*which, &middle, half)
+                    .is_some_and(|t| t.is_negative())
+        });
+        let next: Moment = (to.clone(), path.watched(&to));
+        let known: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
+        let free = zeros.iter().filter(|(_, zero)| *zero == Zero::Released);
+        let below = free
+            .clone()
+            .all(|(which, _)| next.1[*which].value.is_negative());
+        let skipped: Vec<usize> = free.map(|(which, _)| *which).collect();
+        if falls && below && others_clear(path, at, &next, &known, &skipped) {
+            *length = step;
+            return Ok(next);
+        }
+        step /= 2.0;
+    }
+    Err(undecided(at))
+}
+
+/// Whether all values but those that are skipped stay below zero over a piece.
+fn others_clear(
+    path: &impl Path,
+    from: &Moment,
+    to: &Moment,
+    known: &[usize],
+    skipped: &[usize],
+) -> bool {
+    let length = &to.0 - &from.0;
+    let middle = (&from.0 + &to.0).half();
+    let half = length.upper().scaled(-1).plus(middle.radius());
+    let bends = path.bends(&middle.centre(), half);
+    let sag = length.squared().half();
+    bends.iter().enumerate().all(|(which, bend)| {
+        skipped.contains(&which)
+            || stays_below(
+                &from.1[which],
+                &to.1[which],
+                known.contains(&which),
+                bend,
+                &sag,
+            )
+    })
 }
 
 /// Which value is nearest to zero there.
@@ -108,36 +213,33 @@ pub(crate) fn name(which: usize) -> &'static str {
     }
 }
 
-/// What is watched on ± `slack`, in which the flight begins: the cable that was struck opens there,
-/// so that its gap is below zero from the instant of the impact to the end of the slack; all else is
-/// below zero.
-fn beginning(
-    flight: &Flight<'_>,
-    slack: Radius,
-    struck: Option<usize>,
-) -> Result<Vec<Watched>, Trouble> {
-    let first = flight.watched(&Ball::within(slack));
+/// What is watched on the ball of times in which the motion begins. What is zero at that instant is
+/// below zero from there to the end of the ball, as its rate is negative on it (or by its third
+/// derivative, of which the first piece takes care); all else is below zero.
+fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, Trouble> {
+    let first = path.watched(begin);
     for (which, watched) in first.iter().enumerate() {
-        let (holds, what) = if struck == Some(which) {
-            (watched.rate.is_negative(), "leaves")
-        } else {
-            (watched.value.is_negative(), "is clear")
+        let zero = zeros.iter().find(|(zero, _)| *zero == which);
+        let (holds, what) = match zero {
+            Some((_, Zero::Opening)) => (watched.rate.is_negative(), "leaves"),
+            Some((_, Zero::Released)) => (true, "leaves"),
+            None => (watched.value.is_negative(), "is clear"),
         };
         if !holds {
-            let what = format!("whether {} {what} after the impact", name(which));
+            let what = format!("whether {} {what} at the begin of a stretch", name(which));
             return Err(Trouble::undecided(what));
         }
     }
     Ok(first)
 }
 
-/// How long the flight may last: a guess from the parabolas through what is watched now.
-fn likely_length(flight: &Flight<'_>, first: &[Watched], struck: Option<usize>) -> f64 {
-    let bends = flight.bends(&Ball::zero(), Radius::ZERO);
+/// How long it may last: a guess from the parabolas through what is watched now.
+fn likely_length(path: &impl Path, lo: &Ball, first: &[Watched], zeros: &Zeros) -> f64 {
+    let bends = path.bends(lo, Radius::ZERO);
     let mut least = 0.4;
     for (which, (watched, bend)) in first.iter().zip(bends).enumerate() {
         let (rate, bend) = (watched.rate.to_f64(), bend.to_f64());
-        let value = if struck == Some(which) {
+        let value = if zeros.iter().any(|(zero, _)| *zero == which) {
             0.0
         } else {
             watched.value.to_f64()
@@ -149,25 +251,26 @@ fn likely_length(flight: &Flight<'_>, first: &[Watched], struck: Option<usize>) 
         } else {
             (root - rate) / bend
         };
-        if t > 0.0 && t < least {
+        // What was released has no parabola.
+        if t > 1e-15 && t < least {
             least = t;
         }
     }
     1.25 * least
 }
 
-/// What is proved of the piece between two moments. `closed` is a value that is known to be at most
+/// What is proved of the piece between two moments. The values in `closed` are known to be at most
 /// zero at the first, and not evaluated there.
-fn judge(flight: &Flight<'_>, from: &Moment, to: &Moment, closed: Option<usize>) -> Piece {
+fn judge(path: &impl Path, from: &Moment, to: &Moment, closed: &[usize]) -> Piece {
     let length = &to.0 - &from.0;
     let middle = (&from.0 + &to.0).half();
     let half = length.upper().scaled(-1).plus(middle.radius());
-    let bends = flight.bends(&middle.centre(), half);
+    let bends = path.bends(&middle.centre(), half);
     let sag = length.squared().half();
     let mut crossed = None;
     for (which, bend) in bends.iter().enumerate() {
         let (begin, end) = (&from.1[which], &to.1[which]);
-        let known = closed == Some(which);
+        let known = closed.contains(&which);
         if stays_below(begin, end, known, bend, &sag) {
             continue;
         }

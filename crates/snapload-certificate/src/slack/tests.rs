@@ -5,7 +5,7 @@ use crate::case::ExactCase;
 use crate::model::{Model, State, Watched};
 use crate::slack::flight::Flight;
 use crate::slack::impact::Impact;
-use crate::slack::search::stays_below;
+use crate::slack::search::{Path, stays_below};
 use proptest::prelude::*;
 use snapload::Parameters;
 

@@ -3,3 +3,4 @@ mod alterations;
 mod common;
 mod grazes;
 mod oracle;
+mod taut;

@@ -1,0 +1,75 @@
+//! What is proved of a run.
+
+use crate::arithmetic::ball::Ball;
+use crate::model::State;
+use snapload::Stop;
+
+/// An impact that exists, and comes next.
+#[derive(Clone, Debug)]
+pub(crate) struct ProvedImpact {
+    /// By index from 0.
+    pub(crate) cable: usize,
+    pub(crate) t: Ball,
+    pub(crate) v_n: Ball,
+}
+
+/// A stretch with one taut cable.
+#[derive(Clone, Debug)]
+pub(crate) struct ProvedStretch {
+    /// By index from 0.
+    pub(crate) cable: usize,
+    pub(crate) from: Ball,
+    pub(crate) until: Ball,
+    /// What ends it, in the words of a certificate.
+    pub(crate) event: String,
+}
+
+/// What a run has one after the other.
+#[derive(Clone, Debug)]
+pub(crate) enum Proved {
+    Impact(ProvedImpact),
+    Stretch(ProvedStretch),
+}
+
+impl Proved {
+    /// When it is, or ends.
+    pub(crate) fn time(&self) -> &Ball {
+        match self {
+            Self::Impact(impact) => &impact.t,
+            Self::Stretch(stretch) => &stretch.until,
+        }
+    }
+}
+
+/// Why a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// A stop rule.
+    Stop(Stop),
+    /// A cable sticks, which is no stop: the motion goes on taut.
+    Sticks,
+}
+
+impl Reason {
+    /// Its name in certificates.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stop(stop) => stop.name(),
+            Self::Sticks => "sticks",
+        }
+    }
+
+    /// The reason of a name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        let mut all = Stop::ALL.into_iter().map(Self::Stop).chain([Self::Sticks]);
+        all.find(|reason| reason.name() == name)
+    }
+}
+
+/// The proved end of a run.
+#[derive(Clone, Debug)]
+pub(crate) struct ProvedEnd {
+    pub(crate) reason: Reason,
+    pub(crate) t: Ball,
+    pub(crate) state: State,
+}

@@ -1,0 +1,418 @@
+//! Slack flight from impact to impact, with a set of states that holds the true one.
+
+use crate::arithmetic::ball::Ball;
+use crate::arithmetic::decimal::Decimal;
+use crate::arithmetic::radius::Radius;
+use crate::case::ExactCase;
+use crate::model::{FIRST_TOP, Force, Model, State};
+use crate::proved::{ProvedEnd, ProvedImpact, Reason};
+use crate::slack::flight::Flight;
+use crate::slack::impact::Impact;
+use crate::slack::search::{Crossing, Zero, Zeros, first_crossing, name};
+use crate::slack::set::Set;
+use crate::verdict::Trouble;
+use snapload::Stop;
+
+/// A gap at the start within this of zero counts as closed, as a decimal.
+const START_TOLERANCE: &str = "1e-9";
+/// A cable that sticks below this height settles the run.
+const SETTLING_HEIGHT: &str = "0.05";
+/// So many slow snaps in a row may bring two cables to rest together.
+const SLOW_IN_A_ROW: usize = 5;
+
+/// A run in progress: the flight after an impact, continued to a number T next to its time.
+pub(crate) struct Run<'a> {
+    pub(crate) case: &'a ExactCase,
+    pub(crate) fine: &'a Model,
+    coarse: &'a Model,
+    /// T.
+    pub(crate) t: Ball,
+    /// The states of the flight at T.
+    set: Set<6>,
+    /// The flight begins within ± this of T.
+    slack: Radius,
+    /// The cables that are closed where it begins.
+    zeros: Zeros,
+    pub(crate) impacts: u64,
+    /// The cables of the latest snaps, all of them slower than `v_stick` and without tension.
+    slow: Vec<usize>,
+}
+
+/// A cable that sticks: the instant, and the state then without a normal velocity.
+pub(crate) struct Stick {
+    pub(crate) cable: usize,
+    pub(crate) t: Ball,
+    pub(crate) state: State,
+}
+
+/// What an impact comes to.
+pub(crate) struct Struck {
+    pub(crate) impact: ProvedImpact,
+    /// The end of the run, if it ends there or where a cable that sticks ends it.
+    pub(crate) end: Option<ProvedEnd>,
+    /// A cable that sticks where no rule stops the run.
+    pub(crate) stick: Option<Stick>,
+}
+
+/// What comes first along a flight.
+pub(crate) enum Next {
+    Impact(Root),
+    End(Box<ProvedEnd>),
+}
+
+/// Where a watched value crosses zero.
+pub(crate) struct Root {
+    which: usize,
+    /// Of the centre's flight, from T on.
+    centre: Ball,
+    /// Of the flights of all states.
+    whole: Ball,
+}
+
+impl<'a> Run<'a> {
+    pub(crate) fn begin(
+        case: &'a ExactCase,
+        fine: &'a Model,
+        coarse: &'a Model,
+    ) -> Result<Self, Trouble> {
+        let mut start = case.start().iter().map(|number| number.ball(fine.limbs));
+        let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
+        let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
+        let tolerance = tolerance.unwrap_or_else(Ball::zero);
+        for (which, watched) in fine.watched(&start).iter().enumerate() {
+            let clear = match which {
+                0..FIRST_TOP => (&watched.value + &tolerance).is_negative(),
+                _ => watched.value.is_negative(),
+            };
+            if (&watched.value - &tolerance).is_positive() {
+                let what = format!("the start is past {}", name(which));
+                return Err(Trouble::False(what));
+            }
+            if !clear {
+                let what = format!(
+                    "the start: {} is {:.2e} away, and what counts as there is put right by a \
+                     projection that no theorem speaks of",
+                    name(which),
+                    watched.value.to_f64()
+                );
+                return Err(Trouble::undecided(what).at(0.0));
+            }
+        }
+        if !start[2].abs().is_below(fine.functions.half_pi()) {
+            return Err(
+                Trouble::undecided("the start: whether it is at the rotation limit").at(0.0),
+            );
+        }
+        Ok(Self {
+            case,
+            fine,
+            coarse,
+            t: Ball::zero(),
+            set: Set::of_box(&start),
+            slack: Radius::ZERO,
+            zeros: Zeros::new(),
+            impacts: 0,
+            slow: Vec::new(),
+        })
+    }
+
+    /// The flight of all states.
+    fn flight(&self, model: &'a Model) -> Flight<'a> {
+        let hull = self.set.hull().map(|ball| ball.with_limbs(model.limbs));
+        Flight::new(model, self.t.clone(), hull)
+    }
+
+    /// What comes first.
+    pub(crate) fn fly(&self) -> Result<Next, Trouble> {
+        let flight = self.flight(self.coarse);
+        let last = self.last()?;
+        let limit = number_above(&last.0);
+        let found = {
+            let from = (Ball::within(self.slack), Ball::bound(self.slack));
+            first_crossing(&flight, &from, &self.zeros, &limit)?
+        };
+        let Some(crossing) = found else {
+            return self.end_at(&last).map(Box::new).map(Next::End);
+        };
+        let root = self.root(&flight, &crossing)?;
+        if last.0.is_below(&root.whole) {
+            return self.end_at(&last).map(Box::new).map(Next::End);
+        }
+        if !root.whole.is_below(&last.0) {
+            let what = format!(
+                "whether {} or {} comes first",
+                name(root.which),
+                last.1.words()
+            );
+            return Err(Trouble::undecided(what));
+        }
+        if root.which < FIRST_TOP {
+            return Ok(Next::Impact(root));
+        }
+        let end = (root.whole, Stop::UpperBound);
+        self.end_at(&end).map(Box::new).map(Next::End)
+    }
+
+    /// The end of time, or the rotation limit if that is sooner, from T on.
+    fn last(&self) -> Result<(Ball, Stop), Trouble> {
+        let model = self.fine;
+        let time = &model.t_end - &self.t;
+        let hull = self.set.hull();
+        let (theta, spin) = (&hull[2], &hull[5]);
+        let half_pi = model.functions.half_pi();
+        let far = spin * &time;
+        if (theta + &far).abs().is_below(half_pi) && theta.abs().is_below(half_pi) {
+            // θ is linear: it stays below the limit to the end of time.
+            return Ok((time, Stop::EndTime));
+        }
+        let bound = if spin.is_negative() {
+            -half_pi
+        } else {
+            half_pi.clone()
+        };
+        let turned = (bound - theta).over(spin);
+        let turned = turned.ok_or(Trouble::undecided("which way the body turns"))?;
+        if turned.is_below(&time) {
+            return Ok((turned, Stop::RotationLimit));
+        }
+        Err(Trouble::undecided(
+            "whether the rotation limit or the end of time comes first",
+        ))
+    }
+
+    /// The end of the run along a flight, at a time from T on.
+    fn end_at(&self, (tau, stop): &(Ball, Stop)) -> Result<ProvedEnd, Trouble> {
+        if !Ball::bound(self.slack).is_below(tau) {
+            return Err(Trouble::undecided("an end and an impact at one instant"));
+        }
+        let (state, _) = self.flight(self.fine).at(tau);
+        Ok(ProvedEnd {
+            reason: Reason::Stop(*stop),
+            t: &self.t + tau,
+            state,
+        })
+    }
+
+    /// The crossing with all digits.
+    ///
+    /// Within the piece every state's value crosses zero once, at t*. For a number τ of the piece
+    /// t* = τ − f(τ)/ḟ(ξ), with ξ between τ and t*, so that ḟ(ξ) is within the slope of the piece,
+    /// and, once t* is known to be within a ball with τ, within the slope over that.
+    fn root(&self, flight: &Flight<'_>, crossing: &Crossing) -> Result<Root, Trouble> {
+        let which = crossing.which;
+        let tau = self.newton(flight, crossing);
+        let flat = || Trouble::undecided(format!("whether {} is only touched", name(which)));
+        let inside = crossing.from.is_below(&tau) && tau.is_below(&crossing.to);
+        if !inside {
+            return Err(flat());
+        }
+        let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
+        let f_centre = self.fine.one_watched(which, &centre.at(&tau).0).value;
+        let fine = self.flight(self.fine);
+        let f_whole = self.fine.one_watched(which, &fine.at(&tau).0).value;
+        let first = &tau - &f_whole.over(&crossing.slope).ok_or_else(flat)?;
+        let around = tau.hull(&first);
+        let slope = self.coarse.one_watched(which, &flight.at(&around).0).rate;
+        if !slope.is_positive() {
+            return Err(flat());
+        }
+        Ok(Root {
+            which,
+            centre: &tau - &f_centre.over(&slope).ok_or_else(flat)?,
+            whole: &tau - &f_whole.over(&slope).ok_or_else(flat)?,
+        })
+    }
+
+    /// A number next to where the centre's flight crosses; by bisection where Newton's method leaves
+    /// the piece. It has no part in the proof.
+    fn newton(&self, flight: &Flight<'_>, crossing: &Crossing) -> Ball {
+        let which = crossing.which;
+        let (mut low, mut high) = (crossing.from.clone(), crossing.to.clone());
+        let mut tau = (&low + &high).half().centre();
+        for (flight, most) in [
+            (flight, 20),
+            (
+                &Flight::new(self.fine, self.t.clone(), self.set.centre().clone()),
+                12,
+            ),
+        ] {
+            let model = flight.model;
+            let close = Radius::power_of_two(10 - 64 * model.limbs as i64);
+            for _ in 0..most {
+                let at = tau.with_limbs(model.limbs);
+                let watched = model.one_watched(which, &flight.at(&at).0);
+                let value = watched.value.centre();
+                if value.is_negative() {
+                    low = at.clone();
+                } else {
+                    high = at.clone();
+                }
+                let step = value.over(&watched.rate.centre());
+                let next = step.map(|step| (&at - &step).centre());
+                let next = next.filter(|next| !(next.is_below(&low) || high.is_below(next)));
+                tau = next.unwrap_or_else(|| (&low + &high).half().centre());
+                if (&tau - &at).upper() <= close {
+                    break;
+                }
+            }
+        }
+        tau.with_limbs(self.fine.limbs).centre()
+    }
+
+    /// The impact at a root, and the end of the run if it ends there.
+    pub(crate) fn strike(&mut self, root: &Root) -> Result<Struck, Trouble> {
+        let cable = root.which;
+        let (state, force) = self.flight(self.coarse).at(&root.whole);
+        let impact = Impact::new(self.coarse, cable, &state)?;
+        let t = &self.t + &root.whole;
+        let next = self.carry(root, &state, &force, &impact)?;
+        self.impacts += 1;
+        let reason = self.rules(cable, &state, &force, &impact)?;
+        let stick = match reason {
+            Some(Reason::Sticks) => Some(self.halted(root)?),
+            _ => None,
+        };
+        (self.set, self.t, self.slack) = next;
+        self.zeros = vec![(cable, Zero::Opening)];
+        let proved = ProvedImpact {
+            cable,
+            t: t.clone(),
+            v_n: impact.v_n.clone(),
+        };
+        let end = reason.map(|reason| {
+            let share = Ball::integer(1) + &self.coarse.e;
+            let [vx, vy, spin] = impact.velocity(&state, &share);
+            let [x, y, theta, ..] = state;
+            ProvedEnd {
+                reason,
+                t,
+                state: [x, y, theta, vx, vy, spin],
+            }
+        });
+        Ok(Struck {
+            impact: proved,
+            end,
+            stick,
+        })
+    }
+
+    /// The state at a root with the normal velocity taken away in the mass metric.
+    fn halted(&self, root: &Root) -> Result<Stick, Trouble> {
+        let (state, _) = self.flight(self.fine).at(&root.whole);
+        let impact = Impact::new(self.fine, root.which, &state)?;
+        let [vx, vy, spin] = impact.velocity(&state, &Ball::integer(1));
+        let [x, y, theta, ..] = state;
+        Ok(Stick {
+            cable: root.which,
+            t: &self.t + &root.whole,
+            state: [x, y, theta, vx, vy, spin],
+        })
+    }
+
+    /// Flies on from an instant within a ball, and the state then; `zeros` are closed.
+    pub(crate) fn take_off(&mut self, t: &Ball, state: State, zeros: Zeros) {
+        let next = t.centre();
+        let shift = &next - t;
+        self.set = Set::of_box(&self.shifted(state, &shift));
+        self.slack = shift.upper();
+        (self.t, self.zeros) = (next, zeros);
+        self.slow.clear();
+    }
+
+    /// A state after a short time along its flight: q + v δ + a δ²/2 with some force of the flight.
+    fn shifted(&self, state: State, shift: &Ball) -> State {
+        let any = |size: &Ball| Ball::within(size.upper());
+        let push = [
+            any(&self.fine.f_o),
+            any(&(&self.fine.nu * &self.fine.f_o)) - Ball::integer(1),
+        ];
+        let [x, y, theta, vx, vy, spin] = state;
+        let moved = |q: Ball, v: &Ball, a: &Ball| q + v * shift + (a * &shift.squared()).half();
+        [
+            moved(x, &vx, &push[0]),
+            moved(y, &vy, &push[1]),
+            theta + &spin * shift,
+            vx + &push[0] * shift,
+            vy + &push[1] * shift,
+            spin,
+        ]
+    }
+
+    /// The set at a number next to the impact's time, of the flight after it.
+    fn carry(
+        &self,
+        root: &Root,
+        state: &State,
+        force: &Force,
+        impact: &Impact,
+    ) -> Result<(Set<6>, Ball, Radius), Trouble> {
+        let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
+        let (struck, _) = centre.at(&root.centre);
+        let exact = Impact::new(self.fine, root.which, &struck)?;
+        let share = Ball::integer(1) + &self.fine.e;
+        let [vx, vy, spin] = exact.velocity(&struck, &share);
+        let t = &self.t + &root.centre;
+        let next = t.centre();
+        let shift = &next - &t;
+        let [x, y, theta, ..] = struck;
+        let image = self.shifted([x, y, theta, vx, vy, spin], &shift);
+        let slack = (&self.t + &root.whole - &next).upper();
+        let after = Ball::within(slack);
+        let before = root.whole.with_limbs(self.coarse.limbs);
+        let jacobian = impact.jacobian(self.coarse, state, force, &before, &after)?;
+        Ok((self.set.mapped(&image, &jacobian)?, next, slack))
+    }
+
+    /// What the rules make of an impact (docs/model.md, sections 6 and 7).
+    fn rules(
+        &mut self,
+        cable: usize,
+        state: &State,
+        force: &Force,
+        impact: &Impact,
+    ) -> Result<Option<Reason>, Trouble> {
+        let nth = self.impacts;
+        let sign = |ball: &Ball, what: &str| match (ball.is_negative(), ball.is_positive()) {
+            (true, _) => Ok(false),
+            (_, true) => Ok(true),
+            _ => Err(Trouble::undecided(format!(
+                "{what} at impact {nth}, {:.2e} with a radius of {:.2e}",
+                ball.to_f64(),
+                ball.radius().to_f64()
+            ))),
+        };
+        let fast = sign(&(&impact.v_n - &self.coarse.v_stick), "v_n against v_stick")?;
+        if fast {
+            self.slow.clear();
+        } else {
+            self.slow.push(cable);
+        }
+        let mut reason = None;
+        if !fast || self.case.number("e").is_zero() {
+            if sign(&impact.pull(state, force), "the tension")? {
+                let height = Decimal::parse(SETTLING_HEIGHT).map(|d| d.ball(self.coarse.limbs));
+                let above = &state[1] - &height.unwrap_or_else(Ball::zero);
+                let high = sign(&above, "the height over that of settling")?;
+                reason = Some(match high {
+                    false if self.case.stop_when_settled => Reason::Stop(Stop::Settled),
+                    true if self.case.stop_when_sliding => Reason::Stop(Stop::SlidingStart),
+                    _ => Reason::Sticks,
+                });
+            } else if self.slow.len() >= SLOW_IN_A_ROW && self.slow.iter().any(|c| *c != cable) {
+                return Err(Trouble::beyond(format!(
+                    "whether two cables that snap slowly in turn come to rest at impact {nth}"
+                )));
+            }
+        }
+        if self.impacts > self.case.max_impacts && matches!(reason, None | Some(Reason::Sticks)) {
+            reason = Some(Reason::Stop(Stop::ImpactLimit));
+        }
+        Ok(reason)
+    }
+}
+
+/// A number a little above all of a ball.
+fn number_above(ball: &Ball) -> Ball {
+    let beyond = ball.radius().scaled(1).plus(ball.upper().scaled(-40));
+    (&ball.centre() + &Ball::bound(beyond)).centre()
+}
