@@ -1,13 +1,11 @@
-//! The files of the page: part of the program, and in debug builds read from the disk.
+//! The files of the page: part of the program.
 use crate::refusal::Refusal;
 use axum::http::Uri;
 use axum::http::header::CONTENT_TYPE;
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
+use include_dir::{Dir, include_dir};
 
-#[derive(RustEmbed)]
-#[folder = "page/"]
-struct Page;
+static PAGE: Dir = include_dir!("$CARGO_MANIFEST_DIR/page");
 
 /// The file of a path; the page itself at `/`.
 pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
@@ -15,16 +13,32 @@ pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
         "" => "index.html",
         name => name,
     };
-    // Our own names have no other characters; what is not ours is not even looked for on the disk.
-    let ours = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
-    if !name.chars().all(ours) || name.split('/').any(|part| part.is_empty() || part == "..") {
-        return Err(Refusal::nothing_there());
+    let kind = kind(name).ok_or_else(Refusal::nothing_there)?;
+    let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
+    Ok(([(CONTENT_TYPE, kind)], file.contents()).into_response())
+}
+
+/// What a browser is told that a file is, by the end of its name.
+fn kind(name: &str) -> Option<&'static str> {
+    match name.rsplit_once('.')?.1 {
+        "css" => Some("text/css; charset=utf-8"),
+        "html" => Some("text/html; charset=utf-8"),
+        "js" => Some("text/javascript; charset=utf-8"),
+        "svg" => Some("image/svg+xml"),
+        _ => None,
     }
-    let file = Page::get(name).ok_or_else(Refusal::nothing_there)?;
-    let kind = file.metadata.mimetype();
-    let kind = match kind.starts_with("text/") {
-        true => format!("{kind}; charset=utf-8"),
-        false => kind.to_owned(),
-    };
-    Ok(([(CONTENT_TYPE, kind)], file.data).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_file_of_the_page_is_of_a_known_kind() {
+        for file in PAGE.files() {
+            let name = file.path().to_str().expect("a name of plain letters");
+            assert!(kind(name).is_some(), "{name}");
+        }
+        assert!(PAGE.get_file("index.html").is_some() && PAGE.dirs().next().is_none());
+    }
 }
