@@ -64,13 +64,44 @@ pub(crate) fn equations(model: &Model, cable: usize) -> Program {
     let phi_second = p.scale(sum, model.inverse_r.clone());
     p.rates = vec![phi_rate, spin, phi_second, spin_rate];
 
+    let place = Place {
+        side,
+        a,
+        theta,
+        sine,
+        cosine,
+        turn: [turn_sine, turn_cosine],
+        lever: [px, py],
+    };
+    p.outputs = vec![minus_tension];
+    watch(&mut p, model, &place);
+    p
+}
+
+/// Where the body is, as terms.
+struct Place {
+    side: i64,
+    a: Ball,
+    theta: Term,
+    sine: Term,
+    cosine: Term,
+    /// sin θ and cos θ.
+    turn: [Term; 2],
+    /// ρ of the taut cable.
+    lever: [Term; 2],
+}
+
+/// The other gap, both sides of the rotation limit, and the tops, as outputs.
+fn watch(p: &mut Program, model: &Model, place: &Place) {
+    let [px, py] = place.lever;
+    let [turn_sine, turn_cosine] = place.turn;
     // The centre, with the anchors' level as zero, is A + r n − ρ.
-    let r_sine = p.scale(sine, model.r.clone());
-    let depth = p.scale(cosine, -&model.r);
+    let r_sine = p.scale(place.sine, model.r.clone());
+    let depth = p.scale(place.cosine, -&model.r);
     let [x, y] = [p.subtract(r_sine, px), p.subtract(depth, py)];
-    let [qx, qy] = arm(&mut p, [&-&a, &model.b], turn_sine, turn_cosine);
+    let [qx, qy] = arm(p, [&-&place.a, &model.b], turn_sine, turn_cosine);
     // From this cable's anchor to the other's is −2 or 2.
-    let apart = p.constant(Ball::integer(2 * side));
+    let apart = p.constant(Ball::integer(2 * place.side));
     let [dx, dy] = [p.add(x, qx), p.add(y, qy)];
     let dx = p.add(dx, apart);
     let [dx2, dy2] = [p.multiply(dx, dx), p.multiply(dy, dy)];
@@ -78,10 +109,10 @@ pub(crate) fn equations(model: &Model, cable: usize) -> Program {
     let r_squared = p.constant(model.r.squared());
     let gap = p.subtract(sum, r_squared);
     let limit = p.constant(model.functions.half_pi().clone());
-    let over = p.subtract(theta, limit);
-    let minus_theta = p.scale(theta, Ball::integer(-1));
+    let over = p.subtract(place.theta, limit);
+    let minus_theta = p.scale(place.theta, Ball::integer(-1));
     let under = p.subtract(minus_theta, limit);
-    p.outputs = vec![minus_tension, gap, over, under];
+    p.outputs.extend([gap, over, under]);
     if model.has_corners() {
         p.outputs.extend([depth, dy]);
     } else {
@@ -89,7 +120,6 @@ pub(crate) fn equations(model: &Model, cable: usize) -> Program {
         let top = p.add(y, size);
         p.outputs.push(top);
     }
-    p
 }
 
 /// f_x and f_y − 1.

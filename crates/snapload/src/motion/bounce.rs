@@ -245,20 +245,18 @@ fn land<L: Lane>(
         let Snap { impulse, v_after } = two_cables.contact.snap(v_n, w);
         let mut after = before;
         normal.apply_impulse(&mut after, impulse, two_cables.inverse_inertia);
-
         let first = speed_bound(before.velocity().length_bound(), before.vtheta, reach);
         let last = speed_bound(after.velocity().length_bound(), after.vtheta, reach);
         let rounding = first.larger(last) * L::EPSILON;
-        let rebounds = two_cables.v_stick.at_most(v_n)
-            & L::ZERO.below(v_n)
-            & (rounding * UNMOVED).below(-v_after);
-        let t = from.t + *s;
+        let closes = two_cables.v_stick.at_most(v_n) & L::ZERO.below(v_n);
+        let rebounds = closes & (rounding * UNMOVED).below(-v_after);
         let (other, other_normal) = other_cable(two_cables, second, state, &rotation, jets);
         let closed = [L::ZERO; 2];
+        let lever = struck.lever(rotation.sine, rotation.cosine);
         Bounce {
             arrived,
             top_known,
-            plain: arrived & top_known & rebounds & from.t.below(t),
+            plain: arrived & top_known & rebounds & from.t.below(from.t + *s),
             second,
             s: *s,
             before,
@@ -266,7 +264,7 @@ fn land<L: Lane>(
             impulse,
             v_after,
             next: AfterImpact {
-                t,
+                t: from.t + *s,
                 state: after,
                 rotation,
                 before: [before.vx, before.vy, before.vtheta],
@@ -282,7 +280,7 @@ fn land<L: Lane>(
                 slope: L::select(second, openness[0].slope, openness[1].slope),
                 late: L::select(second, openness[0].late, openness[1].late),
                 normal,
-                swing: struck.lever(rotation.sine, rotation.cosine).dot(normal.n),
+                swing: lever.dot(normal.n),
                 other: other_normal,
             },
         }

@@ -333,24 +333,17 @@ mod tests {
         for k in 0..60 {
             let k = f64::from(k);
             let point = k % 7.0 == 0.0;
+            let size = if point { 0.0 } else { 1.0 };
             let parameters = Parameters {
                 f_o: 0.02 * k - 0.6,
                 e: 1.0 - 0.4 * k.sin().abs(),
                 r: 1.2 + 0.1 * k,
-                a: if point {
-                    0.0
-                } else {
-                    0.3 * (k * 0.7).cos().abs() + 0.02
-                },
-                b: if point {
-                    0.0
-                } else {
-                    0.2 * (k * 0.3).sin().max(0.0)
-                },
+                a: size * (0.3 * (k * 0.7).cos().abs() + 0.02),
+                b: size * 0.2 * (k * 0.3).sin().max(0.0),
                 inertia: (!point).then(|| 0.003 + 0.05 * (k * 0.9).sin().abs()),
                 omega: 0.05 * k,
                 vx: 0.3 * k.sin(),
-                vtheta: if point { 0.0 } else { 0.5 * k.cos() },
+                vtheta: size * 0.5 * k.cos(),
                 y: 0.4,
                 ..Parameters::STANDARD
             };

@@ -123,78 +123,33 @@ impl<L: Lane> BounceRounding<L> {
     fn sizes(bounced: &Bounced<L>, slant: L) -> Self {
         let (start, before, after) = (&bounced.from.state, bounced.before, bounced.after);
         let s = bounced.t - bounced.from.t;
-        let Normal { n, arm } = bounced.course.normal;
-        let other = bounced.course.other;
-        let cables = &bounced.two_cables.cables;
-        let [per_length, other_per_length] = bounced.each(|k| cables[k].per_length());
         let moved = [
             start.vx.abs().larger(before.vx.abs()) * s,
             start.vy.abs().larger(before.vy.abs()) * s,
             before.vtheta.abs() * s,
         ];
         let place = |at: L, moved: L| (at.abs() + moved) * ROUNDING;
-        let [x, y, theta] = [
+        let places = [
             place(before.x, moved[0]),
             place(before.y, moved[1]),
             place(before.theta, moved[2]),
         ];
-        let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
-        let [gap_error, _] = bounced.each(|k| bounced.from.gaps[k][1]);
-        let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
-        // Where the cable leads in another direction, its end is reached elsewhere; but one that was
-        // closed at the start has its end there.
-        let flown = before
-            .vtheta
-            .abs()
-            .mul_add(reach, before.velocity().length_bound())
-            * s;
-        let away = before
-            .theta
-            .abs()
-            .mul_add(reach, before.x.abs() + before.y.abs());
-        let swung = (slant - 1.0) * L::select(L::ZERO.at_most(gap), flown, away);
-        let offs =
-            [moved[0] * n.x, moved[1] * n.y, moved[2] * arm, swung].map(|off| off * ROUNDING);
-        let known = gap_error * per_length * BOUND_OF_GAP;
-        let mut location = known * known;
-        for off in offs {
-            location = off.mul_add(off, location);
-        }
-        // Displacements along the end of the cable change the other gap; where that is known
-        // better, they are what it allows.
-        let tangent = n.quarter_turn();
-        let along = [x * tangent.x, y * tangent.y];
-        let slide = tangent.dot(other.n);
-        let roll = other.arm - arm * n.dot(other.n);
-        let gap_known = bounced.other_gap[1] * other_per_length * BOUND_OF_GAP;
-        let [a, b, c] = [along[0] * slide, along[1] * slide, theta * roll];
-        let better = (gap_known * gap_known).below(a.mul_add(a, b.mul_add(b, c * c)))
-            & L::EPSILON.below(slide * slide);
-        let per_slide = L::ONE / slide;
-        let aside = L::select(better, -(c * per_slide), L::ZERO);
-        let inward = -(theta * arm);
+        let (along, turned) = displacements(bounced, places);
         let speed = before
             .velocity()
             .length_bound()
             .larger(after.velocity().length_bound());
         let spin = before.vtheta.abs().larger(after.vtheta.abs());
         Self {
-            location: location.sqrt(),
-            along: [
-                L::select(better, gap_known * per_slide, along[0]),
-                L::select(better, L::ZERO, along[1]),
-            ],
-            turned: [
-                inward.mul_add(n.x, aside * tangent.x),
-                inward.mul_add(n.y, aside * tangent.y),
-                theta,
-            ],
+            location: location(bounced, slant, moved),
+            along,
+            turned,
             speed: speed * ROUNDING,
             spin: spin * ROUNDING,
             time: bounced.t * (ROUNDING * std::f64::consts::SQRT_2),
             direction: slant * (0.5 * ROUNDING),
             turn: L::from_f64(ROUNDING),
-            across: tangent,
+            across: bounced.course.normal.n.quarter_turn(),
         }
     }
 
@@ -202,16 +157,17 @@ impl<L: Lane> BounceRounding<L> {
     #[inline(always)]
     fn give(&mut self, sign: L, other_sign: L) {
         self.location = self.location * other_sign;
-        for size in self.along.iter_mut().chain(&mut self.turned) {
-            *size = *size * sign;
+        for k in 0..2 {
+            self.along[k] = self.along[k] * sign;
         }
-        let sizes = [&mut self.speed, &mut self.spin, &mut self.time];
-        for size in sizes
-            .into_iter()
-            .chain([&mut self.direction, &mut self.turn])
-        {
-            *size = *size * sign;
+        for k in 0..3 {
+            self.turned[k] = self.turned[k] * sign;
         }
+        self.speed = self.speed * sign;
+        self.spin = self.spin * sign;
+        self.time = self.time * sign;
+        self.direction = self.direction * sign;
+        self.turn = self.turn * sign;
     }
 
     /// An impact that is located late is one of a place off across the end of the cable.
@@ -250,11 +206,73 @@ impl<L: Lane> BounceRounding<L> {
     #[inline(always)]
     fn place_squared(&self) -> L {
         let mut sum = self.time * self.time;
-        for part in self.along.into_iter().chain(self.turned) {
+        for part in self.along {
+            sum = part.mul_add(part, sum);
+        }
+        for part in self.turned {
             sum = part.mul_add(part, sum);
         }
         sum
     }
+}
+
+/// Standard deviation across the end of the cable that snaps, of where the impact is located.
+#[inline(always)]
+fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
+    let before = bounced.before;
+    let Normal { n, arm } = bounced.course.normal;
+    let s = bounced.t - bounced.from.t;
+    let [per_length, _] = bounced.each(|k| bounced.two_cables.cables[k].per_length());
+    let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
+    let [gap_error, _] = bounced.each(|k| bounced.from.gaps[k][1]);
+    let [reach, _] = bounced.each(|k| bounced.two_cables.reach[k]);
+    // Where the cable leads in another direction, its end is reached elsewhere; but one that was
+    // closed at the start has its end there.
+    let speed = before.velocity().length_bound();
+    let flown = before.vtheta.abs().mul_add(reach, speed) * s;
+    let place = before.x.abs() + before.y.abs();
+    let away = before.theta.abs().mul_add(reach, place);
+    let swung = (slant - 1.0) * L::select(L::ZERO.at_most(gap), flown, away);
+    let offs = [moved[0] * n.x, moved[1] * n.y, moved[2] * arm, swung];
+    let known = gap_error * per_length * BOUND_OF_GAP;
+    let mut square = known * known;
+    for off in offs {
+        let off = off * ROUNDING;
+        square = off.mul_add(off, square);
+    }
+    square.sqrt()
+}
+
+/// How far rounding displaces the body along the end of the cable, by x and by y, and how it does
+/// that as it turns it. This changes the other gap; where that is known better, it is what that gap
+/// allows.
+#[inline(always)]
+fn displacements<L: Lane>(bounced: &Bounced<L>, [x, y, theta]: [L; 3]) -> ([L; 2], [L; 3]) {
+    let Normal { n, arm } = bounced.course.normal;
+    let other = bounced.course.other;
+    let [_, per_length] = bounced.each(|k| bounced.two_cables.cables[k].per_length());
+    let tangent = n.quarter_turn();
+    let along = [x * tangent.x, y * tangent.y];
+    let slide = tangent.dot(other.n);
+    let roll = other.arm - arm * n.dot(other.n);
+    let known = bounced.other_gap[1] * per_length * BOUND_OF_GAP;
+    let [a, b, c] = [along[0] * slide, along[1] * slide, theta * roll];
+    let better =
+        (known * known).below(a.mul_add(a, b.mul_add(b, c * c))) & L::EPSILON.below(slide * slide);
+    let per_slide = L::ONE / slide;
+    let aside = L::select(better, -(c * per_slide), L::ZERO);
+    let inward = -(theta * arm);
+    (
+        [
+            L::select(better, known * per_slide, along[0]),
+            L::select(better, L::ZERO, along[1]),
+        ],
+        [
+            inward.mul_add(n.x, aside * tangent.x),
+            inward.mul_add(n.y, aside * tangent.y),
+            theta,
+        ],
+    )
 }
 
 /// How far neighbours reach: squares of standard deviations.
