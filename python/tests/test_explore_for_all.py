@@ -68,6 +68,14 @@ def test_a_low_window_breaks_nothing(open_page, height):
     assert len(lines) > 3 and min(lines) > 0
 
 
+def test_a_hidden_canvas_breaks_nothing(open_page):
+    page = open_page("t=3")
+    page.add_style_tag(content="#trajectory, #charts { display: none }")
+    page.wait_for_function("() => document.querySelector('#trajectory canvas').clientWidth === 0")
+    page.keyboard.press("End")
+    settled(page)
+
+
 def blameless(page: Page) -> None:
     """axe-core finds nothing that would keep anybody out."""
     result = Axe().run(page)

@@ -1,10 +1,9 @@
 // θ, v_n, tensions and energy against time, under one time cursor.
 
-import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, ticks } from "./plot.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, prepare, span, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
-const LEFT = 50;
-const RIGHT = 10;
+const MARGIN = { left: 50, right: 10, top: 6 };
 const NEAR_PX = 9;
 
 const CHARTS = [
@@ -136,7 +135,7 @@ export class Charts {
       tensions: () => above(span([seen(run.motion, "T1"), seen(run.motion, "T2")])),
       energy: () => span([seen(run.motion, "energy")]),
     }[chart.id]();
-    const frame = new Frame([LEFT, 6, width - LEFT - RIGHT, height - 6 - bottom], range, ys);
+    const frame = new Frame(inside(width, height, { ...MARGIN, bottom }), range, ys);
     this.frames.set(chart.id, frame);
     context.save();
     this.#shade(context, frame, colours);

@@ -2,7 +2,7 @@
 
 import { Refused, fetchMap } from "./api.js";
 import { label } from "./charts.js";
-import { Frame, drawAxes, fontOf, prepare, ticks } from "./plot.js";
+import { Frame, drawAxes, fontOf, inside, prepare, ticks } from "./plot.js";
 import { MOST_CELLS, readValue } from "./state.js";
 import { mix } from "./theme.js";
 import { number, plain, prose, reasonText, unitText } from "./words.js";
@@ -287,7 +287,7 @@ export class SweepMap {
     const { x, y } = cells;
     const half = (axis) => (0.5 * (axis.high - axis.low)) / (axis.count - 1);
     const frame = new Frame(
-      [MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom],
+      inside(width, height, MARGIN),
       [x.low - half(x), x.high + half(x)],
       [y.low - half(y), y.high + half(y)],
     );

@@ -15,6 +15,14 @@ export function ticks(low, high, about) {
   return { values, label };
 }
 
+/** What a margin leaves of a canvas, as a frame's rectangle: never less than a pixel, as a hidden canvas has no size. */
+export const inside = (width, height, { left, right, top, bottom }) => [
+  left,
+  top,
+  Math.max(width - left - right, 1),
+  Math.max(height - top - bottom, 1),
+];
+
 /** A rectangle of the page that shows a range of x and a range of y. */
 export class Frame {
   constructor([left, top, width, height], [x0, x1], [y0, y1]) {

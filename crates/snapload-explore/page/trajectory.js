@@ -1,7 +1,7 @@
 // The path of the body's centre, with the boundaries at which a cable is taut.
 
 import { label } from "./charts.js";
-import { FONT, Frame, drawAxes, drawColumn, drawMark, prepare, span, stroke, ticks } from "./plot.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, prepare, span, stroke, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
@@ -74,13 +74,13 @@ export class Trajectory {
   #frameFor(width, height, picture) {
     const [from, to] = this.rows;
     const of = (column) => span([column.slice(from, to)]);
-    const [w, h] = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
+    const [left, top, w, h] = inside(width, height, MARGIN);
     const [x, y] = [of(this.run.motion.x), of(this.run.motion.y)];
     const scale = Math.max((x[1] - x[0]) / w, (y[1] - y[0]) / h, 1e-12);
     const around = ([low, high], size) => [0.5 * (low + high - size * scale), 0.5 * (low + high + size * scale)];
     const [ys, xs] = [around(y, h), around(x, w)];
     this.perPx = scale;
-    return new Frame([MARGIN.left, MARGIN.top, w, h], xs, picture === "real" ? ys.reverse() : ys);
+    return new Frame([left, top, w, h], xs, picture === "real" ? ys.reverse() : ys);
   }
 
   /**
