@@ -1,7 +1,7 @@
 //! The one place where cases become rows.
 
 use crate::Drawn;
-use snapload::analysis::{Cancelled, Certainty, Counter, on_all_threads};
+use snapload::analysis::{Cancelled, Certainty, Counter, on_all_threads, outcomes_on_one_thread};
 use snapload::{Case, CaseError, KEYS, Lanes, Outcome, Parameters, Value};
 
 /// A row of a study: the keys of a case and what its run comes to.
@@ -30,24 +30,24 @@ pub fn rows(drawn: &[Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>,
 }
 
 fn side_by_side(drawn: &[&Drawn], trust: bool, counter: &Counter) -> Result<Vec<Row>, Cancelled> {
-    let made: Vec<Result<Case, CaseError>> = drawn
-        .iter()
-        .map(|drawn| drawn.parameters.clone().and_then(Case::new))
-        .collect();
-    let cases: Vec<Case> = made.iter().filter_map(|case| case.clone().ok()).collect();
-    let lanes = Lanes::best();
+    let mut cases = Vec::with_capacity(drawn.len());
+    let mut make = |drawn: &Drawn| {
+        cases.push(drawn.parameters.clone().and_then(Case::new)?);
+        Ok(())
+    };
+    let made: Vec<Result<(), CaseError>> = drawn.iter().map(|drawn| make(drawn)).collect();
     let told: Vec<(Outcome, Option<Certainty>)> = if trust {
-        let told = Certainty::with_outcomes(lanes, &cases, counter)?.into_iter();
+        let told = Certainty::with_outcomes(Lanes::best(), &cases, counter)?.into_iter();
         told.map(|(outcome, certainty)| (outcome, Some(certainty)))
             .collect()
     } else {
-        let outcomes = lanes.outcomes(&cases).0.into_iter();
+        let outcomes = outcomes_on_one_thread(cases.iter(), counter)?.into_iter();
         outcomes.map(|outcome| (outcome, None)).collect()
     };
     let mut told = told.into_iter();
-    let row = |(drawn, case): (&&Drawn, Result<Case, CaseError>)| {
-        let (outcome, certainty) = match case {
-            Ok(_) => {
+    let row = |(drawn, made): (&&Drawn, Result<(), CaseError>)| {
+        let (outcome, certainty) = match made {
+            Ok(()) => {
                 let (outcome, certainty) = told.next()?;
                 (Ok(outcome), certainty)
             }

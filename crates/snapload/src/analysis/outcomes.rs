@@ -2,9 +2,11 @@
 
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::analysis::threads::in_parallel;
+use crate::batch::followers::{Follower, Unfollowed};
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
+use crate::motion::simulation::Simulation;
 
 /// Items that a thread takes at a time at most. Where it ends, lanes stand idle until the longest
 /// of the last runs has ended: one part in twenty of the time with 512.
@@ -48,11 +50,42 @@ pub fn on_all_threads<I: Sync, R: Send, E: Send>(
 pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>, Cancelled> {
     let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
     on_all_threads(cases, |cases| {
-        let runs = cases.iter().map(|case| case.simulation());
-        let outcomes = Lanes::best().outcomes_of(runs).0;
+        let outcomes = outcomes_on_one_thread(cases.iter().copied(), &counter)?;
         counter.add(outcomes.len() as u64)?;
         Ok(outcomes)
     })
+}
+
+/// The same on one thread, with a counter that is only asked whether to go on.
+///
+/// # Errors
+/// As for [`outcomes`].
+pub fn outcomes_on_one_thread<'a>(
+    cases: impl Iterator<Item = &'a Case>,
+    counter: &Counter,
+) -> Result<Vec<Outcome>, Cancelled> {
+    let runs = cases.map(|case| (case.simulation(), Unfollowed));
+    let told = side_by_side(Lanes::best(), runs, counter)?;
+    Ok(told.into_iter().map(|(outcome, _)| outcome).collect())
+}
+
+/// What runs come to, and their followers, in their order; before each begins the counter is asked
+/// whether to go on.
+///
+/// # Errors
+/// As for [`outcomes`].
+pub(crate) fn side_by_side<F: Follower>(
+    lanes: Lanes,
+    runs: impl Iterator<Item = (Simulation, F)>,
+    counter: &Counter,
+) -> Result<Vec<(Outcome, F)>, Cancelled> {
+    let mut cancelled = None;
+    let runs = runs.map_while(|run| {
+        cancelled = counter.add(0).err();
+        cancelled.is_none().then_some(run)
+    });
+    let (told, _) = lanes.outcomes_beside(runs);
+    cancelled.map_or(Ok(told), Err)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! because both make the same operations.
 
 use crate::arithmetic::processor::dispatch;
-use crate::batch::company::{Companion, Nobody};
+use crate::batch::followers::{Follower, Unfollowed};
 pub use crate::batch::scheduler::Usage;
 use crate::batch::scheduler::{LaneScheduler, Runs, Slot, Tell};
 use crate::batch::vector::Several;
@@ -74,15 +74,14 @@ impl Lanes {
         runs: impl ExactSizeIterator<Item = Simulation>,
     ) -> (Vec<Outcome>, Usage) {
         let count = runs.len();
-        let (told, usage) = self.outcomes_beside(runs.map(|simulation| (simulation, Nobody)));
+        let (told, usage) = self.outcomes_beside(runs.map(|simulation| (simulation, Unfollowed)));
         let outcomes: Vec<Outcome> = told.into_iter().map(|(outcome, _)| outcome).collect();
         assert_eq!(outcomes.len(), count, "every run is told of once");
         (outcomes, usage)
     }
 
-    /// The same, and what became of what goes along with each. A run that its companion has left
-    /// goes on without.
-    pub(crate) fn outcomes_beside<C: Companion>(
+    /// The same, each with what followed it. A run that its follower has left goes on without.
+    pub(crate) fn outcomes_beside<C: Follower>(
         self,
         runs: impl Iterator<Item = (Simulation, C)>,
     ) -> (Vec<(Outcome, C)>, Usage) {
@@ -90,24 +89,24 @@ impl Lanes {
         let mut left = Vec::new();
         let mut begun = runs
             .enumerate()
-            .map(|(index, (simulation, companion))| Slot::new(index, simulation, companion));
+            .map(|(index, (simulation, follower))| Slot::new(index, simulation, follower));
         let mut usage = self.run(&mut begun, &mut |slot| {
             let Slot {
                 index,
                 simulation,
                 outcome,
-                companion,
+                follower,
             } = *slot;
             if told.len() <= index {
                 told.resize_with(index + 1, || None);
             }
-            told[index] = Some((outcome.ended(&simulation), companion));
+            told[index] = Some((outcome.ended(&simulation), follower));
             if simulation.stop().is_none() {
                 left.push(Box::new(Slot {
                     index,
                     simulation,
                     outcome,
-                    companion: Nobody,
+                    follower: Unfollowed,
                 }));
             }
         });
@@ -120,9 +119,9 @@ impl Lanes {
         (told.into_iter().flatten().collect(), usage)
     }
 
-    /// Runs all of `runs` to their ends, or as far as their companions go, and hands them on. In
+    /// Runs all of `runs` to their ends, or as far as their followers go, and hands them on. In
     /// place of lanes that this processor lacks, plain Rust is used.
-    fn run<C: Companion>(self, runs: Runs<C>, tell: Tell<C>) -> Usage {
+    fn run<C: Follower>(self, runs: Runs<C>, tell: Tell<C>) -> Usage {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 if crate::arithmetic::processor::has_fma() => x86::avx2(runs, tell),
@@ -140,14 +139,14 @@ impl Lanes {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
-    use super::{Companion, LaneScheduler, Runs, Tell, Usage};
+    use super::{Follower, LaneScheduler, Runs, Tell, Usage};
     use crate::arithmetic::processor;
     use crate::batch::vector::Several;
     use crate::batch::vector::x86::{Avx2, Avx512};
 
-    pub(super) fn avx2<C: Companion>(runs: Runs<C>, tell: Tell<C>) -> Usage {
+    pub(super) fn avx2<C: Follower>(runs: Runs<C>, tell: Tell<C>) -> Usage {
         #[target_feature(enable = "avx2,fma")]
-        fn run_all<C: Companion>(scheduler: LaneScheduler<'_, Several<Avx2, 2>, C>) -> Usage {
+        fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Several<Avx2, 2>, C>) -> Usage {
             scheduler.run_all()
         }
         assert!(processor::has_fma());
@@ -156,9 +155,9 @@ mod x86 {
         unsafe { run_all(scheduler) }
     }
 
-    pub(super) fn avx512<C: Companion>(runs: Runs<C>, tell: Tell<C>) -> Usage {
+    pub(super) fn avx512<C: Follower>(runs: Runs<C>, tell: Tell<C>) -> Usage {
         #[target_feature(enable = "avx512f")]
-        fn run_all<C: Companion>(scheduler: LaneScheduler<'_, Avx512, C>) -> Usage {
+        fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Avx512, C>) -> Usage {
             scheduler.run_all()
         }
         assert!(is_x86_feature_detected!("avx512f"));

@@ -4,7 +4,7 @@
 //! It is entered by one door, [`crate::motion::two_cables::TwoCableSystem::of`], which says whether
 //! a system and its rules fit; runs that do not fit are made one by one.
 
-pub(crate) mod company;
+pub(crate) mod followers;
 pub(crate) mod lanes;
 mod scheduler;
 pub(crate) mod vector;

@@ -4,7 +4,7 @@
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::processor::Kernel;
-use crate::batch::company::{Beside, Companion};
+use crate::batch::followers::{Follower, LaneFollowers};
 use crate::model::taut_set::TautSet;
 use crate::motion::bounce::{Bounce, bounce};
 use crate::motion::bounce_map::Bounced;
@@ -13,7 +13,7 @@ use crate::motion::simulation::{LastImpacts, Progress, Simulation};
 use crate::motion::trajectory::RHO2_UNTIL;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
-/// Takes a run that has stopped, or whose companion goes no further.
+/// Takes a run that has stopped, or whose follower goes no further.
 pub(super) type Tell<'a, C> = &'a mut dyn FnMut(Box<Slot<C>>);
 
 /// The runs that are to get lanes.
@@ -63,21 +63,21 @@ pub(super) struct Slot<C> {
     pub(super) index: usize,
     pub(super) simulation: Simulation,
     pub(super) outcome: Outcome,
-    pub(super) companion: C,
+    pub(super) follower: C,
 }
 
-pub(super) struct LaneScheduler<'a, L: Doubles, C: Companion> {
+pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
     runs: Runs<'a, C>,
     tell: Tell<'a, C>,
     slots: Vec<Option<Box<Slot<C>>>>,
     two_cables: TwoCableSystem<L>,
     after_impact: AfterImpact<L>,
     tally: Tally<L>,
-    beside: C::Beside<L>,
+    beside: C::LaneFollowers<L>,
     usage: Usage,
 }
 
-impl<L: Doubles, C: Companion> Kernel for LaneScheduler<'_, L, C> {
+impl<L: Doubles, C: Follower> Kernel for LaneScheduler<'_, L, C> {
     type Output = Usage;
     #[inline(always)]
     fn run(self) -> Usage {
@@ -85,7 +85,7 @@ impl<L: Doubles, C: Companion> Kernel for LaneScheduler<'_, L, C> {
     }
 }
 
-impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
+impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     pub(super) fn new(runs: Runs<'a, C>, tell: Tell<'a, C>) -> Self {
         let zero = |_: f64, _: f64| L::ZERO;
         let (system, motion, tally) = Default::default();
@@ -96,7 +96,7 @@ impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
             two_cables: TwoCableSystem::zip_with(&system, &system, zero),
             after_impact: AfterImpact::zip_with(&motion, &motion, zero),
             tally: Tally::zip_with(&tally, &tally, zero),
-            beside: C::Beside::empty(),
+            beside: C::LaneFollowers::empty(),
             usage: Usage {
                 width: L::WIDTH,
                 ..Usage::default()
@@ -126,7 +126,7 @@ impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
                 let chosen = |next, present| L::select(plain, next, present);
                 self.after_impact = bounce.next.zip_with(&self.after_impact, chosen);
                 self.tally = tally.zip_with(&self.tally, chosen);
-                self.beside = C::Beside::select(plain, &beside, &self.beside);
+                self.beside = C::LaneFollowers::select(plain, &beside, &self.beside);
             }
             let plain = bits & !empty;
             self.usage.rounds += 1;
@@ -177,12 +177,12 @@ impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
     /// Returns whether the lane is taken.
     fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>) -> bool {
         loop {
-            if slot.simulation.stop().is_some() || !slot.companion.goes_on() {
+            if slot.simulation.stop().is_some() || !slot.follower.goes_on() {
                 (self.tell)(slot);
                 return false;
             }
             // The first impact is part of the outcome, so it is not made in a lane.
-            let begun = slot.outcome.first.is_some() && slot.companion.fits_a_lane();
+            let begun = slot.outcome.first.is_some() && slot.follower.fits_a_lane();
             if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
             {
                 self.enter(lane, &slot, &two_cables, &after_impact);
@@ -219,7 +219,7 @@ impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
         self.two_cables = self.two_cables.zip_with(two_cables, put);
         self.after_impact = self.after_impact.zip_with(after_impact, put);
         self.tally = self.tally.zip_with(&tally, put);
-        self.beside.put(lane, &slot.companion);
+        self.beside.put(lane, &slot.follower);
     }
 
     /// Brings a run's simulation up to what the run did in its lane.
@@ -243,25 +243,25 @@ impl<'a, L: Doubles, C: Companion> LaneScheduler<'a, L, C> {
         (norms.rho1, norms.rho2, norms.rho3) = (tally.rho1, tally.rho2, tally.rho3);
         slot.simulation.resume(&after_impact, progress);
         let made = progress.impacts - before;
-        self.beside.get(lane, &mut slot.companion, made);
+        self.beside.get(lane, &mut slot.follower, made);
     }
 }
 
-impl<C: Companion> Slot<C> {
+impl<C: Follower> Slot<C> {
     /// A run about to begin.
-    pub(super) fn new(index: usize, simulation: Simulation, companion: C) -> Box<Self> {
+    pub(super) fn new(index: usize, simulation: Simulation, follower: C) -> Box<Self> {
         Box::new(Self {
             index,
             outcome: Outcome::begun(&simulation),
             simulation,
-            companion,
+            follower,
         })
     }
 
     fn step(&mut self) {
         if let Some(step) = self.simulation.step() {
             self.outcome.take(&step);
-            self.companion.take(&self.simulation, &step);
+            self.follower.take(&self.simulation, &step);
         }
     }
 }

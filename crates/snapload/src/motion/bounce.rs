@@ -59,12 +59,12 @@ pub(crate) struct Bounce<L: Lane> {
     pub(crate) v_after: L,
     /// After the impact, with the extremes of the flight.
     pub(crate) next: AfterImpact<L>,
-    pub(crate) course: Course<L>,
+    pub(crate) facts: FlightFacts<L>,
 }
 
 /// What those that follow a run ask of a bounce, besides where it led.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Course<L> {
+pub(crate) struct FlightFacts<L> {
     /// The force at the start of the flight and at its end.
     pub(crate) forces: [Vector2<L>; 2],
     /// Of the gap that does not close: in the early part of the flight g ≤ g₀ + σ times this.
@@ -275,7 +275,7 @@ fn land<L: Lane>(
                 y_max: from.y_max.larger(state.y),
                 theta_max: from.theta_max.larger(state.theta.abs()),
             },
-            course: Course {
+            facts: FlightFacts {
                 forces,
                 slope: L::select(second, openness[0].slope, openness[1].slope),
                 late: L::select(second, openness[0].late, openness[1].late),

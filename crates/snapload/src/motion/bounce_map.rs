@@ -20,7 +20,7 @@ use crate::arithmetic::lane::Lane;
 use crate::arithmetic::plane::Vector2;
 use crate::model::cable::Normal;
 use crate::model::state::State;
-use crate::motion::bounce::{Bounce, Course};
+use crate::motion::bounce::{Bounce, FlightFacts};
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// Deviations (w, τ) side by side: a row for each of their seven components.
@@ -41,7 +41,7 @@ pub(crate) struct Bounced<'a, L: Lane> {
     pub(crate) impulse: L,
     /// Value and error of the gap that did not close, at the end.
     pub(crate) other_gap: [L; 2],
-    pub(crate) course: &'a Course<L>,
+    pub(crate) facts: &'a FlightFacts<L>,
 }
 
 impl<'a, L: Lane> Bounced<'a, L> {
@@ -64,7 +64,7 @@ impl<'a, L: Lane> Bounced<'a, L> {
             v_n: bounce.v_n,
             impulse: bounce.impulse,
             other_gap: [other(0), other(1)],
-            course: &bounce.course,
+            facts: &bounce.facts,
         }
     }
 
@@ -108,12 +108,12 @@ impl<L: Lane> BounceMap<L> {
     #[inline(always)]
     pub(crate) fn of(bounced: &Bounced<L>) -> Self {
         let (start, before, after) = (&bounced.from.state, bounced.before, bounced.after);
-        let Course {
+        let FlightFacts {
             forces: [first, last],
             normal,
             swing,
             ..
-        } = *bounced.course;
+        } = *bounced.facts;
         let two_cables = bounced.two_cables;
         let inverse_inertia = two_cables.inverse_inertia;
         let s = bounced.t - bounced.from.t;
@@ -198,7 +198,7 @@ impl<L: Lane> BounceMap<L> {
         rows: &Rows<L, N>,
         later: &[L; N],
     ) -> [[L; N]; 2] {
-        let Normal { n, arm } = bounced.course.other;
+        let Normal { n, arm } = bounced.facts.other;
         let [vx, vy, vtheta] = self.velocities[0];
         let rate = n.x.mul_add(vx, n.y.mul_add(vy, arm * vtheta));
         let mut all = [[L::ZERO; N]; 2];

@@ -10,7 +10,7 @@ use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::ActiveSet;
-use crate::motion::bounce::Course;
+use crate::motion::bounce::FlightFacts;
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::{Crossing, Reached, first_crossing};
 use crate::motion::extremes::Extremes;
@@ -53,7 +53,7 @@ pub struct Simulation<T: Real = f64> {
     /// Where the latest step began, if it was a bounce; then `flight` knows nothing of it.
     bounce_start: Option<AfterImpact<T>>,
     /// What was known of it, if it was a bounce and nothing more.
-    course: Option<Course<T>>,
+    facts: Option<FlightFacts<T>>,
     flight: Flight<T>,
     /// Made for the first stretch without a closed form: it is large, and most runs have none.
     series: Option<Box<Series<T>>>,
@@ -192,7 +192,7 @@ impl<T: Real> Simulation<T> {
             extremes: Extremes::at(&start.state),
             two_cables: TwoCableSystem::of(&system, &rules),
             bounce_start: None,
-            course: None,
+            facts: None,
             system,
             rules,
             t,

@@ -41,14 +41,14 @@ pub(super) struct Through<L: Lane> {
     pub(super) after: Parts<L>,
     /// Whether it is certain that no neighbour has another event, and that the error is within the
     /// tolerance.
-    pub(super) quiet: L::Mask,
+    pub(super) within_tolerance: L::Mask,
 }
 
 impl<L: Lane> Followed<L> {
     /// Each of its numbers with the other's.
     #[inline(always)]
-    pub(super) fn pair_up<M>(&mut self, other: &Followed<M>, mut each: impl FnMut(&mut L, &M)) {
-        self.parts.pair_up(&other.parts, &mut each);
+    pub(super) fn pairwise<M>(&mut self, other: &Followed<M>, mut each: impl FnMut(&mut L, &M)) {
+        self.parts.pairwise(&other.parts, &mut each);
         each(&mut self.slant, &other.slant);
         each(&mut self.tolerance, &other.tolerance);
     }
@@ -83,12 +83,16 @@ impl<L: Lane> Followed<L> {
             [square(&other[0]), square(&other[1])],
         );
         let known = reach.error(rows, rounding.place_squared()) * SAFE;
-        let quiet = known.below(self.tolerance * self.tolerance)
+        let within_tolerance = known.below(self.tolerance * self.tolerance)
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
             & reach.stops_nowhere(bounced);
-        after.turn();
-        Through { met, after, quiet }
+        after.rotate();
+        Through {
+            met,
+            after,
+            within_tolerance,
+        }
     }
 }
 
@@ -149,7 +153,7 @@ impl<L: Lane> BounceRounding<L> {
             time: bounced.t * (ROUNDING * std::f64::consts::SQRT_2),
             direction: slant * (0.5 * ROUNDING),
             turn: L::from_f64(ROUNDING),
-            across: bounced.course.normal.n.quarter_turn(),
+            across: bounced.facts.normal.n.quarter_turn(),
         }
     }
 
@@ -173,7 +177,7 @@ impl<L: Lane> BounceRounding<L> {
     /// An impact that is located late is one of a place off across the end of the cable.
     #[inline(always)]
     fn add_location(&self, bounced: &Bounced<L>, rows: &mut Rows<L, COLUMNS>) {
-        let n = bounced.course.normal.n;
+        let n = bounced.facts.normal.n;
         rows[0][LAST] = self.location.mul_add(n.x, rows[0][LAST]);
         rows[1][LAST] = self.location.mul_add(n.y, rows[1][LAST]);
     }
@@ -220,7 +224,7 @@ impl<L: Lane> BounceRounding<L> {
 #[inline(always)]
 fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
     let before = bounced.before;
-    let Normal { n, arm } = bounced.course.normal;
+    let Normal { n, arm } = bounced.facts.normal;
     let s = bounced.t - bounced.from.t;
     let [per_length, _] = bounced.each(|k| bounced.two_cables.cables[k].per_length());
     let [gap, _] = bounced.each(|k| bounced.from.gaps[k][0]);
@@ -248,8 +252,8 @@ fn location<L: Lane>(bounced: &Bounced<L>, slant: L, moved: [L; 3]) -> L {
 /// allows.
 #[inline(always)]
 fn displacements<L: Lane>(bounced: &Bounced<L>, [x, y, theta]: [L; 3]) -> ([L; 2], [L; 3]) {
-    let Normal { n, arm } = bounced.course.normal;
-    let other = bounced.course.other;
+    let Normal { n, arm } = bounced.facts.normal;
+    let other = bounced.facts.other;
     let [_, per_length] = bounced.each(|k| bounced.two_cables.cables[k].per_length());
     let tangent = n.quarter_turn();
     let along = [x * tangent.x, y * tangent.y];
@@ -347,14 +351,14 @@ impl<L: Lane> Reach<L> {
         let [_, gap] = bounced.each(|k| bounced.from.gaps[k][0]);
         let [_, length] = bounced.each(|k| bounced.two_cables.cables[k].length());
         let s = bounced.t - bounced.from.t;
-        let slope = bounced.course.slope;
+        let slope = bounced.facts.slope;
         let within = L::select(
             gap.below(L::ZERO),
             gap.larger(slope.mul_add(s * EARLY, gap)),
             slope * s,
         );
         let largest = within
-            .larger(bounced.course.late)
+            .larger(bounced.facts.late)
             .larger(bounced.other_gap[0]);
         const FACTOR: f64 = 4.0 * REACH * REACH * SAFE;
         let margin = length * length * self.other * FACTOR;

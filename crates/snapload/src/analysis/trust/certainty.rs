@@ -1,5 +1,6 @@
 //! How far a run can be trusted if its values are exact, and nothing more.
 
+use crate::analysis::outcomes::side_by_side;
 use crate::analysis::progress::{Cancelled, Counter};
 use crate::analysis::trust::Horizon;
 use crate::analysis::trust::bounces::Followed;
@@ -7,7 +8,7 @@ use crate::analysis::trust::parts::Parts;
 use crate::analysis::trust::spread::SpreadMonitor;
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::processor::{Kernel, dispatch};
-use crate::batch::company::{Beside, Companion};
+use crate::batch::followers::{Follower, LaneFollowers};
 use crate::batch::lanes::Lanes;
 use crate::case::Case;
 use crate::motion::bounce_map::{BounceMap, Bounced};
@@ -25,8 +26,8 @@ impl Kernel for Following<'_> {
     }
 }
 
-impl Companion for SpreadMonitor {
-    type Beside<L: Doubles> = Followed<L>;
+impl Follower for SpreadMonitor {
+    type LaneFollowers<L: Doubles> = Followed<L>;
 
     fn take(&mut self, simulation: &Simulation, step: &Step) {
         dispatch(Following(self, simulation, step));
@@ -37,11 +38,11 @@ impl Companion for SpreadMonitor {
     }
 
     fn fits_a_lane(&self) -> bool {
-        self.is_settled_in()
+        self.adds_by_signs()
     }
 }
 
-impl<L: Doubles> Beside<L> for Followed<L> {
+impl<L: Doubles> LaneFollowers<L> for Followed<L> {
     type Alone = SpreadMonitor;
 
     fn empty() -> Self {
@@ -59,23 +60,23 @@ impl<L: Doubles> Beside<L> for Followed<L> {
             parts: through.after,
             ..*self
         };
-        (after, plain & through.quiet)
+        (after, plain & through.within_tolerance)
     }
 
     #[inline(always)]
     fn select(mask: L::Mask, yes: &Self, no: &Self) -> Self {
         let mut chosen = *no;
-        chosen.pair_up(yes, |chosen, yes| *chosen = L::select(mask, *yes, *chosen));
+        chosen.pairwise(yes, |chosen, yes| *chosen = L::select(mask, *yes, *chosen));
         chosen
     }
 
     fn put(&mut self, lane: usize, alone: &SpreadMonitor) {
-        self.pair_up(&alone.followed(), |all, one| all.set(lane, *one));
+        self.pairwise(&alone.followed(), |all, one| all.set(lane, *one));
     }
 
     fn get(&self, lane: usize, alone: &mut SpreadMonitor, impacts: u64) {
         let mut one = alone.followed();
-        one.pair_up(self, |one, all| *one = all.get(lane));
+        one.pairwise(self, |one, all| *one = all.get(lane));
         alone.go_on(one, impacts);
     }
 }
@@ -112,24 +113,16 @@ impl Certainty {
         cases: &[Case],
         counter: &Counter,
     ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
-        let mut cancelled = None;
-        let runs = cases.iter().map_while(|case| {
-            cancelled = counter.add(0).err();
-            if cancelled.is_some() {
-                return None;
-            }
+        let runs = cases.iter().map(|case| {
             let simulation = case.simulation();
             let monitor = SpreadMonitor::of_exact_case(case, &simulation);
-            Some((simulation, monitor))
+            (simulation, monitor)
         });
-        let (told, _) = lanes.outcomes_beside(runs);
-        if let Some(cancelled) = cancelled {
-            return Err(cancelled);
-        }
         let certainty = |(outcome, monitor): (Outcome, SpreadMonitor)| {
             let horizon = monitor.horizon;
             (outcome, Self { horizon })
         };
+        let told = side_by_side(lanes, runs, counter)?;
         Ok(told.into_iter().map(certainty).collect())
     }
 

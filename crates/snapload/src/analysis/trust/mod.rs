@@ -21,6 +21,7 @@ mod uncertain_key;
 pub use certainty::Certainty;
 pub use monitor::TrustMonitor;
 
+use crate::analysis::digits::digits_within;
 use crate::analysis::progress::{OnProgress, Unfinished, record};
 use crate::case::Case;
 use crate::case::error::CaseError;
@@ -219,15 +220,10 @@ pub struct Trust {
     pub exponents: [f64; 6],
 }
 
-/// What a double can hold.
-const MOST_DIGITS: f64 = 15.95;
-
 impl Trust {
     /// Decimal digits that are expected to be right, impact by impact.
     pub fn digits(&self) -> impl Iterator<Item = f64> + '_ {
-        self.errors
-            .iter()
-            .map(|error| (-libm::log10(*error)).clamp(0.0, MOST_DIGITS))
+        self.errors.iter().map(|error| digits_within(*error))
     }
 
     /// Whether the way in which the run ends is certain: neighbours within the uncertainty end

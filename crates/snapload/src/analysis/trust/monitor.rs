@@ -1,7 +1,7 @@
 //! Follows a run and keeps account of what is known of it.
 
 use crate::analysis::lyapunov::Frame;
-use crate::analysis::trust::spread::{LinearMap, Onlooker, SpreadMonitor};
+use crate::analysis::trust::spread::{LinearMap, Observer, SpreadMonitor};
 use crate::analysis::trust::{Graze, Horizon, Trust, Uncertainty};
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
@@ -114,7 +114,7 @@ struct Records<'a> {
     latest: (&'a Simulation, &'a Step),
 }
 
-impl Onlooker for Records<'_> {
+impl Observer for Records<'_> {
     #[inline(always)]
     fn see(&mut self, map: LinearMap) {
         let square = map.magnification_squared();

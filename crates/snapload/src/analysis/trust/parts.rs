@@ -58,7 +58,7 @@ impl<L: Lane> Parts<L> {
 
     /// The parts change places, and signs, for the next step.
     #[inline(always)]
-    pub(super) fn turn(&mut self) {
+    pub(super) fn rotate(&mut self) {
         for row in &mut self.rows {
             let last = row[LAST];
             for k in (1..COLUMNS).rev() {
@@ -71,7 +71,7 @@ impl<L: Lane> Parts<L> {
 
     /// Each of its numbers with the other's.
     #[inline(always)]
-    pub(super) fn pair_up<M>(&mut self, other: &Parts<M>, mut each: impl FnMut(&mut L, &M)) {
+    pub(super) fn pairwise<M>(&mut self, other: &Parts<M>, mut each: impl FnMut(&mut L, &M)) {
         for (row, others) in self.rows.iter_mut().zip(&other.rows) {
             for (one, other) in row.iter_mut().zip(others) {
                 each(one, other);
@@ -185,7 +185,7 @@ mod tests {
                 for i in 0..7 {
                     parts.rows[i][i] += sign * size(step, i);
                 }
-                parts.turn();
+                parts.rotate();
             }
             let squares = squares(&parts.rows);
             for (mean, square) in means.iter_mut().zip(squares) {
@@ -215,7 +215,7 @@ mod tests {
                 *sum += sign;
             }
             before = [one, two];
-            parts.turn();
+            parts.rotate();
         }
         // Four standard deviations of as many independent signs.
         let most = 4.0 * f64::from(count).sqrt();

@@ -56,7 +56,7 @@ pub(super) enum LinearMap<'a> {
 }
 
 impl LinearMap<'_> {
-    /// The square of [`StepMap::magnification_squared`].
+    /// See [`StepMap::magnification_squared`].
     #[inline(always)]
     pub(super) fn magnification_squared(&self) -> f64 {
         match self {
@@ -88,12 +88,12 @@ impl LinearMap<'_> {
 
 /// What is shown what each step does to deviations. A closure would be compiled without the
 /// processor's own instructions.
-pub(super) trait Onlooker {
+pub(super) trait Observer {
     /// Is shown it.
     fn see(&mut self, map: LinearMap);
 }
 
-impl Onlooker for () {
+impl Observer for () {
     #[inline(always)]
     fn see(&mut self, _: LinearMap) {}
 }
@@ -101,7 +101,7 @@ impl Onlooker for () {
 /// Any step to be carried through, by the best instructions for it.
 struct Carrying<'a, O>(&'a mut SpreadMonitor, &'a Simulation, &'a Step, &'a mut O);
 
-impl<O: Onlooker> Kernel for Carrying<'_, O> {
+impl<O: Observer> Kernel for Carrying<'_, O> {
     type Output = f64;
     #[inline(always)]
     fn run(self) -> f64 {
@@ -186,7 +186,7 @@ impl SpreadMonitor {
         &mut self,
         simulation: &Simulation,
         step: &Step,
-        onlooker: &mut impl Onlooker,
+        observer: &mut impl Observer,
     ) -> f64 {
         let bounced = simulation.bounced(step);
         let lost = self.is_lost();
@@ -195,19 +195,19 @@ impl SpreadMonitor {
         }
         let error = match bounced {
             Some(bounced) if lost => {
-                onlooker.see(LinearMap::Bounce(&BounceMap::of(&bounced)));
+                observer.see(LinearMap::Bounce(&BounceMap::of(&bounced)));
                 f64::INFINITY
             }
-            Some(bounced) if self.is_settled_in() => {
-                self.carry_bounce(simulation, step, &bounced, onlooker)
+            Some(bounced) if self.adds_by_signs() => {
+                self.carry_bounce(simulation, step, &bounced, observer)
             }
             _ if lost => {
-                onlooker.see(LinearMap::Step(
+                observer.see(LinearMap::Step(
                     &self.tangent(simulation).of_step(simulation, step),
                 ));
                 f64::INFINITY
             }
-            _ => dispatch(Carrying(self, simulation, step, onlooker)),
+            _ => dispatch(Carrying(self, simulation, step, observer)),
         };
         self.impacts += step.impacts().count();
         self.steps = (self.steps + 1).min(EXACT_STEPS);
@@ -221,7 +221,7 @@ impl SpreadMonitor {
     }
 
     /// Whether bounces may be followed as [`crate::analysis::trust::parts`] says.
-    pub(super) fn is_settled_in(&self) -> bool {
+    pub(super) fn adds_by_signs(&self) -> bool {
         self.steps == EXACT_STEPS && self.keys.is_empty()
     }
 
@@ -257,13 +257,13 @@ impl SpreadMonitor {
         simulation: &Simulation,
         step: &Step,
         bounced: &Bounced<f64>,
-        onlooker: &mut impl Onlooker,
+        observer: &mut impl Observer,
     ) -> f64 {
         let map = BounceMap::of(bounced);
-        onlooker.see(LinearMap::Bounce(&map));
+        observer.see(LinearMap::Bounce(&map));
         let followed = self.followed();
         let through = followed.through(bounced, &map);
-        if !through.quiet && self.horizon.is_none() {
+        if !through.within_tolerance && self.horizon.is_none() {
             self.ask_for_cause(simulation, step, followed.before(bounced, &map), &map);
         }
         self.covariance.parts = through.after;
@@ -302,9 +302,9 @@ impl SpreadMonitor {
 
     /// Carries the spread through any step.
     #[inline(always)]
-    fn carry(&mut self, simulation: &Simulation, step: &Step, onlooker: &mut impl Onlooker) -> f64 {
+    fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut impl Observer) -> f64 {
         let map = self.tangent(simulation).of_step(simulation, step);
-        onlooker.see(LinearMap::Step(&map));
+        observer.see(LinearMap::Step(&map));
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
         let rounding = Rounding::of_step(simulation, step, &map, self.slant);

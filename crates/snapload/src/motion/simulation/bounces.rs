@@ -19,7 +19,7 @@ impl<T: Real> Simulation<T> {
     /// itself comes to [`bounce`] in a lane, so it is one in both or in neither.
     #[inline(always)]
     pub(super) fn next_bounce(&mut self) -> Option<Bounce<T>> {
-        (self.bounce_start, self.course) = (None, None);
+        (self.bounce_start, self.facts) = (None, None);
         let from = self.after_impact()?;
         let bounce = bounce(self.two_cables.as_ref()?, &from);
         if bounce.arrived {
@@ -89,7 +89,7 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(crate) fn bounced<'a>(&'a self, step: &'a Step<T>) -> Option<Bounced<'a, T>> {
         let (two_cables, from) = (self.two_cables.as_ref()?, self.bounce_start.as_ref()?);
-        let (course, result) = (self.course.as_ref()?, step.result.as_ref()?);
+        let (facts, result) = (self.facts.as_ref()?, step.result.as_ref()?);
         let struck = step.event.closed.iter().next()?;
         let Contact { gap, error, .. } = self.contacts[1 - struck];
         Some(Bounced {
@@ -102,7 +102,7 @@ impl<T: Real> Simulation<T> {
             v_n: result.v_before[struck],
             impulse: result.impulse[struck],
             other_gap: [gap, error],
-            course,
+            facts,
         })
     }
 
@@ -142,7 +142,7 @@ impl<T: Real> Simulation<T> {
                 return (event, None);
             }
             self.state = next.state;
-            self.course = Some(bounce.course);
+            self.facts = Some(bounce.facts);
             self.end_slow_row();
             let result = ImpactResult::of_one(
                 struck,

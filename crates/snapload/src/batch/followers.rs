@@ -1,25 +1,25 @@
-//! What goes along with runs in their lanes, if anything does.
+//! What follows runs in their lanes, if anything does.
 
 use crate::arithmetic::elementary::Doubles;
 use crate::arithmetic::lane::Lane;
 use crate::motion::bounce_map::Bounced;
 use crate::motion::simulation::{Simulation, Step};
 
-/// What goes along with a run.
-pub(crate) trait Companion: Sized {
+/// What follows a run.
+pub(crate) trait Follower: Sized {
     /// The same beside the runs of several lanes.
-    type Beside<L: Doubles>: Beside<L, Alone = Self>;
+    type LaneFollowers<L: Doubles>: LaneFollowers<L, Alone = Self>;
 
     /// Takes in a step that the run made out of the lanes.
     fn take(&mut self, simulation: &Simulation, step: &Step);
-    /// Whether it goes any further.
+    /// Whether it follows the run any further.
     fn goes_on(&self) -> bool;
-    /// Whether it can go along in a lane now.
+    /// Whether it can follow the run in a lane now.
     fn fits_a_lane(&self) -> bool;
 }
 
-/// The companions of the runs in all lanes.
-pub(crate) trait Beside<L: Lane>: Copy {
+/// The followers of the runs in all lanes.
+pub(crate) trait LaneFollowers<L: Lane>: Copy {
     /// That of one run.
     type Alone;
 
@@ -36,12 +36,12 @@ pub(crate) trait Beside<L: Lane>: Copy {
     fn get(&self, lane: usize, alone: &mut Self::Alone, impacts: u64);
 }
 
-/// Nothing goes along.
+/// Nothing does.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Nobody;
+pub(crate) struct Unfollowed;
 
-impl Companion for Nobody {
-    type Beside<L: Doubles> = Self;
+impl Follower for Unfollowed {
+    type LaneFollowers<L: Doubles> = Self;
 
     #[inline(always)]
     fn take(&mut self, _: &Simulation, _: &Step) {}
@@ -55,7 +55,7 @@ impl Companion for Nobody {
     }
 }
 
-impl<L: Lane> Beside<L> for Nobody {
+impl<L: Lane> LaneFollowers<L> for Unfollowed {
     type Alone = Self;
 
     #[inline(always)]
