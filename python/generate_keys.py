@@ -28,6 +28,16 @@ def type_of(key: dict) -> str:
     return key["kind"]
 
 
+def given_type_of(key: dict) -> str:
+    """The natural inertia, and the missing one of a point mass, are asked for by None."""
+    return type_of(key) + (" | None" if key["name"] == "inertia" else "")
+
+
+def python_words(words: str) -> str:
+    """Words of the engine with the values as Python writes them."""
+    return words.replace("true", "True").replace("false", "False")
+
+
 def unit_of(key: dict) -> str:
     return f" [{key['unit']}]" if key["unit"] not in ("", "1") else ""
 
@@ -36,15 +46,14 @@ def generate() -> str:
     keys = _engine.keys()
     text = HEAD
     text += 'class Keys(TypedDict, total=False):\n    """The keys that a case takes."""\n\n'
-    text += "".join(f"    {key['name']}: {type_of(key)}\n" for key in keys)
+    text += "".join(f"    {key['name']}: {given_type_of(key)}\n" for key in keys)
     text += '\n\nclass Axes(TypedDict, total=False):\n    """The keys that a study varies."""\n\n'
     text += "".join(f"    {key['name']}: ArrayLike\n" for key in keys)
     text += '\n\nclass KeyValues:\n    """The keys of a case as properties."""\n\n'
-    text += "    def keys(self) -> dict[str, Any]:\n        raise NotImplementedError\n"
+    text += "    def keys(self) -> dict[str, Any]:\n"
+    text += '        """Every key in effect with its value."""\n        raise NotImplementedError\n'
     for key in keys:
-        kind = type_of(key)
-        if key["name"] == "inertia":
-            kind = "float | None"
+        kind = given_type_of(key)
         text += f"""
     @property
     def {key["name"]}(self) -> {kind}:
@@ -55,8 +64,11 @@ def generate() -> str:
     text += '\n\n#: The keys as a section of a docstring.\nPARAMETERS = """'
     for key in keys:
         kind = "{" + ", ".join(f'"{word}"' for word in key["words"]) + "}" if key["words"] else key["kind"]
-        told = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; allowed: ``{key['allowed']}``; "
-        told = fill(f"{told}default {key['default']}.", 112, initial_indent=" " * 8, subsequent_indent=" " * 8)
+        told = f"{key['meaning'][0].upper()}{key['meaning'][1:]}{unit_of(key)}; "
+        told += f"allowed: ``{python_words(key['allowed'])}``; "
+        told = fill(
+            f"{told}default {python_words(key['default'])}.", 112, initial_indent=" " * 8, subsequent_indent=" " * 8
+        )
         text += f"\n    {key['name']} : {kind}, optional\n{told}"
     return text + '\n"""\n'
 

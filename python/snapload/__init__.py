@@ -14,12 +14,16 @@ in F, its net buoyancy; times in T = sqrt(m L / F).
 
 from __future__ import annotations
 
+from typing import get_type_hints
+
+from ._axes import evenly
 from ._case import Case, cases
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._neighbours import Ensemble, Share, ensemble
 from ._run import End, Norms, Outcome, Run, Trust
-from ._sweep import evenly, open_study, sweep
+from ._sensitivities import sensitivities
+from ._sweep import merge, open_study, sweep
 from ._table import Table
 from ._verify import Verification, verify
 
@@ -40,7 +44,16 @@ __all__ = [
     "critical_force",
     "ensemble",
     "evenly",
+    "merge",
     "open_study",
+    "sensitivities",
     "sweep",
     "verify",
 ]
+
+# What is public is called by the name by which it is imported. What its annotations name stands where it was written.
+for _name in __all__:
+    if isinstance(_it := globals()[_name], type):
+        _it.__annotations__ = get_type_hints(_it)
+        _it.__module__ = __name__
+del _name, _it

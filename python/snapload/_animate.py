@@ -15,7 +15,7 @@ from matplotlib import animation, pyplot
 from matplotlib.patches import Polygon
 
 from ._check import whole
-from ._plot import CABLES, GREY, geometry, times_of
+from ._plot import CABLES, geometry, times_of
 from ._progress import bar
 
 if TYPE_CHECKING:
@@ -38,6 +38,10 @@ class Animation:
     """A moving picture of a run; made by :meth:`snapload.Run.animate`.
 
     The last value of a notebook's cell shows it, with buttons.
+
+    See Also
+    --------
+    snapload.Run.plot
     """
 
     def __init__(self, run: Run, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
@@ -72,6 +76,16 @@ class Animation:
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Writes the animation as GIF, MP4 (which takes ffmpeg) or HTML, by the ending of the file.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that is there is written over.
+
+        Returns
+        -------
+        pathlib.Path
+            The file.
 
         Raises
         ------
@@ -113,7 +127,7 @@ def _scene_data(run: Run, start: float, stop: float, count: int) -> dict[str, An
     size = max(a, b, 0.012)
     ring = size * np.column_stack([np.cos(angles), np.sin(angles)])
     outline = ring if b == 0 else np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
-    path, times = run.at(times_of(run, start, stop)), np.linspace(start, stop, count)
+    path, times = run.at(times_of(run, start, stop, 12)), np.linspace(start, stop, count)
     frames = run.at(times)
     t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
     # A snap takes no time; it is shown for as long as an eye needs.
@@ -147,10 +161,10 @@ def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
     ax.set_xlabel("$x$ [L]")
     ax.set_ylabel("$y$ [L]")
     ax.plot(*anchors.T, "^", color="black", markersize=7)
-    ax.plot(*path[:, 1:].T, color=GREY, linewidth=0.5, alpha=0.6)
+    ax.plot(*path[:, 1:].T, color="black", linewidth=0.4, alpha=0.35)
     lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour, _ in CABLES.values()]
     (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
-    body = Polygon(outline, facecolor="0.85", edgecolor="black")
+    body = Polygon(outline, facecolor="white", edgecolor="black")
     ax.add_patch(body)
     clock = ax.text(0.5, 0.95, "", transform=ax.transAxes, ha="center", va="top", fontsize="small")
 

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from functools import cache
 from html import escape
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import Any, Self, Unpack
 
 from . import _engine
-from ._check import Uncertainty, plain, whole
+from ._check import Uncertainty, number, plain, whole
 from ._keys import PARAMETERS, Keys, KeyValues
-from ._run import Run
+from ._run import Options, Run
 from ._signature import with_keys
-
-if TYPE_CHECKING:
-    from typing import Self
-
-    from typing_extensions import Unpack
 
 #: Keys in which the built-in cases differ.
 _SHOWN = ("r", "e", "a", "b", "f_o", "nu", "omega")
@@ -37,10 +33,17 @@ class Case(KeyValues):
     ValueError
         If a key is unknown or can not take its value; the words are those of the command line.
 
+    See Also
+    --------
+    snapload.cases : the built-in cases.
+    snapload.sweep : many cases at once.
+
     Notes
     -----
     The model and its sources are told in the manual, under "The model". Lengths are in L, half the distance of
     the anchors; masses in m, the body's; forces in F, its net buoyancy; times in T = sqrt(m L / F).
+
+    A case is a mapping of all keys in effect: ``case["f_o"]``, ``dict(case)`` and ``Case(**case)`` work.
 
     Examples
     --------
@@ -57,10 +60,14 @@ class Case(KeyValues):
     """
 
     def __init__(self, code: str | None = None, /, **keys: Unpack[Keys]) -> None:
+        self._engine: _engine.Case
         if code is None:
-            self._engine = _engine.Case("standard case", dict(keys))
+            self._engine = _engine.Case("standard case", _given(keys))
+        elif isinstance(code, str):
+            self._engine = _engine.named_case(code).replace(_given(keys))
         else:
-            self._engine = _engine.named_case(code).replace(dict(keys))
+            allowed = "the code of a built-in case as a str; keys are given by name, such as Case(f_o=0.31)"
+            raise TypeError(f"code = {code!r} is not allowed; allowed: {allowed}")
 
     @classmethod
     def _of(cls, engine: _engine.Case) -> Self:
@@ -77,12 +84,21 @@ class Case(KeyValues):
         path : path-like
             The file.
 
+        Returns
+        -------
+        Case
+            Its name is that of the file.
+
         Raises
         ------
         ValueError
             If it is not TOML, or a key in it is wrong.
         OSError
             If it can not be read.
+
+        See Also
+        --------
+        to_file
         """
         import tomllib
 
@@ -96,15 +112,67 @@ class Case(KeyValues):
         except ValueError as error:
             raise ValueError(f"{fspath(path)}: {error}") from None
 
+    def to_file(self, path: str | PathLike[str]) -> None:
+        """Writes the keys that were given as a TOML file, which :meth:`from_file` and the command line read.
+
+        Parameters
+        ----------
+        path : path-like
+            The file; one that is there is written over.
+
+        Raises
+        ------
+        OSError
+            If it can not be written.
+
+        See Also
+        --------
+        from_file
+
+        Examples
+        --------
+        >>> import snapload
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp()) / "mooring.toml"
+        >>> snapload.Case(f_o=0.31, a=0.2).to_file(path)
+        >>> print(path.read_text(), end="")
+        f_o = 0.31
+        a = 0.2
+        >>> snapload.Case.from_file(path) == snapload.Case(f_o=0.31, a=0.2)
+        True
+        """
+        # JSON's numbers, words and flags are TOML's.
+        lines = (f"{key} = {json.dumps(value)}\n" for key, value in self._engine.given().items())
+        with open(path, "w", encoding="utf-8", newline="\n") as file:
+            file.writelines(lines)
+
     def replace(self, **keys: Unpack[Keys]) -> Self:
         """The same case with some keys changed; what follows from them, such as the inertia, follows anew.
+
+        Returns
+        -------
+        Case
+            Another case; this one stays as it is. ``copy.replace`` does the same.
 
         Raises
         ------
         ValueError
             As for :class:`Case`.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> case = snapload.Case(a=0.2, inertia=0.05)
+        >>> case.replace(a=0.3).inertia, case.replace(a=0.3, inertia=None).inertia == 0.3 * 0.3
+        (0.05, True)
         """
-        return self._of(self._engine.replace(dict(keys)))
+        given = _given(keys)
+        if len(given) == len(keys):
+            return self._of(self._engine.replace(given))
+        return self._of(_engine.Case(self.name, _given({**self._engine.given(), **keys})))
+
+    __replace__ = replace
 
     @property
     def name(self) -> str:
@@ -112,12 +180,34 @@ class Case(KeyValues):
         return self._engine.name
 
     def keys(self) -> dict[str, Any]:
-        """Every key in effect with its value, in the order of the schema; ``inertia`` is None for a point mass."""
+        """Every key in effect with its value.
+
+        Returns
+        -------
+        dict
+            In the order of the schema; ``inertia`` is None for a point mass.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case(f_o=0.31).keys()["f_o"]
+        0.31
+        """
         return self._engine.values()
+
+    def __getitem__(self, key: str) -> Any:
+        return self.keys()[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.keys())
+
+    def __len__(self) -> int:
+        return len(self.keys())
 
     def run(
         self,
         *,
+        trust: bool = True,
         uncertainty: Uncertainty = None,
         tolerance: float = 1e-3,
         members: int | None = None,
@@ -127,9 +217,12 @@ class Case(KeyValues):
 
         Parameters
         ----------
+        trust : bool
+            Whether to say how far the run can be trusted. The motion is the same to the bit; the manual tells what
+            trust costs, under "How far to trust a result".
         uncertainty : float or dict of str to float, optional
-            How far the start may be off, either way: one size for every start value, or a size for each key.
-            Nothing but rounding if left out.
+            How far the start may be off, either way: one size for every start value, or a size for each key. If left
+            out, nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
         tolerance : float
             Error of state and time above which a result counts as not known.
         members : int, optional
@@ -148,13 +241,34 @@ class Case(KeyValues):
         ValueError
             If an option is out of its range, or a key can not be in doubt.
 
+        See Also
+        --------
+        snapload.ensemble : neighbours of a case, wherever its horizon is.
+        snapload.sweep : many cases.
+
         Notes
         -----
         Python's lock is released meanwhile, and Ctrl-C ends it.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case(f_o=0.31).run()
+        <Run of Case(f_o=0.31): rotation_limit at t = 3.4522, 12 impacts>
+        >>> snapload.Case(f_o=0.31).run(trust=False).end.reason
+        'rotation_limit'
         """
-        members = members if members is None else whole("members", members, 0, 10**9)
-        seed = whole("seed", seed, 0, 2**64 - 1)
-        return Run(_engine.run(self._engine, plain(uncertainty), tolerance, members, seed), self)
+        if not trust:
+            if uncertainty is not None or members:
+                raise ValueError("trust=False runs no neighbours; leave out uncertainty and members, or trust=False")
+            return Run(self, None, _engine.run_alone(self._engine))
+        options: Options = (
+            plain(uncertainty),
+            number("tolerance", tolerance),
+            members if members is None else whole("members", members, 0, 10**9),
+            whole("seed", seed, 0, 2**64 - 1),
+        )
+        return Run(self, options, _engine.run(self._engine, *options))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Case) and self.keys() == other.keys()
@@ -194,6 +308,11 @@ with_keys(Case, defaults=True)
 with_keys(Case.replace, defaults=False)
 
 
+def _given(keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys that are given. No inertia is the natural one, or none at all."""
+    return {key: value for key, value in keys.items() if not (key == "inertia" and value is None)}
+
+
 def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
     return cls._of(_engine.Case(name, given))
 
@@ -207,6 +326,10 @@ class _UnknownCase(KeyError):
 
 class Cases(Mapping[str, Case]):
     """The built-in cases by code: those of Table 6.1 of the thesis, and the examples of its section 6.5.
+
+    See Also
+    --------
+    snapload.Case
 
     Examples
     --------

@@ -4,10 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from operator import index
-from typing import SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex, TypeAlias
+
+if TYPE_CHECKING:
+    from . import _engine
+    from ._case import Case
 
 #: One size for every start value, a size for each key, or nothing but rounding.
 Uncertainty: TypeAlias = float | Mapping[str, float] | None
+
+
+def engine_of(case: Case) -> _engine.Case:
+    """The case of the engine, of what has to be a case."""
+    from ._case import Case
+
+    if isinstance(case, Case):
+        return case._engine
+    raise TypeError(f"case = {case!r} is not allowed; allowed: a snapload.Case, such as snapload.Case(f_o=0.31)")
 
 
 def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
@@ -21,8 +34,30 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     raise ValueError(f"{name} = {value!r} is not allowed; allowed: a whole number, {low} <= {name} <= {high:g}")
 
 
+def number(name: str, value: SupportsFloat) -> float:
+    """A number; which ones are allowed the engine says."""
+    try:
+        if not isinstance(value, (str, bytes)):
+            return float(value)
+    except (TypeError, ValueError):
+        pass
+    raise ValueError(f"{name} = {value!r} is not allowed; allowed: a number")
+
+
 def plain(uncertainty: Uncertainty) -> dict[str, float] | float | None:
     """As the engine takes it."""
-    if uncertainty is None or not isinstance(uncertainty, Mapping):
-        return uncertainty
-    return {str(key): float(size) for key, size in uncertainty.items()}
+    if uncertainty is None:
+        return None
+    if isinstance(uncertainty, Mapping):
+        return {str(key): number(f"uncertainty: {key}", size) for key, size in uncertainty.items()}
+    try:
+        return number("uncertainty", uncertainty)
+    except ValueError:
+        allowed = "a number, or one for each key, such as {'f_o': 0.01}"
+        raise ValueError(f"uncertainty = {uncertainty!r} is not allowed; allowed: {allowed}") from None
+
+
+def there(path: str) -> str:
+    """A file that can be opened; if not, the error is Python's own, such as ``FileNotFoundError``."""
+    with open(path, "rb"):
+        return path

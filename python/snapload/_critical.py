@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import Uncertainty, plain, whole
+from ._axes import listed
+from ._case import Case
+from ._check import Uncertainty, engine_of, number, plain, whole
+from ._later import Later
 from ._progress import bar
+from ._result import Result
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    import matplotlib.axes
+    import xarray
+else:
+    matplotlib, xarray = Later("matplotlib"), Later("xarray")
 
-    from ._case import Case
 
-
-@dataclass(frozen=True)
-class CriticalForce:
+@dataclass(frozen=True, repr=False, eq=False)
+class CriticalForce(Result):
     """The force amplitudes at which a case exceeds the limits of its mooring.
 
     Attributes
@@ -38,7 +44,12 @@ class CriticalForce:
         With an ensemble, at each amplitude: ``f_o``, whether the end is ``certain``, ``count`` of the members that
         exceed, ``part``, and the 95 % interval from ``low`` to ``high``.
     passes : dict of str to float or None
-        With an ensemble, the amplitudes at which 5, 50 and 95 % exceed: ``p05``, ``p50``, ``p95``.
+        With an ensemble, the smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed: ``p05``,
+        ``p50``, ``p95``. At a larger one fewer may exceed again.
+
+    See Also
+    --------
+    snapload.critical_force
     """
 
     f_cr: float | None
@@ -48,10 +59,28 @@ class CriticalForce:
     probability: np.recarray[Any, Any] | None
     passes: dict[str, float | None]
     _step: float
-    _max: float
+    _largest: float
+    _shown = ("f_cr", "reason", "t", "exceeding")
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws which amplitudes exceed, or how probably, into axes of Matplotlib, and returns them."""
+    def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draws which amplitudes exceed, or how probably.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; new ones if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, to compose further.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.critical_force(snapload.Case(), step=0.1).plot().get_xlabel()
+        '$f_o$ [F]'
+        """
         from matplotlib import pyplot
 
         from ._plot import BLUE, ORANGE, VERMILION, legend
@@ -73,7 +102,7 @@ class CriticalForce:
             ax.set_yticks([])
         if self.f_cr is not None:
             ax.axvline(self.f_cr, color=VERMILION, linewidth=1.2, linestyle="--", label=f"$f_{{cr}}$ = {self.f_cr:g}")
-        ax.set_xlim(0, self._max)
+        ax.set_xlim(0, self._largest)
         ax.set_xlabel("$f_o$ [F]")
         if ax.get_legend_handles_labels()[0]:
             legend(ax)
@@ -87,36 +116,65 @@ class CriticalForce:
         if self.reason is not None:
             rows.append(("because of", f"{self.reason.replace('_', ' ')} at t = {self.t:.4f}"))
         rows.append(("exceeding", ", ".join(interval(*pair) for pair in self.exceeding)))
-        rows += [(f"{name[1:].lstrip('0')} % exceed from", str(f_o)) for name, f_o in self.passes.items()]
+        rows += [
+            (f"{name[1:].lstrip('0')} % exceed first at", "none" if f_o is None else f"{f_o:g}")
+            for name, f_o in self.passes.items()
+        ]
         cells = (f"<tr><th style='text-align:left'>{a}</th><td style='text-align:left'>{b}</td></tr>" for a, b in rows)
         return f"<table>{''.join(cells)}</table>"
 
 
+@overload
 def critical_force(
     case: Case,
     *,
+    over: None = None,
     step: float = 0.01,
-    max: float = 1.0,
+    largest: float = 1.0,
     members: int = 0,
     uncertainty: Uncertainty = None,
     tolerance: float = 1e-3,
     seed: int = 1,
     progress: bool = True,
-) -> CriticalForce:
-    """Runs a case at the force amplitudes step, 2 step, ... up to max, and finds which exceed the limits.
+) -> CriticalForce: ...
+@overload
+def critical_force(
+    case: Case,
+    *,
+    over: Mapping[str, ArrayLike],
+    step: float = 0.01,
+    largest: float = 1.0,
+    progress: bool = True,
+) -> xarray.Dataset: ...
+def critical_force(
+    case: Case,
+    *,
+    over: Mapping[str, ArrayLike] | None = None,
+    step: float = 0.01,
+    largest: float = 1.0,
+    members: int = 0,
+    uncertainty: Uncertainty = None,
+    tolerance: float = 1e-3,
+    seed: int = 1,
+    progress: bool = True,
+) -> CriticalForce | xarray.Dataset:
+    """Runs a case at the force amplitudes step, 2 step, ... up to the largest, and finds which exceed the limits.
 
     Parameters
     ----------
     case : Case
         The case; its own ``f_o`` does not matter. With ``stop_when_sliding=True`` a run that begins to slide ends
         there, as in the studies of the thesis.
-    step, max : float
+    over : dict of str to array_like or str, optional
+        Values of other keys, as :func:`snapload.sweep` takes them: the answer is given for all their combinations.
+    step, largest : float
         The amplitudes [F].
     members : int
         With a number above 0, so many neighbours are run at each amplitude where one run can not tell, for the
         probability of exceeding.
     uncertainty : float or dict of str to float, optional
-        What is in doubt of the neighbours: one size for every start value, or a size for each key.
+        What is in doubt of the neighbours: one size for every start value, or a size for each key. If left out,
+        nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
     tolerance : float
         Error of state and time above which a result counts as not known.
     seed : int
@@ -126,36 +184,92 @@ def critical_force(
 
     Returns
     -------
-    CriticalForce
-        The smallest amplitude that exceeds, and all others.
+    CriticalForce or xarray.Dataset
+        The smallest amplitude that exceeds, and all others. With `over` a dataset over those keys: ``f_cr``, NaN where
+        none exceeds, ``reason``, ``t``, and ``exceeds`` over ``f_o``, too, which of all amplitudes exceed.
 
     Raises
     ------
     ValueError
         If an option is out of its range.
 
+    See Also
+    --------
+    snapload.ensemble : how neighbours end at one amplitude.
+
     Notes
     -----
-    The critical force is that of section 6.4.2 of the thesis.
+    The critical force is that of section 6.4.2 of the thesis. Amplitudes above it may settle again, so one number does
+    not tell where the limits are kept.
 
     Examples
     --------
     >>> import snapload
     >>> snapload.critical_force(snapload.Case()).f_cr
     0.31
+    >>> snapload.critical_force(snapload.Case(), over={"e": [0.8, 0.9]}, largest=0.5).f_cr.values.tolist()
+    [0.4, 0.31]
     """
+    engine, step, largest = engine_of(case), number("step", step), number("largest", largest)
+    if over is not None:
+        if members or uncertainty is not None:
+            raise ValueError("over goes without neighbours; leave out members and uncertainty, or over")
+        return _over(engine, over, step, largest, progress)
     members, seed = whole("members", members, 0, 10**9), whole("seed", seed, 0, 2**64 - 1)
     if uncertainty is not None and members == 0:
         raise ValueError("uncertainty asks for neighbours, but none are to be run; give members, such as members=200")
-    found = json.loads(_engine.critical_force(case._engine, step, max))
+    found = json.loads(_engine.critical_force(engine, step, largest))
     exceeding = np.array(found.pop("exceeding"), dtype=np.float64).reshape(-1, 2)
     curve, passes = None, {}
     if members > 0:
-        with bar("force amplitudes", round(max / step), progress, 0) as tell:
-            answer = _engine.probability(case._engine, step, max, plain(uncertainty), tolerance, members, seed, tell)
+        with bar("force amplitudes", round(largest / step), progress, 0) as tell:
+            size, tolerance = plain(uncertainty), number("tolerance", tolerance)
+            answer = _engine.probability(engine, step, largest, size, tolerance, members, seed, tell)
         answered = json.loads(answer)
         passes = answered["passes"]
         kinds = [("f_o", "f8"), ("certain", "?"), ("count", "i8"), ("part", "f8"), ("low", "f8"), ("high", "f8")]
         points = [tuple(point[name] for name, _ in kinds) for point in answered["probability"]]
         curve = np.array(points, dtype=kinds).view(np.recarray)
-    return CriticalForce(**found, exceeding=exceeding, probability=curve, passes=passes, _step=step, _max=max)
+    return CriticalForce(**found, exceeding=exceeding, probability=curve, passes=passes, _step=step, _largest=largest)
+
+
+def _over(
+    engine: _engine.Case, over: Mapping[str, ArrayLike], step: float, largest: float, progress: bool
+) -> xarray.Dataset:
+    """The answer for every combination of some keys."""
+    from ._dataset import ABOUT, attributes, labels
+
+    if "f_o" in over:
+        raise ValueError("over = f_o is not allowed: it is what is sought; allowed: other keys")
+    axes = [(key, listed(key, values)) for key, values in over.items()]
+    study = _engine.Study.grid(engine, axes, False)
+    with bar("critical force", len(study), progress) as tell:
+        answer, amplitudes = _engine.critical_force_over(study, step, largest, tell)
+    rows, forces = json.loads(answer), np.array(amplitudes)
+    coords = labels(axes)
+    dims, shape = tuple(coords), tuple(len(values) for _, values, _ in coords.values())
+    exceeds = np.zeros((len(rows), len(forces)), dtype=bool)
+    for row, marks in zip(rows, exceeds, strict=True):
+        for first, last in row.get("exceeding", ()):
+            marks |= (first <= forces) & (forces <= last)
+
+    def column(name: str, missing: Any) -> NDArray[Any]:
+        values = [missing if row.get(name) is None else row[name] for row in rows]
+        return np.array(values, dtype=object if missing == "" else np.float64).reshape(shape)
+
+    about = attributes()
+    smallest = {**about["f_o"], "long_name": "critical force, in F", "comment": "the smallest amplitude that exceeds"}
+    variables: dict[str, Any] = {
+        "f_cr": (dims, column("f_cr", np.nan), smallest),
+        "reason": (dims, column("reason", ""), {"long_name": "which limit is reached there"}),
+        "t": (dims, column("t", np.nan), {**about["t"], "long_name": "when it is reached, in T"}),
+        "exceeds": (
+            (*dims, "f_o"),
+            exceeds.reshape(*shape, len(forces)),
+            {"long_name": "whether the amplitude exceeds"},
+        ),
+    }
+    if any("error" in row for row in rows):
+        variables["error"] = (dims, column("error", ""), about["error"])
+    title = {"title": "Critical force of a body on cables that go slack and snap taut", **ABOUT}
+    return xarray.Dataset(variables, {**coords, "f_o": ("f_o", forces, about["f_o"])}, title)

@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, cast
 
 from . import _engine
+from ._plan import Plan
 
 if TYPE_CHECKING:
     from distributed import Client
-
-    from ._case import Case
 
 #: So many chunks there are for each thread, so that none waits long for the last one.
 _CHUNKS_A_THREAD = 16
@@ -22,16 +21,14 @@ _QUEUED = 2
 _DEATHS = 10
 
 
-def chunk(case: Case, axes: list[tuple[str, Any]], trust: bool, start: int, stop: int) -> bytes:
+def chunk(plan: Plan, start: int, stop: int) -> bytes:
     """Some rows of a study as a Parquet file; what a worker computes, on the one thread it gives to a task."""
-    return _engine.Study(case._engine, axes, trust).chunk(start, stop, 1)
+    return plan.study.chunk(start, stop, 1)
 
 
 def sweep_on(
     client: Client,
-    case: Case,
-    axes: list[tuple[str, Any]],
-    trust: bool,
+    plan: Plan,
     store: _engine.Store,
     tell: Callable[[int], object] | None,
 ) -> None:
@@ -51,7 +48,7 @@ def sweep_on(
     def submit() -> None:
         place = next(ranges, None)
         if place is not None:
-            future = dask.submit(chunk, case, axes, trust, *place, pure=False, retries=_DEATHS)
+            future = dask.submit(chunk, plan, *place, pure=False, retries=_DEATHS)
             places[future] = place
             waiting.add(future)
 

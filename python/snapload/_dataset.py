@@ -2,56 +2,96 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray
 from numpy.typing import NDArray
+from xarray.backends import BackendArray
+from xarray.core import indexing
 
 from . import _engine
-from ._table import Table
+from ._axes import values_of
 
-if TYPE_CHECKING:
-    import xarray
-
-#: What the letters of the units stand for.
-UNITS = (
-    "nondimensional: L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)"
-)
+#: What every dataset says of itself.
+ABOUT = {
+    "Conventions": "CF-1.12",
+    "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
+}
 
 
 @cache
 def attributes() -> dict[str, dict[str, str]]:
-    """Long name, units and symbol of every key and result, in the words of CF, from the one schema."""
+    """Long name and units of every key and result after CF, from the one schema."""
     described = {}
     for entry in (*_engine.keys(), *_engine.columns()):
-        name, meaning = entry["title"], entry["meaning"]
-        words = {"long_name": name, "units": entry["unit"], "comment": "" if name == meaning else meaning}
+        name, meaning, unit = entry["title"], entry["meaning"], dict(entry["cf"])
+        # Pictures are labelled by long name and unit, which alone does not tell the scale.
+        told = f"{name}, in {unit['scale']}" if unit["scale"] else name
+        words = {"long_name": told, **unit, "comment": "" if name == meaning else meaning}
         described[entry["name"]] = {key: word for key, word in words.items() if word}
     described["error"] = {"long_name": "why there was no run"}
     return described
 
 
-def dataset(table: Table, description: str, version: str) -> xarray.Dataset:
-    """The rows of a whole study: over the axes of a grid, or over ``row`` where it is no grid."""
+def labels(axes: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The coordinates of a grid."""
+    return {key: (key, values_of(values), attributes()[key]) for key, values in axes}
+
+
+def dataset(
+    path: str, description: str, version: str, cases: int, first: int, count: int, chunks: Any
+) -> xarray.Dataset:
+    """The rows of a file: over the axes of a grid, or over ``row`` where it is no grid or not all of it."""
     study = tomllib.loads(description)
     keys = [entry["name"] for entry in _engine.keys()]
     results = [entry["name"] for entry in _engine.columns()]
-    if "random" in study or "list" in study:
-        shape, coords = {"row": len(table)}, {"row": ("row", table["row"])}
-        shown = [*keys, *results]
+    attrs: dict[str, Any] = {"study": description, "source": f"snapload {version}"}
+    axes = study.get("vary", {})
+    if count < cases:
+        attrs["first_row"] = first
+    if count < cases or "random" in study or "list" in study:
+        axes, shown = {"row": count}, [*keys, *results]
+        coords: dict[str, Any] = {"row": ("row", np.arange(first, first + count))}
+        sizes: tuple[int, ...] = (count,)
     else:
-        shape = {key: _count(values) for key, values in study.get("vary", {}).items()}
-        coords, shown = _axes(table, shape), results
-    return _labelled(table, shape, coords, shown, {"study": description, "source": f"snapload {version}"})
+        coords, shown = _along(path, axes), results
+        sizes = tuple(len(values) for _, values, _ in coords.values())
+    if not study.get("trust", True):
+        # Without trust there is nothing to say of it.
+        shown = [name for name in shown if name not in ("horizon_t", "horizon_impact", "certain")]
+    ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
+    columns = {name: _Column(path, name, sizes) for name in shown}
+    variables = {name: (tuple(axes), column, attributes()[name]) for name, column in columns.items()}
+    variables["end_code"] = (tuple(axes), _Column(path, "end", sizes, ends), _flags(ends))
+    _, places, words = _engine.read_column(path, "error", 0, count)
+    del places
+    if len(words) > 1:
+        variables["error"] = (tuple(axes), _Column(path, "error", sizes), attributes()["error"])
+    lazy = {
+        name: xarray.Variable(dims, indexing.LazilyIndexedArray(column), about)
+        for name, (dims, column, about) in variables.items()
+    }
+    title = {"title": "A study of a body on cables that go slack and snap taut", **ABOUT}
+    opened = xarray.Dataset(lazy, coords, {**title, **attrs})
+    return opened.load() if chunks is None else opened.chunk(chunks)
 
 
-def part(table: Table, description: str, version: str, start: int) -> xarray.Dataset:
-    """The rows of a part of a study."""
-    names = [entry["name"] for entry in (*_engine.keys(), *_engine.columns())]
-    attrs = {"study": description, "source": f"snapload {version}", "first_row": start}
-    return _labelled(table, {"row": len(table)}, {"row": ("row", table["row"])}, names, attrs)
+def _along(path: str, axes: dict[str, Any]) -> dict[str, Any]:
+    """The values along each axis, as they stand in the rows: the first axis is the slowest."""
+    counts = [_count(values) for values in axes.values()]
+    coords = {}
+    for place, key in enumerate(axes):
+        step = math.prod(counts[place + 1 :])
+        if step == 1:
+            values = _rows(path, key, 0, counts[place])
+        else:
+            values = np.concatenate([_rows(path, key, k * step, k * step + 1) for k in range(counts[place])])
+        coords[key] = (key, values, attributes()[key])
+    return coords
 
 
 def _count(values: Any) -> int:
@@ -61,53 +101,50 @@ def _count(values: Any) -> int:
     return len(values) if isinstance(values, list) else 1
 
 
-def _axes(table: Table, shape: dict[str, int]) -> dict[str, Any]:
-    """The values along each axis, as they stand in the rows: the first axis is the slowest."""
-    coords = {}
-    for place, key in enumerate(shape):
-        along = [0] * len(shape)
-        index: list[Any] = list(along)
-        index[place] = slice(None)
-        coords[key] = (key, table[key].reshape(tuple(shape.values()))[tuple(index)], attributes()[key])
-    return coords
+def _rows(path: str, name: str, start: int, stop: int, codes: list[str] | None = None) -> NDArray[Any]:
+    """Some rows of one column. Words that are missing are empty ones, which files can hold."""
+    kind, data, words = _engine.read_column(path, name, start, stop)
+    if kind != "words":
+        return np.frombuffer(data, dtype=kind)
+    places = np.frombuffer(data, dtype=np.int32)
+    if codes is None:
+        return np.array(words, dtype=object)[places]
+    return np.array([codes.index(word) if word in codes else -1 for word in words], dtype=np.int8)[places]
 
 
-def _labelled(
-    table: Table, shape: dict[str, int], coords: dict[str, Any], names: list[str], attrs: dict[str, Any]
-) -> xarray.Dataset:
-    import xarray
+class _Column(BackendArray):
+    """A column of a file in the shape of its grid, read when it is asked for.
 
-    dims, sizes = tuple(shape), tuple(shape.values())
-    variables = {}
-    for name in names:
-        values = _plain(table[name])
-        # Without trust there is nothing to say of it.
-        if values.dtype != object and values.size and name in ("horizon_t", "horizon_impact", "certain"):
-            if np.isnan(table["certain"].astype(float)).all():
-                continue
-        variables[name] = (dims, values.reshape(sizes), attributes()[name])
-    variables["end_code"] = (dims, *_end_codes(table["end"], sizes))
-    if any(word is not None for word in table["error"]):
-        variables["error"] = (dims, _plain(table["error"]).reshape(sizes), attributes()["error"])
-    about = {"title": "A study of a body on cables that go slack and snap taut", "units_comment": UNITS}
-    return xarray.Dataset(variables, coords, {**about, **attrs})
+    What is asked for along the first dimension tells which rows are read.
+    """
+
+    def __init__(self, path: str, name: str, shape: tuple[int, ...], codes: list[str] | None = None) -> None:
+        self._of = (path, name)
+        self._codes = codes
+        self.shape = shape
+        self.dtype = _rows(*self._of, 0, 1, codes).dtype
+
+    def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
+        return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.BASIC, self._read)
+
+    def _read(self, key: tuple[Any, ...]) -> NDArray[Any]:
+        if not self.shape:
+            return _rows(*self._of, 0, 1, self._codes).reshape(())
+        inner = math.prod(self.shape[1:])
+        asked = range(self.shape[0])[key[0]]
+        some = range(asked, asked + 1) if isinstance(asked, int) else asked
+        if not some:
+            return np.empty((0, *self.shape[1:]), self.dtype)[(slice(None), *key[1:])]
+        low, high = min(some), max(some) + 1
+        rows = _rows(*self._of, low * inner, high * inner, self._codes).reshape(high - low, *self.shape[1:])
+        first = asked - low if isinstance(asked, int) else slice(None, None, some.step)
+        return rows[(first, *key[1:])]
 
 
-def _plain(values: NDArray[Any]) -> NDArray[Any]:
-    """Words that are missing are empty ones, which files can hold."""
-    if values.dtype != object:
-        return values
-    return np.array(["" if word is None else word for word in values], dtype=object)
-
-
-def _end_codes(ends: NDArray[Any], sizes: tuple[int, ...]) -> tuple[NDArray[np.int8], dict[str, Any]]:
-    """The ends as numbers with flags after CF, for maps; -1 where there was no run."""
-    words: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
-    codes = {word: code for code, word in enumerate(words)}
-    values = np.array([codes.get(end, -1) for end in ends], dtype=np.int8)
-    flags = {
+def _flags(words: list[str]) -> dict[str, Any]:
+    """What the numbers of the ends mean after CF, for maps; -1 where there was no run."""
+    return {
         "long_name": "why the run ended, as a number",
         "flag_values": np.arange(-1, len(words), dtype=np.int8),
         "flag_meanings": " ".join(["no_run", *words]),
     }
-    return values.reshape(sizes), flags

@@ -14,7 +14,7 @@ class Keys(TypedDict, total=False):
     e: float
     a: float
     b: float
-    inertia: float
+    inertia: float | None
     f_o: float
     nu: float
     omega: float
@@ -61,6 +61,7 @@ class KeyValues:
     """The keys of a case as properties."""
 
     def keys(self) -> dict[str, Any]:
+        """Every key in effect with its value."""
         raise NotImplementedError
 
     @property
@@ -223,9 +224,9 @@ PARAMETERS = """
         A slower snap makes the cable stay taut if its tension would be positive [L/T]; allowed: ``1e-9 <=
         v_stick <= 0.01``; default 1e-6.
     stop_when_settled : bool, optional
-        Stop where a cable sticks, or both are taut, below y = 0.05; allowed: ``true or false``; default true.
+        Stop where a cable sticks, or both are taut, below y = 0.05; allowed: ``True or False``; default True.
     stop_when_sliding : bool, optional
-        Stop where a cable sticks at y = 0.05 or above; allowed: ``true or false``; default false.
+        Stop where a cable sticks at y = 0.05 or above; allowed: ``True or False``; default False.
     max_impacts : int, optional
         The run ends at more impacts than this; allowed: ``a whole number, 1 <= max_impacts <= 1e7``; default
         1000000.

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from . import _engine
-from ._check import Uncertainty, plain, whole
+from ._check import Uncertainty, engine_of, plain, whole
+from ._later import Later
 from ._progress import bar
 
 if TYPE_CHECKING:
-    from ._case import Case
+    from . import _case
+else:
+    _case = Later("snapload._case")
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,10 @@ class Ensemble:
         Which.
     ends : dict of str to Share
         By reason, the most frequent first.
+
+    See Also
+    --------
+    snapload.ensemble
     """
 
     members: int
@@ -63,7 +70,7 @@ class Ensemble:
 
 
 def ensemble(
-    case: Case,
+    case: _case.Case,
     members: int = 1000,
     *,
     uncertainty: Uncertainty = None,
@@ -79,8 +86,8 @@ def ensemble(
     members : int
         How many.
     uncertainty : float or dict of str to float, optional
-        How far the start may be off, either way: one size for every start value, or a size for each key; 1e-12 in
-        every start value if left out.
+        How far the start may be off, either way: one size for every start value, or a size for each key. If left
+        out, nothing but rounding; neighbours are then drawn from 1e-12 about every start value.
     seed : int
         Which neighbours; the first hundred of a thousand are the same as a hundred.
     progress : bool
@@ -96,6 +103,11 @@ def ensemble(
     ValueError
         If an option is out of its range, or a key can not be in doubt.
 
+    See Also
+    --------
+    snapload.Case.run : runs neighbours only where one run can not tell.
+    snapload.critical_force : the same at many force amplitudes.
+
     Examples
     --------
     >>> import snapload
@@ -104,6 +116,6 @@ def ensemble(
     """
     members, seed = whole("members", members, 1, 10**9), whole("seed", seed, 0, 2**64 - 1)
     with bar("neighbours", members, progress) as tell:
-        rows = json.loads(_engine.ensemble(case._engine, plain(uncertainty), members, seed, tell))
+        rows = json.loads(_engine.ensemble(engine_of(case), plain(uncertainty), members, seed, tell))
     ends = {row.pop("reason"): Share(**row) for row in rows}
     return Ensemble(members, seed, ends)

@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import tempfile
 import warnings
+from collections.abc import Iterable, Mapping
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _engine
-from ._check import whole
+from ._case import Case
+from ._check import there, whole
+from ._keys import Axes
+from ._later import Later
+from ._plan import plan
 from ._progress import bar
 from ._signature import with_keys
-from ._table import Table
 
 if TYPE_CHECKING:
+    import distributed
     import xarray
-    from distributed import Client
-    from typing_extensions import Unpack
-
-    from ._case import Case
-    from ._keys import Axes
+else:
+    distributed, xarray = Later("distributed"), Later("xarray")
 
 
 def sweep(
@@ -32,8 +31,12 @@ def sweep(
     out: str | PathLike[str] | None = None,
     resume: bool = False,
     trust: bool = True,
+    random: int | None = None,
+    seed: int | None = None,
+    cases: Mapping[str, Any] | str | PathLike[str] | Any | None = None,
+    chunks: Any = None,
     threads: int | None = None,
-    client: Client | None = None,
+    client: distributed.Client | None = None,
     progress: bool = True,
     **axes: Unpack[Axes],
 ) -> xarray.Dataset:
@@ -50,7 +53,18 @@ def sweep(
         Whether to go on with what an earlier call, killed or interrupted, has left of `out`; right for a first
         call, too.
     trust : bool
-        Whether to say how far each run can be trusted, which takes about as long again.
+        Whether to say how far each run can be trusted. The manual tells what it costs, under "How far to trust a
+        result".
+    random : int, optional
+        Run so many random points instead of a grid: Sobol points in the box whose sides are the values of the keys,
+        such as ``e=(0.5, 0.9)``.
+    seed : int, optional
+        Which random points; 0 if left out.
+    cases : DataFrame, dict of str to array_like, or path-like, optional
+        Run these cases instead of a grid: a column a key and a row a case, of pandas, Polars or PyArrow, or as a CSV or
+        Parquet file. A cell that is missing leaves the key to `case`.
+    chunks : dict, int or "auto", optional
+        With `out`, open the file lazily, in such chunks of Dask, as :func:`snapload.open_study` does.
     threads : int, optional
         Threads to use; as many as the machine has if left out, and at the most four times as many.
     client : distributed.Client, optional
@@ -65,8 +79,10 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        The results over the keys that vary, with long names and units. ``end`` holds words, ``end_code`` the same
-        as numbers for maps; what is no legal case has NaN, and words in ``error``.
+        The results over the keys that vary, or over ``row`` for random points and tables of cases. ``end`` holds
+        words, ``end_code`` the same as numbers for maps. What is no legal case has NaN, is not ``certain``, and has
+        words in ``error``. Quantities are in the model's own units: ``units`` is 1 after CF, and ``scale`` says by
+        what to multiply.
 
     Raises
     ------
@@ -75,6 +91,12 @@ def sweep(
         can be made there.
     OSError
         If rows can not be written once the study runs, as on a full disk.
+
+    See Also
+    --------
+    snapload.open_study : opens such a file.
+    snapload.merge : joins the parts that several machines swept.
+    snapload.evenly : values for an axis.
 
     Notes
     -----
@@ -88,13 +110,22 @@ def sweep(
     (('f_o', 'e'), (2, 3))
     >>> str(map.end.sel(f_o=0.31, e=0.9).item())
     'rotation_limit'
+    >>> box = snapload.sweep(snapload.Case(), random=8, f_o=(0.1, 0.6), e=(0.5, 0.9))
+    >>> dict(box.sizes), bool((box.f_o < 0.6).all())
+    ({'row': 8}, True)
+    >>> snapload.sweep(snapload.Case(), cases={"f_o": [0.3, 0.31], "e": [0.9, 0.5]}).end.values.tolist()
+    ['settled', 'settled']
     """
-    spec = [(key, values if isinstance(values, str) else np.ravel(np.asarray(values))) for key, values in axes.items()]
+    if client is not None and threads is not None:
+        raise ValueError("threads are those of this machine, and client computes on others; leave out one of them")
+    if chunks is not None and out is None:
+        raise ValueError("chunks opens the file lazily, and there is none; give out, such as out='study.parquet'")
     if threads is not None:
         threads, fewer = _engine.threads_for(asked := whole("threads", threads, 1, 65535))
         if fewer:
             warnings.warn(f"threads={asked}: {fewer}", stacklevel=2)
-    study = _engine.Study(case._engine, spec, trust)
+    asked_for = plan(case, trust, axes, random, seed, cases)
+    study = asked_for.study
     with tempfile.TemporaryDirectory(prefix="snapload-", ignore_cleanup_errors=True) as scratch:
         path = Path(scratch) / "study.parquet" if out is None else Path(fspath(out))
         store = _engine.Store.open(study, path, resume)
@@ -106,23 +137,26 @@ def sweep(
                     else:
                         from ._dask import sweep_on
 
-                        sweep_on(client, case, spec, trust, store, tell)
+                        sweep_on(client, asked_for, store, tell)
             finally:
                 # Whoever looks at a traceback does not hold the file.
                 store.close()
-        return open_study(path)
+        return open_study(path, chunks=chunks)
 
 
 with_keys(sweep, defaults=False)
 
 
-def open_study(path: str | PathLike[str]) -> xarray.Dataset:
+def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Dataset:
     """A Parquet file of ``snapload sweep``, of the command line or of :func:`snapload.sweep`, as a dataset.
 
     Parameters
     ----------
     path : path-like
         The file.
+    chunks : dict, int or "auto", optional
+        Open it lazily, in such chunks of Dask along the dimensions: rows are read when they are asked for. All is read
+        at once if left out.
 
     Returns
     -------
@@ -136,45 +170,62 @@ def open_study(path: str | PathLike[str]) -> xarray.Dataset:
         If it is not a file of a study.
     OSError
         If it can not be read.
-    """
-    from ._dataset import dataset, part
 
-    engine_table, identity = _engine.read(fspath(path))
-    if identity is None:
-        raise ValueError(f"{fspath(path)}: not a file of snapload sweep")
-    description, version, cases, start = identity
-    table = Table(engine_table)
-    if len(table) < cases:
-        return part(table, description, version, start)
-    return dataset(table, description, version)
-
-
-def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.float64]:
-    """Evenly spaced values, each the double nearest to the decimal that one would write.
-
-    Parameters
-    ----------
-    first, last : float or str
-        The first and the last value.
-    count : int
-        How many, both among them.
-
-    Returns
-    -------
-    numpy.ndarray, shape (count,)
-        The values; ``numpy.linspace`` gives 0.30000000000000004 where this gives 0.3, and long runs of the two
-        differ.
-
-    Raises
-    ------
-    ValueError
-        If they are no range.
+    See Also
+    --------
+    snapload.sweep, snapload.merge
 
     Examples
     --------
     >>> import snapload
-    >>> snapload.evenly(0.1, 0.5, 5)[2]
-    np.float64(0.3)
+    >>> from pathlib import Path
+    >>> from tempfile import mkdtemp
+    >>> path = Path(mkdtemp()) / "e.parquet"
+    >>> study = snapload.sweep(snapload.Case(), out=path, e=[0.5, 0.9])
+    >>> snapload.open_study(path).identical(study)
+    True
     """
-    words = [str(bound) if isinstance(bound, str) else repr(float(bound)) for bound in (first, last)]
-    return np.array(_engine.evenly(words[0], words[1], whole("count", count, 1, 10**9)))
+    from ._dataset import dataset
+
+    identity = _engine.identity(there(fspath(path)))
+    if identity is None:
+        raise ValueError(f"{fspath(path)}: not a file of snapload sweep")
+    return dataset(fspath(path), *identity, chunks)
+
+
+def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xarray.Dataset:
+    """Joins the parts of a study that several machines swept, as ``snapload merge`` does.
+
+    Parameters
+    ----------
+    parts : iterable of path-like
+        The files that ``snapload sweep --shard`` wrote, all of them, in any order.
+    out : path-like
+        The file to write, the same to the byte as that of one sweep.
+
+    Returns
+    -------
+    xarray.Dataset
+        The whole study, as :func:`snapload.open_study` gives it.
+
+    Raises
+    ------
+    ValueError
+        If they are no parts of one study, if one is missing, or if something stands where `out` is to be.
+    OSError
+        If a part can not be read, or the file can not be written.
+
+    See Also
+    --------
+    snapload.sweep, snapload.open_study
+    """
+    if isinstance(parts, (str, PathLike)):
+        raise TypeError(f"parts = {fspath(parts)!r} is not allowed; allowed: a list of files")
+    files = [there(fspath(part)) for part in parts]
+    target = Path(fspath(out))
+    if target.exists():
+        raise ValueError(f"{target} is there already; choose another out, or remove it")
+    with tempfile.TemporaryDirectory(prefix=".snapload-", dir=target.parent, ignore_cleanup_errors=True) as scratch:
+        _engine.merge(files, joined := Path(scratch) / target.name)
+        joined.replace(target)
+    return open_study(target)

@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
+from ._later import Later
 
 if TYPE_CHECKING:
     import pandas
+else:
+    pandas = Later("pandas")
 
 #: So many rows are shown.
 _SHOWN = 10
 
 
 class Table:
-    """Columns of equal length.
+    """Rows, and columns of equal length.
+
+    ``table["t"]`` is a column, ``table[0]`` a row. The length is that of the columns, iteration gives the rows, and
+    ``dict(table)`` has the columns by name.
 
     A table speaks the Arrow C data interface, so ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and
     ``pandas.DataFrame.from_arrow(table)`` take it without a copy, with units and long names as metadata of the
-    fields.
+    fields. ``pandas.DataFrame(table)`` and ``numpy.asarray(table)`` copy it.
+
+    See Also
+    --------
+    snapload.Run.impacts, snapload.Run.modes, snapload.Run.exponents, snapload.sensitivities
 
     Examples
     --------
@@ -33,34 +43,88 @@ class Table:
     ('t', 'cable', 'v_n')
     >>> impacts["cable"][:3]
     array([2, 1, 2])
+    >>> impacts[0]["cable"], len(impacts), len(list(impacts))
+    (2, 12, 12)
     """
 
     def __init__(self, table: _engine.Table) -> None:
         self._table = table
-        self._types = dict(table.columns())
+        self._names = tuple(name for name, _ in table.columns())
+        self._array: NDArray[Any] | None = None
+
+    @classmethod
+    def _of(cls, columns: Iterable[tuple[str, str, str, NDArray[Any]]]) -> Table:
+        """A table of columns: name, scale (empty, if it is no quantity), meaning, values."""
+        kinds = {"f": ("float64", np.float64), "i": ("int64", np.int64)}
+        parts = []
+        for name, scale, meaning, values in columns:
+            kind, dtype = kinds.get(values.dtype.kind, ("words", None))
+            words = {"long_name": meaning, "units": "1" if scale else "", "scale": "" if scale == "1" else scale}
+            plain = values.tolist() if dtype is None else bytearray(values.astype(dtype).tobytes())
+            parts.append((name, kind, {key: word for key, word in words.items() if word}, plain))
+        return cls(_engine.Table.of(parts))
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Names of the columns."""
-        return tuple(self._types)
+        """Names of the columns.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case().run().modes.columns
+        ('mode', 'taut', 't_start', 't_end')
+        """
+        return self._names
+
+    def keys(self) -> tuple[str, ...]:
+        """Names of the columns, as :attr:`columns`; ``dict(table)`` asks for them.
+
+        Returns
+        -------
+        tuple of str
+            The names, in their order.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> dict(snapload.Case().run().modes)["mode"][0]
+        'slack'
+        """
+        return self._names
 
     def __len__(self) -> int:
         return len(self._table)
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._types)
+    def __contains__(self, name: object) -> bool:
+        return name in self._names
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """One column as an array of NumPy, shape ``(len(table),)``; numbers that are missing are NaN.
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        columns = [self[name].tolist() for name in self._names]
+        for row in zip(*columns, strict=True):
+            yield dict(zip(self._names, row, strict=True))
+
+    @overload
+    def __getitem__(self, place: str) -> NDArray[Any]: ...
+    @overload
+    def __getitem__(self, place: int) -> dict[str, Any]: ...
+    def __getitem__(self, place: str | int) -> NDArray[Any] | dict[str, Any]:
+        """One column as an array of NumPy, shape ``(len(table),)``, or one row as a dict.
 
         Raises
         ------
         KeyError
             If there is no such column.
+        IndexError
+            If there is no such row.
         """
-        if name not in self._types:
-            raise KeyError(f"there is no column {name!r}; the columns are {', '.join(self._types)}")
-        kind, values = self._table.column(name)
+        if not isinstance(place, str):
+            row = range(len(self))[place]
+            if not isinstance(row, int):
+                raise TypeError(f"{place!r} is not allowed; allowed: the name of a column or the number of a row")
+            return {name: self[name][row : row + 1].tolist()[0] for name in self._names}
+        if place not in self._names:
+            raise KeyError(f"there is no column {place!r}; the columns are {', '.join(self._names)}")
+        kind, values = self._table.column(place)
         if kind != "object":
             return np.frombuffer(values, dtype=kind)
         array = np.empty(len(values), dtype=object)
@@ -69,10 +133,32 @@ class Table:
         return array
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a DataFrame of pandas (a copy; needs no PyArrow)."""
+        """The table as a DataFrame of pandas (a copy; needs no PyArrow).
+
+        Returns
+        -------
+        pandas.DataFrame
+            With the columns of the table.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case(f_o=0.31).run().impacts.to_pandas().shape
+        (12, 18)
+        """
         import pandas
 
-        return pandas.DataFrame({name: self[name] for name in self})
+        return pandas.DataFrame({name: self[name] for name in self._names})
+
+    @property
+    def __array_interface__(self) -> dict[str, Any]:
+        """For ``numpy.asarray``: the rows as a structured array, a copy that is made once."""
+        if self._array is None:
+            columns = dict(self)
+            self._array = np.empty(len(self), dtype=[(name, column.dtype) for name, column in columns.items()])
+            for name, column in columns.items():
+                self._array[name] = column
+        return self._array.__array_interface__
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return self._table.__arrow_c_stream__(requested_schema)
@@ -80,20 +166,28 @@ class Table:
     def __arrow_c_schema__(self) -> object:
         return self._table.__arrow_c_schema__()
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Table) and self._table.parts() == other._table.parts()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (self._table.parts(),)
+
     def _rows(self) -> Iterator[list[str]]:
         """The rows that are shown: all of them, or the first and last ones with dots between."""
         count = len(self)
         whole = count <= _SHOWN
         head = count if whole else _SHOWN // 2
         shown = [*range(head), *range(head if whole else count - _SHOWN // 2, count)]
-        columns = [self[name] for name in self]
+        columns = [self[name] for name in self._names]
         for place, k in enumerate(shown):
             if not whole and place == head:
                 yield ["..."] * len(columns)
             yield [_word(column[k]) for column in columns]
 
     def __repr__(self) -> str:
-        rows = [list(self._types), *self._rows()]
+        rows = [list(self._names), *self._rows()]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ["  ".join(word.rjust(width) for word, width in zip(row, widths, strict=True)) for row in rows]
         return "\n".join([*lines, f"[{len(self)} rows]"])
@@ -103,11 +197,15 @@ class Table:
             return "<tr>" + "".join(f"<{tag}>{escape(word)}</{tag}>" for word in words) + "</tr>"
 
         body = "".join(row(words, "td") for words in self._rows())
-        head = row(list(self._types), "th")
+        head = row(list(self._names), "th")
         return (
             "<div style='overflow-x:auto'><table style='white-space:nowrap'>"
             f"<thead>{head}</thead><tbody>{body}</tbody></table></div><p>{len(self)} rows</p>"
         )
+
+
+def _restore(parts: list[tuple[str, str, dict[str, str], Any]]) -> Table:
+    return Table(_engine.Table.of(parts))
 
 
 def _word(value: object) -> str:

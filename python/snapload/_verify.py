@@ -11,16 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _engine
-from ._check import whole
+from ._case import Case
+from ._check import engine_of, number, whole
+from ._later import Later
+from ._result import Result
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    import matplotlib.axes
+else:
+    matplotlib = Later("matplotlib")
 
-    from ._case import Case
 
-
-@dataclass(frozen=True, repr=False)
-class Verification:
+@dataclass(frozen=True, repr=False, eq=False)
+class Verification(Result):
     """An ordinary run beside the same run with many digits.
 
     Attributes
@@ -48,6 +51,10 @@ class Verification:
         `decimal.Decimal` reads, with the digits that are left there; and ``cable``.
     tolerance : float
         The difference that counts as wrong.
+
+    See Also
+    --------
+    snapload.verify
     """
 
     digits: int
@@ -63,18 +70,35 @@ class Verification:
     tolerance: float
     _told: str
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws the difference at each impact into axes of Matplotlib, and returns them."""
+    def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
+        """Draws the difference at each impact.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; new ones if left out.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, to compose further.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.verify(snapload.Case(f_o=0.31)).plot().get_ylabel()
+        'difference'
+        """
         from matplotlib import pyplot
 
-        from ._plot import BLUE, GREY, VERMILION
+        from ._plot import BLUE, REFERENCE, VERMILION
 
         if ax is None:
             _, ax = pyplot.subplots(figsize=(3.5, 2.6), layout="constrained")
         impacts = np.arange(1, self.compared + 1)
         shown = np.maximum(self.differences, 1e-18)
         ax.semilogy(impacts, shown, color=BLUE, linewidth=1.0)
-        ax.axhline(self.tolerance, color=GREY, linewidth=0.8, linestyle=":")
+        ax.axhline(self.tolerance, **REFERENCE)
         for impact, name, style in ((self.predicted, "predicted", "--"), (self.first_wrong, "first_wrong", "-")):
             if impact is not None:
                 ax.axvline(impact, color=VERMILION, linewidth=1.0, linestyle=style, label=name)
@@ -119,6 +143,10 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     ValueError
         If an option is out of its range.
 
+    See Also
+    --------
+    snapload.Case.run : says where trust in a run ends.
+
     Examples
     --------
     >>> import snapload
@@ -127,7 +155,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     (True, 12)
     """
     digits = whole("digits", digits, 1, _engine.MOST_DIGITS)
-    answer, told = _engine.verify(case._engine, digits, tolerance, None)
+    answer, told = _engine.verify(engine_of(case), digits, number("tolerance", tolerance), None)
     found = json.loads(answer)
     return Verification(
         **{key: found[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},

@@ -1,22 +1,79 @@
 //! The critical force, and the probability of exceeding the limits.
 
 use crate::case::Case;
-use crate::errors::{of_case, of_work};
+use crate::errors::{of_study, of_work};
 use crate::interrupt::interruptible;
 use crate::run::{read_uncertainty, to_json};
+use crate::study::Study;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan};
+use serde::Serialize;
+use snapload::CaseError;
+use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Progress, Unfinished};
 use snapload_report::{CriticalRow, Probability};
 
 /// The critical force of a case, as JSON.
 #[pyfunction]
 pub(crate) fn critical_force(py: Python<'_>, case: &Case, step: f64, max: f64) -> PyResult<String> {
-    let scan = ForceScan::new(step, max).map_err(of_case)?;
+    let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let parameters = *case.parameters();
     let found = interruptible(py, None, move |watch| {
         CriticalForce::scan(&parameters, scan, &|progress| watch.go_on(progress))
     })?;
     to_json(&CriticalRow::new(found.map_err(of_work)?))
+}
+
+/// The critical force at every case of a grid, as JSON: a row a case, the last axis the quickest,
+/// and what is no case as a row with words. With it the amplitudes.
+#[pyfunction]
+pub(crate) fn critical_force_over(
+    py: Python<'_>,
+    study: &Study,
+    step: f64,
+    max: f64,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, Vec<f64>)> {
+    let scan = ForceScan::new(step, max).map_err(of_scan)?;
+    let drawn = study.study.draw(0..study.study.count()).map_err(of_study)?;
+    let rows = interruptible(py, progress, move |watch| {
+        let all = drawn.len() as f64;
+        let rows = drawn.into_iter().enumerate().map(|(k, drawn)| {
+            let progress = Progress::new("critical force", k as f64, all);
+            let parameters = drawn.parameters.and_then(|parameters| {
+                snapload::Case::new(parameters)?;
+                Ok(parameters)
+            });
+            match parameters {
+                Ok(parameters) => {
+                    let found = CriticalForce::scan(&parameters, scan, &|_| watch.go_on(progress))?;
+                    Ok(Row::Found(CriticalRow::new(found)))
+                }
+                Err(error) => Ok(Row::NoCase {
+                    error: error.to_string(),
+                }),
+            }
+        });
+        rows.collect::<Result<Vec<_>, Unfinished>>()
+    })?;
+    let rows = to_json(&rows.map_err(of_work)?)?;
+    Ok((rows, scan.amplitudes().collect()))
+}
+
+/// What is found at one case of several.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Row {
+    Found(CriticalRow),
+    NoCase { error: String },
+}
+
+/// The engine's `max` is Python's `largest`.
+fn of_scan(error: CaseError) -> PyErr {
+    let words = error.to_string();
+    PyValueError::new_err(match words.strip_prefix("max ") {
+        Some(rest) => format!("largest {rest}"),
+        None => words,
+    })
 }
 
 /// The probability of exceeding at every amplitude, as JSON.
@@ -36,7 +93,7 @@ pub(crate) fn probability(
     seed: u64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let scan = ForceScan::new(step, max).map_err(of_case)?;
+    let scan = ForceScan::new(step, max).map_err(of_scan)?;
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
     let parameters = *case.parameters();
     let curve = interruptible(py, progress, move |watch| {

@@ -1,13 +1,14 @@
 //! Long work without Python's lock, which Ctrl-C ends.
 
 use crate::errors::of_program;
+use crate::pool::{leave, pool};
 use pyo3::prelude::*;
-use snapload::analysis::Progress;
+use snapload::analysis::{OnProgress, Progress};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// So often it is looked whether there was a signal, and the progress is told.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
@@ -32,7 +33,7 @@ impl Watch {
     }
 }
 
-/// Does some work on a thread of its own, without Python's lock, while this thread looks for
+/// Does some work in the pool of this process, without Python's lock, while this thread looks for
 /// signals and tells `progress` how much is done.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
@@ -41,7 +42,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
 ) -> PyResult<T> {
     let watch = Arc::new(Watch::default());
     let (theirs, (send, results)) = (Arc::clone(&watch), channel());
-    std::thread::spawn(move || {
+    pool(py)?.spawn(move || {
         // Nobody may be waiting any more.
         let _ = send.send(work(&theirs));
     });
@@ -49,9 +50,40 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let outcome = wait(py, progress, &watch, &results);
     if outcome.is_err() {
         watch.stop.store(true, Ordering::Relaxed);
-        let _ = receive(py, &results, GRACE);
+        if receive(py, &results, GRACE).is_err() {
+            leave(py);
+        }
     }
     outcome
+}
+
+/// Does work that takes one thread on this one, without Python's lock. The work has to ask now and
+/// then whether to go on; it is looked for signals then.
+pub(crate) fn on_this_thread<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(OnProgress) -> T + Send,
+) -> PyResult<T> {
+    let signal = Mutex::new(None);
+    let looked = Mutex::new(Instant::now());
+    let go_on = |_: Progress| {
+        let mut looked = looked.lock().unwrap_or_else(PoisonError::into_inner);
+        if looked.elapsed() < LOOK_EVERY {
+            return ControlFlow::Continue(());
+        }
+        *looked = Instant::now();
+        match Python::attach(|py| py.check_signals()) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                *signal.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    };
+    let result = py.detach(|| work(&go_on));
+    match signal.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some(error) => Err(error),
+        None => Ok(result),
+    }
 }
 
 /// Waits for the result, for so long, without Python's lock.

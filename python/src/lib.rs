@@ -5,6 +5,7 @@ mod case;
 mod critical;
 mod errors;
 mod interrupt;
+mod pool;
 mod run;
 mod schema;
 mod study;
@@ -20,13 +21,13 @@ mod _engine {
     #[pymodule_export]
     use super::case::Case;
     #[pymodule_export]
-    use super::critical::{critical_force, probability};
+    use super::critical::{critical_force, critical_force_over, probability};
     #[pymodule_export]
-    use super::run::{Run, ensemble, run, verify};
+    use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases};
     #[pymodule_export]
-    use super::study::{Store, Study, evenly, read, threads_for};
+    use super::study::{Store, Study, evenly, identity, merge, read_column, threads_for};
     #[pymodule_export]
     use super::table::Table;
 

@@ -2,10 +2,11 @@
 
 use crate::case::Case;
 use crate::errors::{of_case, of_program, of_work};
-use crate::interrupt::interruptible;
+use crate::interrupt::{interruptible, on_this_thread};
+use crate::schema::in_cf;
 use crate::table::{Table, array_of};
 use arrow_array::builder::{Int64Builder, ListBuilder};
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::{ArrayRef, Float64Array, StringArray};
 use arrow_schema::{Field, Schema};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyValueError;
@@ -13,22 +14,46 @@ use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
 use snapload::analysis::{
-    Cancelled, Counter, Ensemble, Progress, Uncertainty, unwatched, verify as verify_run,
+    Cancelled, Counter, Ensemble, Progress, Sensitivity, Slope, Uncertainty, record, sensitivity,
+    unwatched, verify as verify_run,
 };
-use snapload::{CaseError, ModeInterval, Playback, Value};
+use snapload::{CaseError, ModeInterval, Playback, Trajectory, Value};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
     CaseEcho, EndRow, MOTION, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
     TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
 };
 use std::collections::HashMap;
+use std::iter::repeat;
 use std::sync::Arc;
 
 /// A finished run.
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Run {
-    pub(crate) case: Case,
-    pub(crate) trusted: Arc<Trusted>,
+    case: Case,
+    known: Arc<Known>,
+}
+
+/// The run itself, and what is known of it if that was asked for.
+enum Known {
+    Alone(Box<Trajectory>),
+    Trusted(Box<Trusted>),
+}
+
+impl Known {
+    fn run(&self) -> &Trajectory {
+        match self {
+            Self::Alone(run) => run,
+            Self::Trusted(trusted) => &trusted.run,
+        }
+    }
+
+    fn trusted(&self) -> Option<&Trusted> {
+        match self {
+            Self::Alone(_) => None,
+            Self::Trusted(trusted) => Some(&**trusted),
+        }
+    }
 }
 
 /// What a run comes to, without its tables.
@@ -37,8 +62,8 @@ struct Head<'a> {
     case: CaseEcho<'a>,
     end: EndRow,
     state: [f64; 6],
-    outcome: OutcomeRow,
-    trust: TrustRow<'a>,
+    outcome: Option<OutcomeRow>,
+    trust: Option<TrustRow<'a>>,
     norms: NormsRow,
 }
 
@@ -46,13 +71,13 @@ struct Head<'a> {
 impl Run {
     /// How it ended, norms, outcome and trust, as JSON.
     fn head(&self) -> PyResult<String> {
-        let run = &self.trusted.run;
+        let (run, trusted) = (self.known.run(), self.known.trusted());
         to_json(&Head {
             case: CaseEcho(self.case.parameters()),
             end: EndRow::new(run.end()),
             state: run.end().state.components(),
-            outcome: OutcomeRow::new(&self.trusted),
-            trust: TrustRow::new(&self.trusted),
+            outcome: trusted.map(OutcomeRow::new),
+            trust: trusted.map(TrustRow::new),
             norms: NormsRow::new(run.norms()),
         })
     }
@@ -61,25 +86,43 @@ impl Run {
     #[pyo3(signature = (dt=None))]
     fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
-        let report = Report::new(self.case.parameters(), &self.trusted, sampling, &unwatched);
+        let trusted = self.with_trust()?;
+        let report = Report::new(self.case.parameters(), trusted, sampling, &unwatched);
         to_json(&report)
     }
 
     /// What `snapload run` prints.
-    fn summary(&self) -> String {
-        summary(&self.case.name, self.case.parameters(), &self.trusted, &[])
+    fn summary(&self) -> PyResult<String> {
+        let trusted = self.with_trust()?;
+        Ok(summary(
+            &self.case.name,
+            self.case.parameters(),
+            trusted,
+            &[],
+        ))
     }
 
     /// The same as labels and texts.
-    fn summary_lines(&self) -> Vec<(&'static str, String)> {
-        summary_lines(&self.case.name, self.case.parameters(), &self.trusted)
+    fn summary_lines(&self) -> PyResult<Vec<(&'static str, String)>> {
+        let trusted = self.with_trust()?;
+        Ok(summary_lines(
+            &self.case.name,
+            self.case.parameters(),
+            trusted,
+        ))
     }
 
-    /// The impacts, a row an impact and cable.
+    /// The impacts, a row an impact and cable; the digits that are known of them only where it is
+    /// known how far the run can be trusted.
     fn impacts(&self) -> PyResult<Table> {
-        let Trusted { run, trust, .. } = &*self.trusted;
-        let rows: Vec<ImpactRow> = impact_rows(run, trust.digits()).collect();
-        let columns = IMPACTS.iter().map(|column| {
+        let rows: Vec<ImpactRow> = match &*self.known {
+            Known::Alone(run) => impact_rows(run, repeat(f64::NAN)).collect(),
+            Known::Trusted(trusted) => impact_rows(&trusted.run, trusted.trust.digits()).collect(),
+        };
+        let shown = IMPACTS
+            .iter()
+            .filter(|column| column.name != "digits" || self.known.trusted().is_some());
+        let columns = shown.map(|column| {
             let values = array_of(column.values(rows.iter().map(Some)));
             (column.name, column.unit, column.meaning, values)
         });
@@ -88,7 +131,7 @@ impl Run {
 
     /// The mode intervals.
     fn modes(&self) -> PyResult<Table> {
-        let modes = self.trusted.run.modes();
+        let modes = self.known.run().modes();
         let mut taut = ListBuilder::new(Int64Builder::new());
         for mode in modes {
             for cable in mode.taut.iter() {
@@ -127,19 +170,27 @@ impl Run {
 }
 
 impl Run {
+    fn with_trust(&self) -> PyResult<&Trusted> {
+        self.known.trusted().ok_or_else(|| {
+            PyValueError::new_err(
+                "this run was made with trust=False, and has no words on how far it can be trusted; \
+                 run the case without trust=False",
+            )
+        })
+    }
+
     fn sampling(&self, dt: f64) -> PyResult<Sampling> {
-        let end = self.trusted.run.end().t;
+        let end = self.known.run().end().t;
         Sampling::every(dt, end).map_err(|allowed| {
             PyValueError::new_err(format!("dt = {dt:?} is not allowed; allowed: {allowed}"))
         })
     }
 
     fn play<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<Bound<'py, PyByteArray>> {
-        let trusted = Arc::clone(&self.trusted);
-        let bytes = interruptible(py, None, move |watch| {
-            let on_progress = |progress: Progress| watch.go_on(progress);
-            let counter = Counter::new("playing", 0, times.len() as u64, &on_progress);
-            let mut playback = Playback::new(&trusted.run);
+        let run = self.known.run();
+        let bytes = on_this_thread(py, |on_progress| {
+            let counter = Counter::new("playing", 0, times.len() as u64, on_progress);
+            let mut playback = Playback::new(run);
             let mut bytes = Vec::with_capacity(8 * MOTION.len() * times.len());
             for t in times {
                 let MotionRow(row) = MotionRow::new(&playback.at(t));
@@ -156,8 +207,8 @@ impl Run {
 /// A table whose columns say their unit and what they mean, in the words of CF.
 fn table(columns: Vec<(&str, &str, &str, ArrayRef)>) -> PyResult<Table> {
     let fields = columns.iter().map(|(name, unit, meaning, array)| {
-        let words = [("units", *unit), ("long_name", *meaning)];
-        let words = words.into_iter().filter(|(_, word)| !word.is_empty());
+        let words = in_cf(unit).into_iter().chain([("long_name", *meaning)]);
+        let words = words.filter(|(_, word)| !word.is_empty());
         let words: HashMap<String, String> = words
             .map(|(key, word)| (key.to_owned(), word.to_owned()))
             .collect();
@@ -165,8 +216,7 @@ fn table(columns: Vec<(&str, &str, &str, ArrayRef)>) -> PyResult<Table> {
     });
     let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
     let arrays = columns.into_iter().map(|(.., array)| array).collect();
-    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(of_program)?;
-    Ok(Table::new(schema, vec![batch]))
+    Table::new(schema, arrays)
 }
 
 pub(crate) fn to_json(value: &impl Serialize) -> PyResult<String> {
@@ -226,14 +276,61 @@ pub(crate) fn run(
 ) -> PyResult<Run> {
     let uncertainty = read_uncertainty(&case.case, uncertainty, tolerance)?;
     let begun = Arc::clone(&case.case);
-    let trusted = interruptible(py, None, move |watch| {
-        let on_progress = |progress: Progress| watch.go_on(progress);
-        Trusted::run(&begun, uncertainty, members, seed, &on_progress)
+    // The run itself takes one thread, and is over before another one has begun. Neighbours take
+    // all.
+    let alone = on_this_thread(py, |on_progress| {
+        Trusted::run_alone(&begun, uncertainty, on_progress)
+    })?
+    .map_err(of_work)?;
+    let trusted = if alone.trust.decides_the_end() || members == Some(0) {
+        on_this_thread(py, |on_progress| {
+            alone.completed(&begun, members, seed, on_progress)
+        })?
+    } else {
+        interruptible(py, None, move |watch| {
+            let on_progress = |progress: Progress| watch.go_on(progress);
+            alone.completed(&begun, members, seed, &on_progress)
+        })?
+    };
+    Ok(Run {
+        case: case.clone(),
+        known: Arc::new(Known::Trusted(Box::new(trusted.map_err(of_work)?))),
+    })
+}
+
+/// Runs a case without a word on how far the run can be trusted.
+#[pyfunction]
+pub(crate) fn run_alone(py: Python<'_>, case: &Case) -> PyResult<Run> {
+    let run = on_this_thread(py, |on_progress| {
+        record(case.case.simulation(), on_progress, |_, _| {})
     })?;
     Ok(Run {
         case: case.clone(),
-        trusted: Arc::new(trusted.map_err(of_work)?),
+        known: Arc::new(Known::Alone(Box::new(
+            run.map_err(|cancelled| of_work(cancelled.into()))?,
+        ))),
     })
+}
+
+/// Number of an impact, key, and the derivatives by it of time, normal velocity and impulse.
+type Derivatives = (usize, &'static str, f64, f64, f64);
+
+/// The derivatives of so many impacts.
+#[pyfunction]
+pub(crate) fn sensitivities(
+    py: Python<'_>,
+    case: &Case,
+    count: usize,
+) -> PyResult<Vec<Derivatives>> {
+    let theirs = Arc::clone(&case.case);
+    let found = interruptible(py, None, move |_| sensitivity(&theirs, count))?;
+    let rows = found
+        .into_iter()
+        .flat_map(|Sensitivity { impact, slopes }| {
+            let row = move |slope: Slope| (impact, slope.key, slope.t, slope.v_n, slope.impulse);
+            slopes.into_iter().map(row)
+        });
+    Ok(rows.collect())
 }
 
 /// Runs the neighbours of a case: how they end, as JSON.

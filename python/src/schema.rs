@@ -7,6 +7,16 @@ use pyo3::types::PyDict;
 use snapload::{KEYS, Kind, Parameters};
 use snapload::{named_cases as all_named_cases, title_of};
 
+/// A unit as metadata after CF. A number in units of the case's own scales has no dimension: its
+/// unit is 1, and `scale` says what it is to be multiplied by.
+pub(crate) fn in_cf(unit: &str) -> [(&'static str, &str); 2] {
+    match unit {
+        "" => [("units", ""), ("scale", "")],
+        "1" | "rad" => [("units", unit), ("scale", "")],
+        _ => [("units", "1"), ("scale", unit)],
+    }
+}
+
 /// Every key of a case, in its order: name, symbol, unit, meaning, type, what is allowed, default.
 #[pyfunction]
 pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
@@ -15,6 +25,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("name", key.name)?;
         entry.set_item("symbol", key.symbol)?;
         entry.set_item("unit", key.unit)?;
+        entry.set_item("cf", in_cf(key.unit).to_vec())?;
         entry.set_item("meaning", key.meaning)?;
         let title = match key.group {
             "start" => format!("start: {}", key.title()),
@@ -49,6 +60,7 @@ pub(crate) fn columns(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         entry.set_item("name", column.name)?;
         entry.set_item("symbol", column.symbol)?;
         entry.set_item("unit", column.unit)?;
+        entry.set_item("cf", in_cf(column.unit).to_vec())?;
         entry.set_item("meaning", column.meaning)?;
         entry.set_item("title", title_of(column.meaning))?;
         entry.set_item("words", column.words())?;

@@ -1,44 +1,58 @@
 //! Studies: the rows of `snapload sweep`.
 
 use crate::case::{Case, to_value};
-use crate::errors::{of_program, of_study};
-use crate::interrupt::interruptible;
-use crate::table::{Table, array_of, field_of};
-use arrow_array::RecordBatch;
-use arrow_schema::Schema;
+use crate::errors::{of_program, of_study, of_work};
+use crate::interrupt::{interruptible, on_this_thread};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyByteArray, PyBytes};
 use snapload::Value;
-use snapload::analysis::Progress;
+use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
-    Axis, Ending, Grid, Identity, Opened, Plan, StudyError, columns_of_files, read_all,
+    Axis, Ending, Grid, Identity, List, Opened, Plan, Side, StudyError, Values, check_name,
+    checked_identity, read_rows,
 };
+use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A case and the axes of a grid.
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Study {
-    study: Arc<snapload_study::Study>,
+    pub(crate) study: Arc<snapload_study::Study>,
 }
 
 #[pymethods]
 impl Study {
     /// Of a case and the values of each axis, the first the slowest: a list, or the text
     /// `first:last:n`.
-    #[new]
-    fn new(case: &Case, axes: Vec<(String, Bound<'_, PyAny>)>, trust: bool) -> PyResult<Self> {
+    #[staticmethod]
+    fn grid(case: &Case, axes: Vec<(String, Bound<'_, PyAny>)>, trust: bool) -> PyResult<Self> {
         let axes = axes.iter().map(|(key, values)| axis(key, values));
         let plan = Plan::grid(axes.collect::<PyResult<_>>()?).map_err(of_study)?;
-        let base = case
-            .given
-            .iter()
-            .map(|(key, value)| ((*key).to_owned(), value.clone()));
-        let study = snapload_study::Study::new(base, plan, trust).map_err(of_study)?;
-        Ok(Self {
-            study: Arc::new(study),
-        })
+        Self::of(case, plan, trust)
+    }
+
+    /// Of a case and a box, each side a pair or the text `low:high`, with so many points in it.
+    #[staticmethod]
+    fn random(
+        case: &Case,
+        sides: Vec<(String, Bound<'_, PyAny>)>,
+        count: u64,
+        seed: u64,
+        trust: bool,
+    ) -> PyResult<Self> {
+        let sides = sides.iter().map(|(key, ends)| side(key, ends));
+        let sides = sides.collect::<PyResult<_>>()?;
+        let plan = Plan::random(sides, count, seed).map_err(of_study)?;
+        Self::of(case, plan, trust)
+    }
+
+    /// Of a case and a file with a row a case, which has to stay as long as the study does.
+    #[staticmethod]
+    fn listed(py: Python<'_>, case: &Case, path: PathBuf, trust: bool) -> PyResult<Self> {
+        let list = py.detach(|| List::open(&path)).map_err(of_study)?;
+        Self::of(case, Plan::List(list), trust)
     }
 
     fn __len__(&self) -> usize {
@@ -84,6 +98,19 @@ impl Study {
             on_threads(threads, sweep)
         })?;
         swept.map_err(of_study)
+    }
+}
+
+impl Study {
+    fn of(case: &Case, plan: Plan, trust: bool) -> PyResult<Self> {
+        let base = case
+            .given
+            .iter()
+            .map(|(key, value)| ((*key).to_owned(), value.clone()));
+        let study = snapload_study::Study::new(base, plan, trust).map_err(of_study)?;
+        Ok(Self {
+            study: Arc::new(study),
+        })
     }
 }
 
@@ -162,6 +189,17 @@ fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     Axis::listed(key, values).map_err(of_study)
 }
 
+fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<Side> {
+    if let Ok(text) = ends.extract::<String>() {
+        return Side::written(key, &text).map_err(of_study);
+    }
+    let (low, high) = ends.extract().map_err(|_| {
+        let allowed = "the ends of its range, such as (0.1, 0.6) or \"0.1:0.6\"";
+        PyValueError::new_err(format!("{key} = {ends} is not allowed; allowed: {allowed}"))
+    })?;
+    Side::new(key, low, high).map_err(of_study)
+}
+
 /// As many threads as asked for, up to what helps; and where these are fewer, why.
 #[pyfunction]
 pub(crate) fn threads_for(asked: usize) -> (usize, Option<String>) {
@@ -182,45 +220,111 @@ fn on_threads<T: Send>(
     pool.install(work)
 }
 
-/// Of which study some rows are: its text, version of the program, cases, first row.
-type Origin = (String, String, u64, u64);
+/// Of which study some rows are: its text, version of the program, cases, first row, number of rows.
+type Origin = (String, String, u64, u64, u64);
 
-/// The rows of a Parquet file, and of which study they are.
+/// Of which study the rows of a file are, once it was compared with its checksum.
 #[pyfunction]
-pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<(Table, Option<Origin>)> {
-    let fields = columns_of_files()
-        .into_iter()
-        .map(|(name, holds)| field_of(name, holds));
-    let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
-    let mut batches = Vec::new();
-    let read = py.detach(|| {
-        read_all(&path, |columns| {
-            let columns = columns.into_iter().map(array_of).collect();
-            batches.push(RecordBatch::try_new(Arc::clone(&schema), columns));
-        })
-    });
-    let identity = read.map_err(of_study)?;
-    let batches = batches
-        .into_iter()
-        .collect::<Result<_, _>>()
-        .map_err(of_program)?;
-    let identity = identity.map(|identity| {
+pub(crate) fn identity(py: Python<'_>, path: PathBuf) -> PyResult<Option<Origin>> {
+    let read = py.detach(|| checked_identity(&path)).map_err(of_study)?;
+    Ok(read.map(|identity| {
+        let rows = identity.rows;
+        let (first, count) = (rows.start, rows.end - rows.start);
         (
             identity.study,
             identity.version,
             identity.cases,
-            identity.rows.start,
+            first,
+            count,
         )
-    });
-    Ok((Table::new(schema, batches), identity))
+    }))
 }
+
+/// Some rows of one column of a file, as its type and bytes.
+///
+/// The type hangs on the column alone, whatever its rows hold. Numbers and counts are doubles, NaN
+/// where there are none; flags are not set then. Words are places in a list of words, which comes
+/// with them and begins with the empty one, that of rows without.
+#[pyfunction]
+pub(crate) fn read_column<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    name: &str,
+    start: u64,
+    stop: u64,
+) -> PyResult<(&'static str, Bound<'py, PyByteArray>, Vec<String>)> {
+    let mut bytes = Vec::new();
+    let mut kind = "";
+    let mut words = vec![String::new()];
+    let mut places = HashMap::from([(String::new(), 0_i32)]);
+    let read = py.detach(|| {
+        read_rows(&path, name, start..stop, |values| {
+            kind = match values {
+                Values::Numbers(list) => {
+                    let list = list.into_iter().map(|value| value.unwrap_or(f64::NAN));
+                    bytes.extend(list.flat_map(f64::to_ne_bytes));
+                    "float64"
+                }
+                Values::Counts(list) => {
+                    let list = list.into_iter().map(|n| n.map_or(f64::NAN, |n| n as f64));
+                    bytes.extend(list.flat_map(f64::to_ne_bytes));
+                    "float64"
+                }
+                Values::Flags(list) => {
+                    bytes.extend(list.into_iter().map(|flag| u8::from(flag == Some(true))));
+                    "bool"
+                }
+                Values::Words(list) => {
+                    for word in list {
+                        let word = word.unwrap_or_default();
+                        let place = *places.entry(word).or_insert_with_key(|word| {
+                            words.push(word.clone());
+                            words.len() as i32 - 1
+                        });
+                        bytes.extend(place.to_ne_bytes());
+                    }
+                    "words"
+                }
+            };
+        })
+    });
+    read.map_err(of_study)?;
+    Ok((kind, PyByteArray::new(py, &bytes), words))
+}
+
+/// Joins the parts of a study into one file.
+#[pyfunction]
+pub(crate) fn merge(py: Python<'_>, parts: Vec<PathBuf>, out: PathBuf) -> PyResult<()> {
+    check_name(&out).map_err(of_study)?;
+    let joined = interruptible(py, None, move |_| snapload_study::merge(&parts, &out))?;
+    joined.map_err(of_study)
+}
+
+/// So many values are computed between two looks for signals.
+const VALUES: u64 = 1 << 12;
 
 /// Evenly spaced values, each the double nearest to the decimal that one would write.
 #[pyfunction]
-pub(crate) fn evenly(first: &str, last: &str, count: u64) -> PyResult<Vec<f64>> {
+pub(crate) fn evenly<'py>(
+    py: Python<'py>,
+    first: &str,
+    last: &str,
+    count: u64,
+) -> PyResult<Bound<'py, PyByteArray>> {
     let grid = Grid::new(first, last, count).ok_or_else(|| {
         let words = format!("{first}:{last}:{count} is no range; allowed: two finite numbers, and a count of 1 or more");
         PyValueError::new_err(words)
     })?;
-    Ok((0..count).map(|k| grid.value(k)).collect())
+    let bytes = on_this_thread(py, |on_progress| {
+        let mut bytes = Vec::new();
+        for k in 0..count {
+            if k % VALUES == 0 {
+                Progress::new("values", k as f64, count as f64).tell(on_progress)?;
+            }
+            bytes.extend(grid.value(k).to_ne_bytes());
+        }
+        Ok(bytes)
+    })?;
+    let bytes = bytes.map_err(|cancelled: Cancelled| of_work(cancelled.into()))?;
+    Ok(PyByteArray::new(py, &bytes))
 }

@@ -2,39 +2,41 @@
 //! memory.
 
 use crate::errors::of_program;
+use arrow_array::builder::{Int64Builder, ListBuilder};
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{
-    Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, RecordBatchIterator,
-    StringArray,
+    ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray,
 };
 use arrow_schema::ffi::FFI_ArrowSchema;
-use arrow_schema::{DataType, Field, SchemaRef};
+use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyCapsule, PyList};
-use snapload_study::{Holds, Values};
+use snapload_study::Values;
+use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Columns of equal length.
+/// Columns of equal length, without gaps.
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Table {
     schema: SchemaRef,
-    batches: Vec<RecordBatch>,
+    batch: RecordBatch,
 }
 
 impl Table {
-    pub(crate) fn new(schema: SchemaRef, batches: Vec<RecordBatch>) -> Self {
-        Self { schema, batches }
+    pub(crate) fn new(schema: SchemaRef, columns: Vec<ArrayRef>) -> PyResult<Self> {
+        let batch = RecordBatch::try_new(Arc::clone(&schema), columns).map_err(of_program)?;
+        Ok(Self { schema, batch })
     }
 }
 
 #[pymethods]
 impl Table {
     fn __len__(&self) -> usize {
-        self.batches.iter().map(RecordBatch::num_rows).sum()
+        self.batch.num_rows()
     }
 
     /// Name and type of each column.
@@ -53,8 +55,7 @@ impl Table {
     ) -> PyResult<Bound<'py, PyCapsule>> {
         // Another schema is a wish; the protocol lets a producer answer with its own.
         let _ = requested_schema;
-        let batches: Vec<_> = self.batches.iter().cloned().map(Ok).collect();
-        let reader = RecordBatchIterator::new(batches, self.schema.clone());
+        let reader = RecordBatchIterator::new([Ok(self.batch.clone())], self.schema.clone());
         let stream = FFI_ArrowArrayStream::new(Box::new(reader));
         PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
     }
@@ -64,8 +65,7 @@ impl Table {
         PyCapsule::new_with_value(py, schema, c"arrow_schema")
     }
 
-    /// A column for NumPy: its type and bytes, or a list of Python's own values. Numbers that are
-    /// missing are NaN, and make whole numbers and flags doubles.
+    /// A column for NumPy: its type and bytes, or a list of Python's own values.
     fn column<'py>(
         &self,
         py: Python<'py>,
@@ -73,82 +73,114 @@ impl Table {
     ) -> PyResult<(&'static str, Bound<'py, PyAny>)> {
         let place = self.schema.column_with_name(name);
         let (place, field) = place.ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
-        let arrays: Vec<_> = self
-            .batches
-            .iter()
-            .map(|batch| batch.column(place).as_ref())
-            .collect();
-        let whole = arrays.iter().all(|array| array.null_count() == 0);
+        let array = self.batch.column(place);
         let bytes = |bytes: Vec<u8>| PyByteArray::new(py, &bytes).into_bound_py_any(py);
         match field.data_type() {
-            DataType::Float64 => Ok(("float64", bytes(doubles(&arrays))?)),
-            DataType::Int64 if whole => {
-                let values = arrays
-                    .iter()
-                    .flat_map(|a| a.as_primitive::<Int64Type>().values());
-                Ok((
-                    "int64",
-                    bytes(values.flat_map(|n| n.to_ne_bytes()).collect())?,
-                ))
+            DataType::Float64 => {
+                let values = array.as_primitive::<Float64Type>().values();
+                let all = values.iter().flat_map(|x| x.to_ne_bytes());
+                Ok(("float64", bytes(all.collect())?))
             }
-            DataType::Boolean if whole => {
-                let values = arrays.iter().flat_map(|a| a.as_boolean().iter().flatten());
-                Ok(("bool", bytes(values.map(u8::from).collect())?))
+            DataType::Int64 => {
+                let values = array.as_primitive::<Int64Type>().values();
+                let all = values.iter().flat_map(|n| n.to_ne_bytes());
+                Ok(("int64", bytes(all.collect())?))
             }
-            DataType::Int64 | DataType::Boolean => Ok(("float64", bytes(doubles(&arrays))?)),
             DataType::Utf8 => {
-                let values = arrays.iter().flat_map(|a| a.as_string::<i32>().iter());
-                Ok((
-                    "object",
-                    PyList::new(py, values.collect::<Vec<_>>())?.into_any(),
-                ))
+                let values: Vec<_> = array.as_string::<i32>().iter().collect();
+                Ok(("object", PyList::new(py, values)?.into_any()))
             }
             _ => {
-                let lists = arrays.iter().flat_map(|a| a.as_list::<i32>().iter());
-                let lists = lists.map(|list| match list {
-                    Some(list) => list.as_primitive::<Int64Type>().values().to_vec(),
-                    None => Vec::new(),
-                });
-                Ok((
-                    "object",
-                    PyList::new(py, lists.collect::<Vec<_>>())?.into_any(),
-                ))
+                let lists = array.as_list::<i32>().iter().flatten();
+                let lists = lists.map(|list| list.as_primitive::<Int64Type>().values().to_vec());
+                let lists: Vec<_> = lists.collect();
+                Ok(("object", PyList::new(py, lists)?.into_any()))
             }
         }
     }
-}
 
-/// A column of a study's file.
-pub(crate) fn field_of(name: &str, holds: Holds) -> Field {
-    let kind = match holds {
-        Holds::Numbers => DataType::Float64,
-        Holds::Counts => DataType::Int64,
-        Holds::Flags => DataType::Boolean,
-        Holds::Words => DataType::Utf8,
-    };
-    Field::new(name, kind, name != "row")
-}
+    /// Its columns as `Table.of` takes them.
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Part<'py>>> {
+        let fields = self.schema.fields().iter();
+        let parts = fields.map(|field| {
+            let (_, values) = self.column(py, field.name())?;
+            let kind = kind_of(field.data_type()).to_owned();
+            let words = field.metadata().iter();
+            let words = words.map(|(key, word)| (key.clone(), word.clone()));
+            Ok((field.name().clone(), kind, words.collect(), values))
+        });
+        parts.collect()
+    }
 
-/// Its values.
-pub(crate) fn array_of(values: Values) -> ArrayRef {
-    match values {
-        Values::Numbers(list) => Arc::new(Float64Array::from(list)),
-        Values::Counts(list) => Arc::new(Int64Array::from(list)),
-        Values::Flags(list) => Arc::new(BooleanArray::from(list)),
-        Values::Words(list) => Arc::new(StringArray::from(list)),
+    /// A table of columns: name, kind (`float64`, `int64`, `words` or `lists` of whole numbers),
+    /// metadata, and what `column` gives of such a one.
+    #[staticmethod]
+    fn of(parts: Vec<Part<'_>>) -> PyResult<Self> {
+        let mut fields = Vec::new();
+        let mut arrays = Vec::new();
+        for (name, kind, metadata, values) in parts {
+            let array = array_from(&kind, &values)?;
+            let field = Field::new(name, array.data_type().clone(), false);
+            fields.push(field.with_metadata(metadata));
+            arrays.push(array);
+        }
+        Self::new(Arc::new(Schema::new(fields)), arrays)
     }
 }
 
-/// The bytes of numbers and flags as doubles.
-fn doubles(arrays: &[&dyn Array]) -> Vec<u8> {
-    let of = |array: &dyn Array, k: usize| match array.data_type() {
-        _ if array.is_null(k) => f64::NAN,
-        DataType::Float64 => array.as_primitive::<Float64Type>().value(k),
-        DataType::Int64 => array.as_primitive::<Int64Type>().value(k) as f64,
-        _ => f64::from(u8::from(array.as_boolean().value(k))),
-    };
-    let values = arrays
-        .iter()
-        .flat_map(|array| (0..array.len()).map(move |k| of(*array, k)));
-    values.flat_map(f64::to_ne_bytes).collect()
+/// Name, kind, metadata and values of a column.
+type Part<'py> = (String, String, HashMap<String, String>, Bound<'py, PyAny>);
+
+fn kind_of(of: &DataType) -> &'static str {
+    match of {
+        DataType::Float64 => "float64",
+        DataType::Int64 => "int64",
+        DataType::Utf8 => "words",
+        _ => "lists",
+    }
+}
+
+fn array_from(kind: &str, values: &Bound<'_, PyAny>) -> PyResult<ArrayRef> {
+    Ok(match kind {
+        "float64" => {
+            let bytes: Vec<u8> = values.extract()?;
+            let numbers = bytes.as_chunks::<8>().0.iter();
+            let numbers = numbers.map(|bytes| f64::from_ne_bytes(*bytes));
+            Arc::new(Float64Array::from_iter_values(numbers))
+        }
+        "int64" => {
+            let bytes: Vec<u8> = values.extract()?;
+            let numbers = bytes.as_chunks::<8>().0.iter();
+            let numbers = numbers.map(|bytes| i64::from_ne_bytes(*bytes));
+            Arc::new(Int64Array::from_iter_values(numbers))
+        }
+        "words" => {
+            let words: Vec<String> = values.extract()?;
+            Arc::new(StringArray::from_iter_values(words))
+        }
+        _ => {
+            let lists: Vec<Vec<i64>> = values.extract()?;
+            let mut builder = ListBuilder::new(Int64Builder::new());
+            for list in lists {
+                builder.values().append_slice(&list);
+                builder.append(true);
+            }
+            Arc::new(builder.finish())
+        }
+    })
+}
+
+/// Values as an array that holds one each.
+pub(crate) fn array_of(values: Values) -> ArrayRef {
+    match values {
+        Values::Numbers(list) => {
+            Arc::new(Float64Array::from_iter_values(list.into_iter().flatten()))
+        }
+        Values::Counts(list) => Arc::new(Int64Array::from_iter_values(list.into_iter().flatten())),
+        Values::Flags(list) => {
+            let flags = list.into_iter().flatten().map(i64::from);
+            Arc::new(Int64Array::from_iter_values(flags))
+        }
+        Values::Words(list) => Arc::new(StringArray::from_iter_values(list.into_iter().flatten())),
+    }
 }

@@ -21,8 +21,8 @@ def test_a_dataset_is_labelled(tmp_path: Path):
     f_o, e = snapload.evenly(0.1, 0.5, 3), [0.5, 0.9]
     study = snapload.sweep(snapload.Case(), f_o=f_o, e=e)
     assert study.rho1.dims == ("f_o", "e") and study.f_o.values.tolist() == [0.1, 0.3, 0.5]
-    assert study.rho1.attrs == {"long_name": "largest v_n of a snap", "units": "L/T"}
-    assert study.f_o.attrs["units"] == "F" and study.e.attrs["units"] == "1"
+    assert study.rho1.attrs == {"long_name": "largest v_n of a snap, in L/T", "units": "1", "scale": "L/T"}
+    assert study.f_o.attrs["scale"] == "F" and study.e.attrs["units"] == "1"
     assert study.end.sel(f_o=0.3, e=0.9) == "settled"
     flags = dict(zip(study.end_code.flag_values, study.end_code.flag_meanings.split(), strict=True))
     assert [flags[code] for code in study.end_code.values.ravel()] == study.end.values.ravel().tolist()
@@ -189,10 +189,9 @@ def test_dask_computes_the_same_bits_though_a_worker_is_killed(tmp_path: Path):
         assert killed == [True], "the worker was to die in the middle"
         # What a dead driver left is taken up, and only the rest is computed.
         again = tmp_path / "again.parquet"
-        store = snapload._engine.Store.open(
-            snapload._engine.Study(case._engine, list(axes.items()), True), again, False
-        )
-        data = snapload._engine.Study(case._engine, list(axes.items()), True).chunk(100, 300)
+        study = snapload._engine.Study.grid(case._engine, list(axes.items()), True)
+        store = snapload._engine.Store.open(study, again, False)
+        data = study.chunk(100, 300)
         store.keep(100, 300, data)
         store.close()
         snapload.sweep(case, out=again, resume=True, client=client, **axes)
@@ -202,7 +201,7 @@ def test_dask_computes_the_same_bits_though_a_worker_is_killed(tmp_path: Path):
 
 def test_rows_of_another_study_are_refused(tmp_path: Path):
     engine = snapload._engine
-    ours, other = (engine.Study(snapload.Case()._engine, [("e", values)], True) for values in ([0.5], [0.6]))
+    ours, other = (engine.Study.grid(snapload.Case()._engine, [("e", values)], True) for values in ([0.5], [0.6]))
     store = engine.Store.open(ours, tmp_path / "e.parquet", False)
     with pytest.raises(ValueError, match="came from another study or another version of snapload"):
         store.keep(0, 1, other.chunk(0, 1))

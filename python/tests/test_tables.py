@@ -29,7 +29,11 @@ def test_pyarrow_polars_and_pandas_read_the_very_memory(run):
 
 def test_fields_say_their_units(run):
     schema = pyarrow.schema(run.impacts)
-    assert schema.field("impulse").metadata == {b"units": b"m L/T", b"long_name": b"impulse in the cable"}
+    assert schema.field("impulse").metadata == {
+        b"units": b"1",
+        b"scale": b"m L/T",
+        b"long_name": b"impulse in the cable",
+    }
     assert schema.field("cable").type == pyarrow.int64()
     assert pyarrow.table(run.modes).column("taut").to_pylist() == [[]]
 
@@ -42,7 +46,7 @@ def test_a_table_outlives_its_run():
 
 def test_columns_are_arrays(run):
     assert run.impacts["t"].dtype == np.float64 and run.impacts["cable"].dtype == np.int64
-    assert list(run.impacts) == list(run.impacts.columns) and len(run.impacts) == 12
+    assert len(run.impacts) == 12
     with pytest.raises(KeyError, match="there is no column 'v'; the columns are t, cable, v_n"):
         run.impacts["v"]
     frame = snapload.cases["sliding-example"].run(members=0).modes.to_pandas()

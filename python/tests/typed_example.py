@@ -14,6 +14,9 @@ axes.set_title(run.end.reason)
 study = snapload.sweep(case, f_o=np.linspace(0.1, 0.5, 3), omega=[0.9, 1.0], out="study.parquet", resume=True)
 largest: float = float(study.rho1.max())
 critical = snapload.critical_force(case, members=10).f_cr
+curve = snapload.critical_force(case, over={"e": [0.5, 0.9]}).f_cr.max()
+first: dict[str, object] = run.impacts[0]
+copied: snapload.Case = snapload.Case(**case.keys())
 if critical is not None:
     print(critical + 0.01)
 print(snapload.verify(case).differences.max(), snapload.ensemble(case).ends["settled"].part)

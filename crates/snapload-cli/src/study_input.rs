@@ -57,7 +57,7 @@ pub(crate) struct StudyArgs {
     /// Cases from a CSV or Parquet file: a row a case, a column a key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]
     list: Option<PathBuf>,
-    /// Leave out how far each run can be trusted, which takes nine tenths of the time
+    /// Leave out how far each run can be trusted, which takes about as long again
     #[arg(long)]
     no_trust: bool,
 }

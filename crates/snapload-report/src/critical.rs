@@ -49,7 +49,7 @@ pub struct Probability {
     probability: Vec<Point>,
 }
 
-/// The amplitudes from which 5, 50 and 95 % of the neighbours exceed.
+/// The smallest amplitudes at which at least 5, 50 and 95 % of the neighbours exceed.
 #[derive(Serialize)]
 struct Passes {
     p05: Option<f64>,

@@ -42,4 +42,7 @@ pub use study::{Drawn, Study};
 pub use sweep::{Ending, sweep};
 pub use table::{Column, Run, Take, columns};
 pub use threads::threads_for;
-pub use whole::{Shown, Tally, columns_of_files, ends, identity_of, merge, read_all, read_shown};
+pub use whole::{
+    Shown, Tally, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
+    read_shown,
+};

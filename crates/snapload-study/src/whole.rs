@@ -329,26 +329,48 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
         .collect()
 }
 
-/// The identity of a study's file, and its columns, some tens of thousands of rows at a time;
-/// nothing if it is another file.
+/// What a study's file says of itself, once its bytes are compared with its checksum; nothing if it
+/// is another file.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if the file can not be read, or is not as it was written.
-pub fn read_all(
-    path: &Path,
-    mut visit: impl FnMut(Vec<Values>),
-) -> Result<Option<Identity>, StudyError> {
+pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
     let Some(identity) = identity(&open(path)?) else {
         return Ok(None);
     };
-    if let Some(why) = flaw(path) {
-        return Err(StudyError::damaged(path, why));
+    match flaw(path) {
+        Some(why) => Err(StudyError::damaged(path, why)),
+        None => Ok(Some(identity)),
     }
-    read_groups(path, None, |columns| {
-        visit(columns);
-        Ok(())
-    })?;
-    Ok(Some(identity))
+}
+
+/// One column of a file, some tens of thousands of rows at a time; of these rows, the first of the
+/// file counting as 0.
+///
+/// # Errors
+/// [`StudyError::Damaged`] if it can not be read.
+pub fn read_rows(
+    path: &Path,
+    name: &str,
+    rows: Range<u64>,
+    mut visit: impl FnMut(Values),
+) -> Result<(), StudyError> {
+    let reader = open(path)?;
+    let place = reader.fields().position(|(field, _)| field.name() == name);
+    let place =
+        place.ok_or_else(|| StudyError::damaged(path, format!("it has no column {name}")))?;
+    let mut begin = 0;
+    for (group, count) in reader.groups().enumerate() {
+        let wanted = rows.start.max(begin)..rows.end.min(begin + count);
+        if wanted.start < wanted.end {
+            let here = wanted.start - begin..wanted.end - begin;
+            let read = reader.read(group, &[place], here);
+            let read = read.map_err(|error| StudyError::damaged(path, error))?;
+            read.into_iter().for_each(&mut visit);
+        }
+        begin += count;
+    }
+    Ok(())
 }
 
 fn read_columns(

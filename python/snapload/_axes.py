@@ -1,0 +1,114 @@
+"""The values that keys take in a study."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from csv import writer
+from io import StringIO
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._check import whole
+
+
+def listed(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
+    """The values along one axis: text of a range, or a list."""
+    if isinstance(values, str) and ":" in values:
+        return values
+    array = np.asarray(values)
+    if array.ndim > 1:
+        shape = " x ".join(map(str, array.shape))
+        raise ValueError(
+            f"{key} = an array of {shape} values is not allowed; allowed: one value or a list of them; for pairs of "
+            "values, not all combinations, give cases"
+        )
+    return np.ravel(array)
+
+
+def side(key: str, ends: Any) -> str | tuple[float, float]:
+    """The ends of one side of a box."""
+    if isinstance(ends, str):
+        return ends
+    try:
+        low, high = (float(end) for end in ends)
+    except (TypeError, ValueError):
+        allowed = 'its two ends, such as (0.1, 0.6) or "0.1:0.6"'
+        raise ValueError(f"{key} = {ends!r} is not allowed; allowed with random: {allowed}") from None
+    return low, high
+
+
+def values_of(values: str | NDArray[Any]) -> NDArray[Any]:
+    """All values along an axis."""
+    if isinstance(values, str):
+        first, last, count = values.split(":")
+        return evenly(first.strip(), last.strip(), int(count))
+    return values
+
+
+def table_of(cases: Any) -> bytes:
+    """A table of cases as the CSV file that the command line would read; an empty cell where a value is missing."""
+    names = getattr(cases, "column_names", getattr(cases, "columns", None))
+    if names is None and isinstance(cases, Mapping):
+        names = cases.keys()
+    if names is None:
+        allowed = "a DataFrame, a dict of columns, or the path of a CSV or Parquet file"
+        raise TypeError(f"cases, a {type(cases).__name__}, is not allowed; allowed: {allowed}")
+    counts = {key["name"] for key in _engine.keys() if key["kind"] == "int"}
+    columns = []
+    for name in map(str, names):
+        column = cases[name]
+        values = np.ravel(column.to_numpy() if hasattr(column, "to_numpy") else np.asarray(column)).tolist()
+        columns.append([_cell(value, name in counts) for value in values])
+    if len({len(column) for column in columns}) > 1:
+        lengths = ", ".join(f"{name}: {len(column)}" for name, column in zip(names, columns, strict=True))
+        raise ValueError(f"cases has columns of several lengths ({lengths}); allowed: as many values of each key")
+    text = StringIO()
+    writer(text, lineterminator="\n").writerows([map(str, names), *zip(*columns, strict=True)])
+    return text.getvalue().encode()
+
+
+def _cell(value: Any, count: bool) -> str:
+    if value is None or value != value or type(value).__name__ == "NAType":
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    # A column of whole numbers in which some are missing is one of floats in pandas.
+    return str(int(value)) if count and isinstance(value, float) and value.is_integer() else str(value)
+
+
+def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.float64]:
+    """Evenly spaced values, each the double nearest to the decimal that one would write.
+
+    Parameters
+    ----------
+    first, last : float or str
+        The first and the last value.
+    count : int
+        How many, both among them.
+
+    Returns
+    -------
+    numpy.ndarray, shape (count,)
+        The values. ``numpy.linspace`` rounds on the way, so that some of its values are a last digit off the decimal;
+        in a chaotic motion that is another case.
+
+    Raises
+    ------
+    ValueError
+        If they are no range.
+
+    See Also
+    --------
+    snapload.sweep
+
+    Examples
+    --------
+    >>> import numpy, snapload
+    >>> float(snapload.evenly(0.1, 0.5, 5)[2]), float(numpy.linspace(0.1, 0.5, 5)[2])
+    (0.3, 0.30000000000000004)
+    """
+    words = [str(bound) if isinstance(bound, str) else repr(float(bound)) for bound in (first, last)]
+    return np.frombuffer(_engine.evenly(words[0], words[1], whole("count", count, 1, 10**9)))

@@ -1,0 +1,40 @@
+"""What all results have in common."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any, ClassVar
+
+import numpy as np
+
+
+class Result:
+    """Equal where all that it holds is equal, arrays among it; shown by what stands in ``_shown``."""
+
+    _shown: ClassVar[tuple[str, ...]] = ()
+    __hash__ = None  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(same(getattr(self, name), getattr(other, name)) for name in _names(self))
+
+    def __repr__(self) -> str:
+        words = [f"{name}={_short(getattr(self, name))}" for name in self._shown or _names(self)]
+        more = ", ..." if self._shown else ""
+        return f"{type(self).__name__}({', '.join(words)}{more})"
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two values are equal, arrays by what they hold."""
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        return np.asarray(one).dtype == np.asarray(other).dtype and np.array_equal(one, other)  # type: ignore[arg-type]
+    return one == other
+
+
+def _names(result: Any) -> list[str]:
+    return [field.name for field in fields(result)]
+
+
+def _short(value: object) -> str:
+    return np.array2string(value, threshold=6, separator=", ") if isinstance(value, np.ndarray) else repr(value)

@@ -1,0 +1,64 @@
+"""How impacts change with each key."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import _engine
+from ._case import Case
+from ._check import engine_of, whole
+from ._table import Table
+
+
+def sensitivities(case: Case, impacts: int = 3) -> Table:
+    """The derivatives of the first impacts of a case by every key that its motion depends on.
+
+    Parameters
+    ----------
+    case : Case
+        The case.
+    impacts : int
+        How many impacts.
+
+    Returns
+    -------
+    Table
+        A row an impact and key: ``impact``, from 1, ``key``, and the derivatives ``t``, ``v_n`` and ``impulse``, each
+        in its own unit over that of the key. Empty where the start, on the very edge of what is legal, has no
+        neighbours.
+
+    Raises
+    ------
+    ValueError
+        If `impacts` is no whole number above 0.
+
+    See Also
+    --------
+    snapload.Run.exponents : how fast deviations grow in the long run.
+
+    Notes
+    -----
+    They are exact to rounding: the motion is run over dual numbers, once for each key. All else is held; the inertia
+    follows the size of the body where it is the natural one.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> table = snapload.sensitivities(snapload.Case(f_o=0.31), impacts=1)
+    >>> row = next(row for row in table if row["key"] == "f_o")
+    >>> row["impact"], round(row["t"], 3)
+    (1, -0.12)
+    """
+    rows = _engine.sensitivities(engine_of(case), whole("impacts", impacts, 1, 10**6))
+    numbers, keys, *slopes = zip(*rows, strict=True) if rows else ((),) * 5
+    derivatives = zip(("t", "v_n", "impulse"), ("T", "L/T", "m L/T"), slopes, strict=True)
+    return Table._of(
+        [
+            ("impact", "", "number of the impact", np.array(numbers, dtype=np.int64)),
+            ("key", "", "key by which is derived", np.array(keys, dtype=str)),
+            *(
+                (name, f"{unit} over the unit of the key", f"derivative of {name}", np.array(values, dtype=np.float64))
+                for name, unit, values in derivatives
+            ),
+        ]
+    )
