@@ -21,6 +21,7 @@ from ._case import Case, cases
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._neighbours import Ensemble, Share, ensemble
+from ._reproduce import reproduce
 from ._run import End, Norms, Outcome, Run, Trust
 from ._sensitivities import sensitivities
 from ._sweep import merge, open_study, sweep
@@ -46,6 +47,7 @@ __all__ = [
     "evenly",
     "merge",
     "open_study",
+    "reproduce",
     "sensitivities",
     "sweep",
     "verify",

@@ -2,6 +2,7 @@
 //! crates. What makes it pleasant to use is the typed Python around it, in `python/snapload`.
 
 mod case;
+mod command;
 mod critical;
 mod errors;
 mod interrupt;
@@ -20,6 +21,8 @@ mod _engine {
 
     #[pymodule_export]
     use super::case::Case;
+    #[pymodule_export]
+    use super::command::{command, reproduce};
     #[pymodule_export]
     use super::critical::{critical_force, critical_force_over, probability};
     #[pymodule_export]

@@ -70,7 +70,7 @@ def test_what_is_public_says_what_it_returns_and_where_to_go_on(name):
 
 
 #: What reads or writes files that others made.
-FILES = {"Case.from_file", "merge", "Run.animate"}
+FILES = {"Case.from_file", "merge", "reproduce", "Run.animate"}
 
 
 def test_everything_public_is_documented():

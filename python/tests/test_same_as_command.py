@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import asdict
 from pathlib import Path
 
@@ -220,3 +222,24 @@ def test_a_file_is_read_as_the_command_reads_it(command_json, tmp_path: Path):
     path.write_text("a == 2")
     with pytest.raises(ValueError, match="mooring.toml"):
         snapload.Case.from_file(path)
+
+
+def test_the_command_of_the_package_is_the_command(command, tmp_path: Path):
+    def run(*args: str, folder: Path = tmp_path) -> subprocess.CompletedProcess[str]:
+        words = [sys.executable, "-m", "snapload", *args]
+        return subprocess.run(words, capture_output=True, text=True, cwd=folder, timeout=60)
+
+    for line in (["run", "--json", "-"], ["--version"], ["keys"], ["run", "--help"]):
+        assert run(*line).stdout == command(*line)
+    bad = run("run", "--set", "e=2")
+    assert (bad.returncode, bad.stdout, bad.stderr) == (2, "", command("run", "--set", "e=2", fails=True))
+    swept = run("sweep", "--vary", "e=0.5,0.9", "--out", "e.parquet")
+    assert swept.returncode == 0 and snapload.open_study(tmp_path / "e.parquet").sizes == {"e": 2}
+
+
+def test_the_report_is_written_where_it_is_asked_for(monkeypatch, tmp_path: Path):
+    files = [("report.html", b"page"), ("figures/6-1.svg", b"figure")]
+    monkeypatch.setattr(snapload._engine, "reproduce", lambda tell: files)
+    page = snapload.reproduce(tmp_path / "chapter" / "6")
+    assert page == tmp_path / "chapter" / "6" / "report.html"
+    assert [(page.parent / name).read_bytes() for name, _ in files] == [contents for _, contents in files]

@@ -117,6 +117,7 @@ def interrupt(call: str, after: str = "", at_work: Callable[[], bool] | None = N
         "snapload.sweep(snapload.Case(), f_o='0.1:0.6:1000', omega='0.5:1.5:1000')",
         "snapload.Case('rocking-example', t_end=1e6).run()",
         "snapload.ensemble(snapload.Case(), 10**7)",
+        "snapload._engine.reproduce(None)",
         "snapload.critical_force(snapload.Case(t_end=1e4, stop_when_settled=False), members=10**6)",
     ],
 )

@@ -7,7 +7,6 @@ pub(crate) use snapload_study::without_number as plain;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, StdoutLock, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 /// Why a command did not do what it was asked.
 #[derive(Debug)]
@@ -93,17 +92,17 @@ impl From<StudyError> for Failure {
 }
 
 /// Says what went wrong on standard error, and chooses the exit status.
-pub(crate) fn exit_code(result: Result<(), Failure>) -> ExitCode {
+pub(crate) fn exit_status(result: Result<(), Failure>) -> u8 {
     let (kind, message, status) = match result {
-        Ok(()) | Err(Failure::ReaderLeft) => return ExitCode::SUCCESS,
-        Err(Failure::Answered(status)) => return ExitCode::from(status),
+        Ok(()) | Err(Failure::ReaderLeft) => return 0,
+        Err(Failure::Answered(status)) => return status,
         Err(Failure::BadInput(message)) => ("error", message, 2),
         Err(Failure::Failed(message)) => ("error", message, 1),
         Err(Failure::Interrupted(message)) => ("interrupted", message, 130),
     };
     // Standard error may be closed too; the status still tells.
     let _ = writeln!(io::stderr(), "{kind}: {message}");
-    ExitCode::from(status)
+    status
 }
 
 /// Writes text to standard output.

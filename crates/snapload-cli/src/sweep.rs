@@ -126,7 +126,8 @@ fn go_on(error: StudyError, rows: u64) -> Failure {
 
 /// The command that was given, with --resume.
 fn resume_command() -> String {
-    let mut words: Vec<String> = std::env::args().skip(1).map(|word| quoted(&word)).collect();
+    let words = crate::WORDS.get().into_iter().flatten();
+    let mut words: Vec<String> = words.map(|word| quoted(&word.to_string_lossy())).collect();
     if !words.iter().any(|word| word == "--resume") {
         words.push("--resume".to_owned());
     }

@@ -1,0 +1,163 @@
+//! The command line of snapload: reads a case, runs it, and writes down what happened.
+//!
+//! It is a library, so that the program `snapload` and the one that comes with the Python package are
+//! one: [`command`].
+
+#[cfg(feature = "structure")]
+mod assess;
+mod bar;
+mod case_input;
+mod cases;
+mod certify;
+mod completions;
+mod critical;
+#[cfg(feature = "structure")]
+mod elastic;
+#[cfg(feature = "explore")]
+mod explore;
+mod failure;
+mod interrupt;
+mod json;
+mod keys;
+mod merge;
+#[cfg(feature = "structure")]
+mod moordyn;
+mod pictures;
+#[cfg(feature = "reproduce")]
+mod reproduce;
+mod run;
+#[cfg(feature = "structure")]
+mod seas;
+mod stage;
+mod standard_output;
+#[cfg(feature = "structure")]
+mod structure_input;
+mod study_input;
+mod study_picture;
+mod study_summary;
+mod sweep;
+mod uncertainty;
+mod verify;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Parser, Subcommand};
+use snapload::CASE_KEYS;
+use std::ffi::OsString;
+use std::sync::OnceLock;
+
+/// Bodies on cables that go slack and snap taut: motion, impacts, tensions.
+#[derive(Parser)]
+#[command(name = "snapload", version, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  snapload run                                 the standard case
+  snapload run --set f_o=0.5                   the same with a stronger force
+  snapload run --case 2910001000-359           a built-in case (list: snapload cases)
+  snapload run mooring.toml --out results      a case of your own, with tables and pictures
+  snapload verify                              the same run with 76 digits beside it
+  snapload critical --over e=0.5:1:11          critical force against restitution
+  snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
+                                               a map of 3060 cases
+  snapload assess cylinder.toml --out note.html
+                                               a structure in metres, with waves: do its lines break?
+  snapload explore                             the standard case on a page in the browser, to look at and change
+
+Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Run one case
+    Run(run::Args),
+    /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
+    Critical(critical::Args),
+    /// Run one case again with many digits, and say where the ordinary run goes wrong
+    Verify(verify::Args),
+    /// Prove a run, impact by impact, and write the proof's claim as a certificate; or check one
+    Certify(certify::Args),
+    /// Run a study: every case of a grid, of random points or of a list, a row each
+    Sweep(sweep::Args),
+    /// Join the parts of a study that was swept on several machines
+    Merge(merge::Args),
+    /// Reproduce the chapter's tables, figures and claims as one report
+    #[cfg(feature = "reproduce")]
+    Reproduce(reproduce::Args),
+    /// Assess a structure in metres and kilograms: do its lines go slack, snap, break?
+    #[cfg(feature = "structure")]
+    Assess(assess::Args),
+    /// Run a structure in many records of an irregular sea: the distribution of snaps and tensions
+    #[cfg(feature = "structure")]
+    Seas(seas::Args),
+    /// Run a structure on lines that stretch, beside the same on lines that do not
+    #[cfg(feature = "structure")]
+    Elastic(elastic::Args),
+    /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
+    #[cfg(feature = "structure")]
+    Moordyn(moordyn::Args),
+    /// Open a page in the browser on which a run moves and answers to every slider
+    #[cfg(feature = "explore")]
+    Explore(explore::Args),
+    /// List the built-in cases
+    Cases,
+    /// Explain the keys of a case: meaning, default, what is allowed
+    Keys,
+    /// Print a completion script for a shell
+    Completions(completions::Args),
+}
+
+/// The words of the command line after the name of the program.
+static WORDS: OnceLock<Vec<OsString>> = OnceLock::new();
+
+/// Does what a command line asks for, whose first word is the name of the program, and gives the
+/// exit status. It is the work of a whole process: it answers Ctrl-C, and may end the process itself.
+pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
+    interrupt::install();
+    let line: Vec<OsString> = line.into_iter().collect();
+    let words = WORDS.get_or_init(|| line.iter().skip(1).cloned().collect());
+    let name = OsString::from("snapload");
+    let cli = Cli::try_parse_from(std::iter::once(&name).chain(words));
+    let cli = cli.unwrap_or_else(|error| refuse(error));
+    let result = match cli.verb {
+        Verb::Run(args) => run::run(&args),
+        Verb::Critical(args) => critical::run(&args),
+        Verb::Verify(args) => verify::run(&args),
+        Verb::Certify(args) => certify::run(&args),
+        Verb::Sweep(args) => sweep::run(&args),
+        Verb::Merge(args) => merge::run(&args),
+        #[cfg(feature = "reproduce")]
+        Verb::Reproduce(args) => reproduce::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Assess(args) => assess::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Seas(args) => seas::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Elastic(args) => elastic::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Moordyn(args) => moordyn::run(&args),
+        #[cfg(feature = "explore")]
+        Verb::Explore(args) => explore::run(&args),
+        Verb::Cases => cases::run(),
+        Verb::Keys => keys::run(),
+        Verb::Completions(args) => completions::run(&args),
+    };
+    failure::exit_status(result)
+}
+
+/// Ends with what is wrong with the command line. Who writes a key as an option is told how keys
+/// are set.
+fn refuse(mut error: clap::Error) -> ! {
+    if error.kind() == ErrorKind::UnknownArgument
+        && error.get(ContextKind::SuggestedArg).is_none()
+        && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)
+        && let Some(key) = CASE_KEYS.nearest(option.trim_start_matches('-'))
+    {
+        let tip = format!("keys of a case are set so: --set {key}=VALUE");
+        let tips = ContextValue::StyledStrs(vec![tip.into()]);
+        error.insert(ContextKind::Suggested, tips);
+    }
+    error.exit()
+}
