@@ -1,0 +1,192 @@
+"""Rehearses a release, as far as one machine without a registry's password can.
+
+    python3 release/rehearse.py --quick    what must agree: versions, metadata, licences, workflows
+    python3 release/rehearse.py            the same, then the wheel: built, installed where there is no Rust, and tried
+
+The second packages every crate, builds the wheel as it is published, which takes some ten minutes, and in a fresh
+environment of Python runs the first page of the manual, the examples of the docstrings and the command.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+MATURIN = "maturin>=1.15,<2"
+#: A link that is right on the page of an index is a whole address.
+LINK = re.compile(r"\]\((?!https?://|#)([^)]+)\)")
+
+
+def main() -> None:
+    wrong = [words for check in (versions, crates, package, texts, workflows, links) for words in check()]
+    if wrong:
+        sys.exit("not ready to be released:\n  " + "\n  ".join(wrong))
+    run(sys.executable, "release/third_party.py", "--check")
+    print("versions, metadata, licences and workflows agree")
+    if "--quick" not in sys.argv:
+        run(
+            "cargo",
+            "package",
+            "--workspace",
+            "--exclude",
+            "snapload-python",
+            "--no-verify",
+            "--locked",
+            "--allow-dirty",
+        )
+        run(sys.executable, "release/third_party.py")
+        wheel()
+
+
+def read(name: str) -> str:
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def run(*words: str | Path, **options: object) -> str:
+    """Runs a command; what it says is shown if it fails."""
+    options = {"cwd": ROOT, "text": True, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, **options}
+    done = subprocess.run([str(word) for word in words], **options)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, words))}\n{done.stdout}")
+    return str(done.stdout)
+
+
+def version() -> str:
+    return tomllib.loads(read("Cargo.toml"))["workspace"]["package"]["version"]
+
+
+def versions() -> Iterator[str]:
+    """One version everywhere."""
+    here = version()
+    manifest = tomllib.loads(read("Cargo.toml"))
+    for name, told in manifest["workspace"]["dependencies"].items():
+        if name.startswith("snapload") and told.get("version") != here:
+            yield f"Cargo.toml: {name} is asked for as {told.get('version')}, and the version is {here}"
+    places = {
+        "CITATION.cff": rf"^version: {re.escape(here)}$",
+        "docs/cite.md": rf"version = \{{{re.escape(here)}\}}",
+        ".zenodo.json": rf'"version": "{re.escape(here)}"',
+        "conda/recipe.yaml": rf'^  version: "{re.escape(here)}"$',
+    }
+    for name, pattern in places.items():
+        if not re.search(pattern, read(name), re.MULTILINE):
+            yield f"{name}: its version is not {here}"
+    log = read("CHANGELOG.md")
+    if "## [Unreleased]" not in log and f"## [{here}]" not in log:
+        yield f"CHANGELOG.md: it tells neither of what is not released nor of {here}"
+
+
+def crates() -> Iterator[str]:
+    """What the index of crates asks for."""
+    about = json.loads(run("cargo", "metadata", "--format-version", "1", "--no-deps", "--locked", stderr=None))
+    for crate in about["packages"]:
+        if crate["publish"] == []:
+            continue
+        for key in ("description", "license", "keywords", "categories", "readme"):
+            if not crate[key]:
+                yield f"{crate['name']}: its Cargo.toml has no {key}"
+        if len(crate["keywords"]) > 5:
+            yield f"{crate['name']}: more than five keywords"
+
+
+def package() -> Iterator[str]:
+    """What the index of Python asks for."""
+    project = tomllib.loads(read("pyproject.toml"))["project"]
+    for key in ("description", "readme", "license", "license-files", "keywords", "classifiers", "scripts"):
+        if not project.get(key):
+            yield f"pyproject.toml: it has no {key}"
+
+
+def texts() -> Iterator[str]:
+    """Files that stand for the project in other places."""
+    about = json.loads(read(".zenodo.json"))
+    if about["title"] not in read("CITATION.cff"):
+        yield ".zenodo.json and CITATION.cff have different titles"
+    known = set(re.findall(r"^@\w+\{(.+?),", read("paper/paper.bib"), re.MULTILINE))
+    for key in sorted(set(re.findall(r"@([a-z]+\d{4}[a-z]*)", read("paper/paper.md"))) - known):
+        yield f"paper/paper.md: {key} is not in paper.bib"
+
+
+def workflows() -> Iterator[str]:
+    """That workflows run what is there."""
+    for file in sorted((ROOT / ".github" / "workflows").glob("*.yml")):
+        for path in re.findall(
+            r"(?:python3?|bash) ((?:release|bench|python)/[\w/.-]+)", file.read_text(encoding="utf-8")
+        ):
+            if not (ROOT / path).exists():
+                yield f"{file.name}: there is no {path}"
+
+
+def links() -> Iterator[str]:
+    """That the pages lead to files that are there."""
+    for name in ("README.md", "RELEASING.md", "SECURITY.md", "CONTRIBUTING.md"):
+        for link in LINK.findall(read(name)):
+            if not (ROOT / link.split("#")[0]).exists():
+                yield f"{name}: there is no {link}"
+
+
+def wheel() -> None:
+    """Builds the wheel and tries it where there is neither Rust nor these sources."""
+    with tempfile.TemporaryDirectory(prefix="rehearsal-") as scratch:
+        room = Path(scratch)
+        tools, fresh = room / "tools", room / "fresh"
+        run(sys.executable, "-m", "venv", tools)
+        run(tools / "bin" / "python", "-m", "pip", "install", "--quiet", MATURIN)
+        profile = os.environ.get("REHEARSAL_PROFILE", "dist")
+        build = [tools / "bin" / "maturin", "build", "--locked", "--out", room, "--profile", profile]
+        print(run(*build).splitlines()[-1].strip())
+        (built,) = room.glob("*.whl")
+        print(f"{built.name}, {built.stat().st_size / 1e6:.1f} MB")
+        with zipfile.ZipFile(built) as contents:
+            names = contents.namelist()
+        for needed in ("LICENSE-THIRD-PARTY", "LICENSE-MIT", "entry_points.txt", "snapload/py.typed"):
+            if not any(name.endswith(needed) for name in names):
+                sys.exit(f"the wheel has no {needed}")
+        if any("tests/" in name for name in names):
+            sys.exit("the wheel holds the tests")
+        run(sys.executable, "-m", "venv", fresh)
+        run(fresh / "bin" / "python", "-m", "pip", "install", "--quiet", built, "pandas")
+        outside = {"PATH": f"{fresh / 'bin'}:/usr/bin:/bin", "HOME": scratch, "MPLBACKEND": "Agg"}
+        if shutil.which("cargo", path=outside["PATH"]):
+            print("there is a cargo in /usr/bin, which the wheel must not need")
+        try_out(room, fresh / "bin", outside)
+    print("the wheel is right")
+
+
+def try_out(room: Path, programs: Path, outside: dict[str, str]) -> None:
+    """The first page of the manual, the examples, and the command, from the wheel."""
+    work = room / "work"
+    work.mkdir()
+    fence = re.search(r"```python\n(import snapload\n.*?)```", read("docs/python.md"), re.DOTALL)
+    assert fence is not None
+    (work / "first.py").write_text(fence[1])
+    run(programs / "python", "first.py", cwd=work, env=outside)
+    examples = (
+        "import doctest, importlib, pkgutil, snapload\n"
+        "names = [m.name for m in pkgutil.iter_modules(snapload.__path__) if not m.name.startswith('__')]\n"
+        "modules = [snapload, *(importlib.import_module(f'snapload.{name}') for name in names)]\n"
+        "results = [doctest.testmod(module) for module in modules]\n"
+        "assert not sum(result.failed for result in results)\n"
+        "print(sum(result.attempted for result in results), 'examples are true')\n"
+    )
+    print(run(programs / "python", "-c", examples, cwd=work, env=outside).strip())
+    for words in (["--version"], ["run"], ["critical"], ["sweep", "--vary", "e=0.5,0.9", "--out", "e.parquet"]):
+        run(programs / "snapload", *words, cwd=work, env=outside)
+    told = run(programs / "snapload", "run", cwd=work, env=outside)
+    first = re.search(r"```text\n(Case .*?)```", read("docs/start.md"), re.DOTALL)
+    if first is None or first[1].split() != told.split():
+        sys.exit(f"the command of the wheel does not say what docs/start.md says:\n{told}")
+
+
+if __name__ == "__main__":
+    main()
