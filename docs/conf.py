@@ -1,5 +1,7 @@
 """The manual as a site: one for the command line, Rust and Python."""
 
+import os
+
 import snapload
 
 project = "snapload"
@@ -7,7 +9,17 @@ author = "The snapload developers"
 copyright = author
 release = version = snapload.__version__
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+if "READTHEDOCS" in os.environ:
+    # Types of other libraries lead to their manuals, where these can be asked for.
+    extensions.append("sphinx.ext.intersphinx")
+    intersphinx_mapping = {
+        "python": ("https://docs.python.org/3", None),
+        "numpy": ("https://numpy.org/doc/stable", None),
+        "matplotlib": ("https://matplotlib.org/stable", None),
+        "pandas": ("https://pandas.pydata.org/docs", None),
+        "xarray": ("https://docs.xarray.dev/en/stable", None),
+    }
 exclude_patterns = ["README.md", "_build"]
 # Everything that is wrong is told, and the tests make an error of it.
 nitpicky = True

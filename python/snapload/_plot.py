@@ -102,12 +102,14 @@ def _stretches(run: Run) -> list[tuple[str, float, float, bool]]:
 
 def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
     r, a, _, h = geometry(run)
-    seen = set()
+    # A label that is given is that of the whole path.
+    only = style.pop("label", None)
+    seen: set[str] = set()
     xs, ys = [0.0], [0.0]
     for mode, start, stop, doubtful in _stretches(run):
         motion = run.at(times_of(run, start, stop))
         colour, width = _MODES[mode]
-        label = "past the horizon" if doubtful else mode
+        label = only or ("past the horizon" if doubtful else mode)
         look = {"color": GREY if doubtful else colour, "linewidth": width, "zorder": 2 if doubtful else 3}
         ax.plot(motion.x, motion.y, **{"label": None if label in seen else label, **look, **style})
         seen.add(label)
@@ -137,6 +139,7 @@ def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
 
 def _over_time(run: Run, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
     """A quantity over time, grey past the horizon. Breaks where a tension jumps are left open."""
+    label = look.pop("label", label)
     for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
         times = times_of(run, start, stop)
         # At the end of a stretch the next one has begun.
@@ -156,13 +159,14 @@ def _rotation(run: Run, ax: Axes, style: dict[str, Any]) -> None:
 
 def _velocities(run: Run, ax: Axes, style: dict[str, Any]) -> None:
     t, v, cable = (run.impacts[name] for name in ("t", "v_n", "cable"))
-    horizon = run._horizon
+    horizon, only = run._horizon, style.pop("label", None)
     for number, (colour, marker) in CABLES.items():
         of_cable = (cable == number) & (v > 0)
         look = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
         for doubtful in (True, False):
             shown = of_cable & ((t >= horizon) == doubtful)
-            label = f"cable {number}" if not doubtful and of_cable.any() else None
+            name = f"cable {number}" if only is None else only
+            label = name if not doubtful and of_cable.any() else None
             ax.plot(t[shown], v[shown], **{"label": label, "color": GREY if doubtful else colour, **look})
     ax.set_ylim(bottom=0)
     _label_time(run, ax, "$v_n$ [L/T]")

@@ -8,6 +8,7 @@ import importlib
 import inspect
 import pickle
 import pkgutil
+import re
 import runpy
 import subprocess
 import sys
@@ -28,6 +29,12 @@ def test_import_loads_nothing_heavy():
 def test_keys_are_those_of_the_schema():
     generated = runpy.run_path(str(ROOT / "python" / "generate_keys.py"))
     assert generated["TARGET"].read_text() == generated["generate"]()
+
+
+def test_the_drawing_of_the_mooring_has_every_key():
+    drawn = (ROOT / "docs" / "images" / "mooring.svg").read_text(encoding="utf-8")
+    words = set(re.findall(r"\w+", " ".join(re.findall(r">([^<>]+)<", drawn))))
+    assert {key["name"] for key in snapload._engine.keys()} <= words
 
 
 def test_types_hold():

@@ -39,6 +39,13 @@ def test_a_picture_shows_the_run(run):
     assert {line.get_color() for line in early.lines} <= {"black", "#999999"}
 
 
+@pytest.mark.parametrize("what", PICTURES)
+def test_a_label_stands_once(run, what):
+    ax = run.plot(what, label="a run")
+    labels = ax.get_legend_handles_labels()[1]
+    assert 0 < labels.count("a run") <= (1 if what in ("trajectory", "rotation") else 2)
+
+
 def test_an_overview_has_all_four(run):
     assert len(run.overview().axes) == 4
     with pytest.raises(ValueError, match="what = 'energy' is not allowed; allowed: 'trajectory', 'rotation'"):
