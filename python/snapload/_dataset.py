@@ -22,17 +22,21 @@ ABOUT = {
     "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
 }
 
+#: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
+#: picture, so that a longer name gives way to that of the column.
+LABEL = 30
+
 
 @cache
 def attributes() -> dict[str, dict[str, str]]:
     """Long name and units of every key and result after CF, from the one schema."""
     described = {}
     for entry in (*_engine.keys(), *_engine.columns()):
-        name, meaning, unit = entry["title"], entry["meaning"], dict(entry["cf"])
-        # Pictures are labelled by long name and unit, which alone does not tell the scale.
-        told = f"{name}, in {unit['scale']}" if unit["scale"] else name
-        words = {"long_name": told, **unit, "comment": "" if name == meaning else meaning}
-        described[entry["name"]] = {key: word for key, word in words.items() if word}
+        name, title, meaning, unit = entry["name"], entry["title"], entry["meaning"], dict(entry["cf"])
+        scale = f", in {unit['scale']}" if unit["scale"] else ""
+        long_name = title + scale if len(f"{title}{scale} [{unit['units']}]") <= LABEL else name + scale
+        words = {"long_name": long_name, **unit, "comment": "" if meaning == long_name else meaning}
+        described[name] = {key: word for key, word in words.items() if word}
     described["error"] = {"long_name": "why there was no run"}
     return described
 

@@ -15,13 +15,15 @@ import numpy as np
 import pytest
 import snapload
 import xarray
+from matplotlib import pyplot
 
 
 def test_a_dataset_is_labelled(tmp_path: Path):
     f_o, e = snapload.evenly(0.1, 0.5, 3), [0.5, 0.9]
     study = snapload.sweep(snapload.Case(), f_o=f_o, e=e)
     assert study.rho1.dims == ("f_o", "e") and study.f_o.values.tolist() == [0.1, 0.3, 0.5]
-    assert study.rho1.attrs == {"long_name": "largest v_n of a snap, in L/T", "units": "1", "scale": "L/T"}
+    about = {"long_name": "rho1, in L/T", "units": "1", "scale": "L/T", "comment": "largest v_n of a snap"}
+    assert study.rho1.attrs == about
     assert study.f_o.attrs["scale"] == "F" and study.e.attrs["units"] == "1"
     assert study.end.sel(f_o=0.3, e=0.9) == "settled"
     flags = dict(zip(study.end_code.flag_values, study.end_code.flag_meanings.split(), strict=True))
@@ -31,6 +33,12 @@ def test_a_dataset_is_labelled(tmp_path: Path):
     with xarray.open_dataset(path, engine="h5netcdf") as again:
         xarray.testing.assert_identical(again.load(), study)
     study.rho1.plot(x="f_o", hue="e")
+    ax = pyplot.gca()
+    ax.figure.canvas.draw()
+    # Labels are whole, in a picture of the usual size.
+    for label in (ax.xaxis.label, ax.yaxis.label):
+        box = label.get_window_extent()
+        assert ax.figure.bbox.containsx(box.x0) and ax.figure.bbox.containsy(box.y0)
 
 
 def test_values_are_the_decimals_that_one_would_write():
