@@ -150,6 +150,11 @@ class Case(KeyValues):
     def replace(self, **keys: Unpack[Keys]) -> Self:
         """The same case with some keys changed; what follows from them, such as the inertia, follows anew.
 
+        Parameters
+        ----------
+        **keys
+            Those to change, as for :class:`Case`; ``inertia=None`` is the natural one.
+
         Returns
         -------
         Case
