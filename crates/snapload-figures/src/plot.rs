@@ -71,7 +71,7 @@ pub enum Layer {
     /// A marker at each point, and their words. They shrink as they grow many, and of thousands
     /// that cover one another some are left out.
     Markers(Vec<Point>, Shape, Colour, String),
-    /// The boundary of a region, thin and grey, and its name, written along it where there is room.
+    /// The boundary of a region, thin, and its name, written along it where there is room.
     /// It enters an automatic range only where there are no data.
     Boundary(Vec<Point>, String),
     /// A dashed line across the plot at a height, and its name, written at its right end.
@@ -161,7 +161,7 @@ pub enum Shape {
 }
 
 /// Red, green and blue. The named ones are those of Okabe and Ito, which colour-blind readers tell
-/// apart, and a grey.
+/// apart. Grey is left to what lies past the horizon of trust.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub struct Colour(pub [u8; 3]);
 
@@ -227,7 +227,6 @@ impl Default for Stroke {
 #[allow(missing_docs)]
 impl Colour {
     pub const BLACK: Self = Self([0x00, 0x00, 0x00]);
-    pub const GREY: Self = Self([0x88, 0x88, 0x88]);
     pub const ORANGE: Self = Self([0xe6, 0x9f, 0x00]);
     pub const SKY_BLUE: Self = Self([0x56, 0xb4, 0xe9]);
     pub const GREEN: Self = Self([0x00, 0x9e, 0x73]);

@@ -7,13 +7,13 @@ use crate::text;
 use kurbo::{Point, Rect};
 use std::fmt::{Arguments, Display, Formatter, Result, Write};
 
-/// The thin grey of boundaries.
-pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::GREY, 0.6, Dash::Solid);
+/// The thin line of boundaries.
+pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Solid);
 /// A dashed line across a plot.
-pub(crate) const ACROSS: Stroke = Stroke::new(Colour::GREY, 0.6, Dash::Dashed);
+pub(crate) const ACROSS: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dashed);
 /// The frame of a plot and its ticks.
 pub(crate) const FRAME: Stroke = Stroke::new(Colour::BLACK, 0.5, Dash::Solid);
-/// The grey of a shaded background.
+/// The grey of a shaded background, what lies past the horizon of trust, and of nothing else.
 const SHADE: &str = "#e6e6e6";
 /// The width of the line of a marker.
 const MARKER_LINE: f64 = 0.6;
@@ -33,7 +33,7 @@ pub(crate) enum Anchor {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Fill {
     Colour(Colour),
-    /// Light grey.
+    /// White.
     Blank,
     /// Grey lines, told from every colour in print, too.
     Hatch,
@@ -155,7 +155,7 @@ impl Sheet {
         }
         let paint = match fill {
             Fill::Colour(colour) => hex(colour),
-            Fill::Blank => SHADE.to_string(),
+            Fill::Blank => "#fff".to_string(),
             Fill::Hatch => "url(#hatch)".to_string(),
             Fill::Doubt => "url(#doubt)".to_string(),
         };

@@ -143,8 +143,8 @@ impl StateFigure {
 
 const BODY: Stroke = Stroke::new(Colour::BLACK, 1.1, Dash::Solid);
 const TAUT: Stroke = Stroke::new(Colour::BLUE, 1.1, Dash::Solid);
-const SLACK: Stroke = Stroke::new(Colour::GREY, 0.8, Dash::Dashed);
-const HELP: Stroke = Stroke::new(Colour::GREY, 0.5, Dash::Dotted);
+const SLACK: Stroke = Stroke::new(Colour::BLACK, 0.6, Dash::Dashed);
+const HELP: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dotted);
 const ARROW: Stroke = Stroke::new(Colour::VERMILION, 1.0, Dash::Solid);
 
 /// Length of an arrow per unit of force.

@@ -25,7 +25,7 @@ const INKS: [Colour; 6] = [
     Colour::GREEN,
     Colour::PURPLE,
     Colour::ORANGE,
-    Colour::GREY,
+    Colour::SKY_BLUE,
 ];
 
 fn line(pieces: Vec<Vec<Point>>, stroke: Stroke, legend: &str) -> Layer {
