@@ -6,7 +6,7 @@ use crate::arithmetic::ball::Ball;
 use crate::case::ExactCase;
 use crate::format::{FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, Written, decimal};
 use crate::proof::prove;
-use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedStretch, Reason};
+use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
 use crate::verdict::{Trouble, with_more_bits};
 use std::ops::ControlFlow;
 
@@ -168,20 +168,23 @@ fn agrees(proved: &Proved, nth: usize, claim: Option<&Line>) -> Result<(), Troub
             impact_agrees(impact, nth, (*cable, t, v_n))
         }
         (Proved::Stretch(ours), Some(Line::Stretch(theirs))) => {
-            let ProvedStretch {
-                cable,
-                from,
-                until,
-                event,
-            } = ours;
-            if theirs.mode != [*cable as u8 + 1] || theirs.event != *event {
+            if theirs.mode != ours.mode() || theirs.event != ours.event {
                 return Err(Trouble::False(format!(
-                    "stretch {nth} is of cable {} and ends with {event}",
-                    cable + 1
+                    "stretch {nth} is of cables {:?} and ends with {}",
+                    ours.mode(),
+                    ours.event
                 )));
             }
-            equals(&format!("the begin of stretch {nth}"), from, &theirs.from)?;
-            equals(&format!("the end of stretch {nth}"), until, &theirs.until)
+            equals(
+                &format!("the begin of stretch {nth}"),
+                &ours.from,
+                &theirs.from,
+            )?;
+            equals(
+                &format!("the end of stretch {nth}"),
+                &ours.until,
+                &theirs.until,
+            )
         }
         _ => Err(Trouble::False(format!(
             "line {nth} of the run is another than is claimed, or more"

@@ -1,4 +1,4 @@
-//! The proof of a run, from nothing but its case: flights, impacts and motion with one taut cable,
+//! The proof of a run, from nothing but its case: flights, impacts and motion with taut cables,
 //! one after the other.
 
 use crate::arithmetic::ball::Ball;
@@ -6,11 +6,12 @@ use crate::case::ExactCase;
 use crate::model::Model;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, ProvedStretch, Reason};
 use crate::run::{Next, Run, Stick, Struck};
-use crate::slack::impact::Impact;
-use crate::slack::search::Zero;
-use crate::taut::run::{Begin, Event, TautEnd, beside_a_taut_cable, slide};
+use crate::slack::search::{Zero, Zeros};
+use crate::taut::begin::{Instants, hull_of};
+use crate::taut::law::{Law, after};
+use crate::taut::run::{Begin, Event, hold};
+use crate::taut::snap::Pair;
 use crate::verdict::Trouble;
-use snapload::Stop;
 use std::ops::ControlFlow;
 
 /// What a proof tells as it goes.
@@ -58,101 +59,123 @@ pub(crate) fn prove(
     }
 }
 
-/// The motion from where a cable sticks to where it flies again, or to the end of the run.
+/// Where cables are taut: the states at the instant, before the laws of what brings that about, and
+/// how the others leave.
+struct Hanging {
+    taut: Vec<usize>,
+    instants: Instants,
+    laws: Vec<Law>,
+    zeros: Zeros,
+}
+
+/// The motion from where a cable sticks to where all fly again, or to the end of the run.
 fn hang(
     run: &mut Run<'_>,
-    mut stick: Stick,
+    stick: Stick,
     tell: &mut dyn FnMut(Proved) -> Result<(), Trouble>,
 ) -> Result<Option<ProvedEnd>, Trouble> {
-    let mut other_opens = false;
-    loop {
-        let cable = stick.cable;
+    let cable = stick.cable;
+    let mut now = Hanging {
+        taut: vec![cable],
+        instants: stick.instants,
+        laws: vec![Law::One {
+            cable,
+            share: Ball::integer(1),
+        }],
+        zeros: Zeros::new(),
+    };
+    while !now.taut.is_empty() {
+        let (_, from) = hull_of(&now.instants);
         let begin = Begin {
-            cable,
-            t: &stick.t,
-            state: &stick.state,
-            other_opens,
+            taut: &now.taut,
+            instants: &now.instants,
+            laws: &now.laws,
+            zeros: &now.zeros,
         };
-        let TautEnd { t, state, event } =
-            slide(run.fine, &begin).map_err(|trouble| trouble.at(stick.t.to_f64()))?;
+        let end = hold(run.fine, &begin);
+        let end = end.map_err(|trouble| trouble.at(from.to_f64()))?;
+        let (state, t) = hull_of(&end.instants);
         tell(Proved::Stretch(ProvedStretch {
-            cable,
-            from: stick.t.clone(),
+            taut: now.taut.clone(),
+            from,
             until: t.clone(),
-            event: words(event, cable),
+            event: words(end.event),
         }))?;
-        match event {
+        now = match end.event {
             Event::Stop(stop) => {
                 let reason = Reason::Stop(stop);
                 return Ok(Some(ProvedEnd { reason, t, state }));
             }
-            Event::Released => {
-                run.take_off(&t, state, vec![(cable, Zero::Released)]);
-                return Ok(None);
+            Event::Released(cable) => {
+                run.slow.clear();
+                now.taut.retain(|other| *other != cable);
+                Hanging {
+                    taut: now.taut,
+                    instants: end.instants,
+                    laws: Vec::new(),
+                    zeros: vec![(cable, Zero::Released)],
+                }
             }
-            Event::Struck => {
-                let end = TautEnd { t, state, event };
-                let (impact, after, stays) = struck(run, cable, end)?;
-                let t = impact.t.clone();
-                let count = run.impacts > run.case.max_impacts;
-                let other = impact.cable;
+            Event::Struck(cable) => {
+                let snap = snapped(run, [cable, 1 - cable], end.instants);
+                let (impact, next) = snap.map_err(|trouble| trouble.at(t.to_f64()))?;
                 tell(Proved::Impact(impact))?;
-                if count {
-                    let reason = Reason::Stop(Stop::ImpactLimit);
-                    let state = after;
-                    return Ok(Some(ProvedEnd { reason, t, state }));
+                match next {
+                    ControlFlow::Break(end) => return Ok(Some(*end)),
+                    ControlFlow::Continue(next) => next,
                 }
-                if !stays {
-                    let zeros = vec![(cable, Zero::Opening), (other, Zero::Opening)];
-                    run.take_off(&t, after, zeros);
-                    return Ok(None);
-                }
-                other_opens = true;
-                stick = Stick {
-                    cable,
-                    t,
-                    state: after,
-                };
             }
-        }
+        };
     }
+    run.take_off(&now.instants, &now.laws, now.zeros)?;
+    Ok(None)
 }
 
-/// The impact of the other cable while one is taut: it, the state after it, and whether the taut one
-/// stays so.
-fn struck(
+/// An impact, and how the motion goes on, or its end.
+type Snapped = (ProvedImpact, ControlFlow<Box<ProvedEnd>, Hanging>);
+
+/// The impact of a cable while the other one is taut.
+fn snapped(
     run: &mut Run<'_>,
-    taut: usize,
-    TautEnd { t, state, .. }: TautEnd,
-) -> Result<(ProvedImpact, [Ball; 6], bool), Trouble> {
-    let other = 1 - taut;
-    let model = run.fine;
-    let impact = Impact::new(model, other, &state)?;
-    let at_rest = Impact::new(model, taut, &state)?;
+    [struck, taut]: [usize; 2],
+    instants: Instants,
+) -> Result<Snapped, Trouble> {
+    let (state, t) = hull_of(&instants);
+    let pair = Pair::new(run.fine, &state, &t, [struck, taut])?;
     run.impacts += 1;
-    let over = &impact.v_n - &model.v_stick;
-    if over.is_negative() || run.case.number("e").is_zero() {
-        let what = "a snap beside a taut cable that may leave both at rest";
-        return Err(Trouble::beyond(what).at(t.to_f64()));
-    }
-    if !over.is_positive() {
-        return Err(Trouble::undecided("v_n against v_stick").at(t.to_f64()));
-    }
-    let ([vx, vy, spin], stays) = beside_a_taut_cable(model, &impact, &at_rest, &state)?;
-    let [x, y, theta, ..] = state;
+    let may_stick = run.is_slow(&pair.struck.v_n, struck)? || run.fine.e.is_zero();
+    run.check_turns()?;
+    let snap = pair.after(may_stick)?;
     let impact = ProvedImpact {
-        cable: other,
-        t,
-        v_n: impact.v_n,
+        cable: struck,
+        t: t.clone(),
+        v_n: pair.struck.v_n.clone(),
     };
-    Ok((impact, [x, y, theta, vx, vy, spin], stays))
+    let sticks = snap.taut.contains(&struck);
+    let next = match run.stop_at_impact(&state[1], sticks, snap.taut.len())? {
+        Some(stop) => {
+            let lost = || Trouble::undecided("the state after an impact");
+            ControlFlow::Break(Box::new(ProvedEnd {
+                reason: Reason::Stop(stop),
+                t,
+                state: after(&snap.rebound, run.fine, &state).ok_or_else(lost)?,
+            }))
+        }
+        None => ControlFlow::Continue(Hanging {
+            taut: snap.taut,
+            instants,
+            laws: snap.goes_on,
+            zeros: snap.zeros,
+        }),
+    };
+    Ok((impact, next))
 }
 
 /// What ends a stretch, as a certificate has it.
-fn words(event: Event, cable: usize) -> String {
+fn words(event: Event) -> String {
     match event {
-        Event::Released => format!("tension {}", cable + 1),
-        Event::Struck => format!("impact {}", 2 - cable),
+        Event::Released(cable) => format!("tension {}", cable + 1),
+        Event::Struck(cable) => format!("impact {}", cable + 1),
         Event::Stop(stop) => stop.name().to_owned(),
     }
 }

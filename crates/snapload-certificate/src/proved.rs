@@ -13,15 +13,22 @@ pub(crate) struct ProvedImpact {
     pub(crate) v_n: Ball,
 }
 
-/// A stretch with one taut cable.
+/// A stretch with taut cables.
 #[derive(Clone, Debug)]
 pub(crate) struct ProvedStretch {
     /// By index from 0.
-    pub(crate) cable: usize,
+    pub(crate) taut: Vec<usize>,
     pub(crate) from: Ball,
     pub(crate) until: Ball,
     /// What ends it, in the words of a certificate.
     pub(crate) event: String,
+}
+
+impl ProvedStretch {
+    /// The taut cables, from 1, as a certificate has them.
+    pub(crate) fn mode(&self) -> Vec<u8> {
+        self.taut.iter().map(|cable| *cable as u8 + 1).collect()
+    }
 }
 
 /// What a run has one after the other.

@@ -10,6 +10,10 @@ use crate::slack::flight::Flight;
 use crate::slack::impact::Impact;
 use crate::slack::search::{Crossing, Zero, Zeros, first_crossing, name};
 use crate::slack::set::Set;
+use crate::taut::begin::{Begun, Instants, begin};
+use crate::taut::free::Free;
+use crate::taut::law::Law;
+use crate::taut::step::Equations;
 use crate::verdict::Trouble;
 use snapload::Stop;
 
@@ -34,15 +38,14 @@ pub(crate) struct Run<'a> {
     /// The cables that are closed where it begins.
     zeros: Zeros,
     pub(crate) impacts: u64,
-    /// The cables of the latest snaps, all of them slower than `v_stick` and without tension.
-    slow: Vec<usize>,
+    /// The cables of the latest snaps, all of them slower than `v_stick`.
+    pub(crate) slow: Vec<usize>,
 }
 
-/// A cable that sticks: the instant, and the state then without a normal velocity.
+/// A cable that sticks, and the states at the instant, just before the impact.
 pub(crate) struct Stick {
     pub(crate) cable: usize,
-    pub(crate) t: Ball,
-    pub(crate) state: State,
+    pub(crate) instants: Instants,
 }
 
 /// What an impact comes to.
@@ -269,7 +272,10 @@ impl<'a> Run<'a> {
         self.impacts += 1;
         let reason = self.rules(cable, &state, &force, &impact)?;
         let stick = match reason {
-            Some(Reason::Sticks) => Some(self.halted(root)?),
+            Some(Reason::Sticks) => Some(Stick {
+                cable,
+                instants: self.instants(root, &impact)?,
+            }),
             _ => None,
         };
         (self.set, self.t, self.slack) = next;
@@ -296,27 +302,50 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// The state at a root with the normal velocity taken away in the mass metric.
-    fn halted(&self, root: &Root) -> Result<Stick, Trouble> {
-        let (state, _) = self.flight(self.fine).at(&root.whole);
-        let impact = Impact::new(self.fine, root.which, &state)?;
-        let [vx, vy, spin] = impact.velocity(&state, &Ball::integer(1));
-        let [x, y, theta, ..] = state;
-        Ok(Stick {
-            cable: root.which,
-            t: &self.t + &root.whole,
-            state: [x, y, theta, vx, vy, spin],
-        })
+    /// The states at an impact, each at its own instant: with δq(τ) = δq + τ δv at a fixed time, the
+    /// instant moves by δt = −G·δq(τ)/v_n, and the state by its rate times that.
+    fn instants(&self, root: &Root, impact: &Impact) -> Result<Instants, Trouble> {
+        let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
+        let (struck, _) = centre.at(&root.centre);
+        let [x, y, theta, vx, vy, spin] = struck;
+        let image = [x, y, theta, vx, vy, spin, &self.t + &root.centre];
+        let (state, force) = self.flight(self.coarse).at(&root.whole);
+        let none = || Trouble::undecided("a cable that does not close");
+        let inverse = impact.v_n.reciprocal().ok_or_else(none)?;
+        let tau = root.whole.with_limbs(self.coarse.limbs);
+        let [_, _, _, vx, vy, spin] = state;
+        let rates = [vx, vy, spin, force.x, force.y, Ball::zero()];
+        let instant: [Ball; 6] = std::array::from_fn(|j| {
+            let along = -(&impact.g[j % 3] * &inverse);
+            if j < 3 { along } else { along * &tau }
+        });
+        let jacobian = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                let Some(rate) = rates.get(i) else {
+                    return instant[j].clone();
+                };
+                let moved = rate * &instant[j];
+                match (i == j, i + 3 == j) {
+                    (true, _) => moved + Ball::integer(1),
+                    (_, true) => moved + &tau,
+                    _ => moved,
+                }
+            })
+        });
+        self.set.mapped(&image, &jacobian)
     }
 
-    /// Flies on from an instant within a ball, and the state then; `zeros` are closed.
-    pub(crate) fn take_off(&mut self, t: &Ball, state: State, zeros: Zeros) {
-        let next = t.centre();
-        let shift = &next - t;
-        self.set = Set::of_box(&self.shifted(state, &shift));
-        self.slack = shift.upper();
-        (self.t, self.zeros) = (next, zeros);
-        self.slow.clear();
+    /// Flies on from where all cables have become slack; `zeros` are closed then.
+    pub(crate) fn take_off(
+        &mut self,
+        instants: &Instants,
+        laws: &[Law],
+        zeros: Zeros,
+    ) -> Result<(), Trouble> {
+        let equations = Equations::of(&Free, self.fine);
+        let Begun { t, set, slack } = begin(&equations, &Free, laws, instants)?;
+        (self.t, self.set, self.slack, self.zeros) = (t, set, slack, zeros);
+        Ok(())
     }
 
     /// A state after a short time along its flight: q + v δ + a δ²/2 with some force of the flight.
@@ -371,43 +400,74 @@ impl<'a> Run<'a> {
         force: &Force,
         impact: &Impact,
     ) -> Result<Option<Reason>, Trouble> {
-        let nth = self.impacts;
-        let sign = |ball: &Ball, what: &str| match (ball.is_negative(), ball.is_positive()) {
+        let slow = self.is_slow(&impact.v_n, cable)?;
+        let sticks = (slow || self.case.number("e").is_zero())
+            && self.sign(&impact.pull(state, force), "the tension")?;
+        if !sticks && slow {
+            self.check_turns()?;
+        }
+        let stop = self.stop_at_impact(&state[1], sticks, usize::from(sticks))?;
+        let stop = stop.map(Reason::Stop);
+        Ok(stop.or(sticks.then_some(Reason::Sticks)))
+    }
+
+    /// Whether a ball is above zero, which is told of the latest impact.
+    fn sign(&self, ball: &Ball, what: &str) -> Result<bool, Trouble> {
+        match (ball.is_negative(), ball.is_positive()) {
             (true, _) => Ok(false),
             (_, true) => Ok(true),
             _ => Err(Trouble::undecided(format!(
-                "{what} at impact {nth}, {:.2e} with a radius of {:.2e}",
+                "{what} at impact {}, {:.2e} with a radius of {:.2e}",
+                self.impacts,
                 ball.to_f64(),
                 ball.radius().to_f64()
             ))),
-        };
-        let fast = sign(&(&impact.v_n - &self.coarse.v_stick), "v_n against v_stick")?;
+        }
+    }
+
+    /// Whether a snap is slower than `v_stick`; it is put to the row of slow ones, or ends it.
+    pub(crate) fn is_slow(&mut self, v_n: &Ball, cable: usize) -> Result<bool, Trouble> {
+        let fast = self.sign(&(v_n - &self.coarse.v_stick), "v_n against v_stick")?;
         if fast {
             self.slow.clear();
         } else {
             self.slow.push(cable);
         }
-        let mut reason = None;
-        if !fast || self.case.number("e").is_zero() {
-            if sign(&impact.pull(state, force), "the tension")? {
-                let height = Decimal::parse(SETTLING_HEIGHT).map(|d| d.ball(self.coarse.limbs));
-                let above = &state[1] - &height.unwrap_or_else(Ball::zero);
-                let high = sign(&above, "the height over that of settling")?;
-                reason = Some(match high {
-                    false if self.case.stop_when_settled => Reason::Stop(Stop::Settled),
-                    true if self.case.stop_when_sliding => Reason::Stop(Stop::SlidingStart),
-                    _ => Reason::Sticks,
-                });
-            } else if self.slow.len() >= SLOW_IN_A_ROW && self.slow.iter().any(|c| *c != cable) {
-                return Err(Trouble::beyond(format!(
-                    "whether two cables that snap slowly in turn come to rest at impact {nth}"
-                )));
+        Ok(!fast)
+    }
+
+    /// Where a row of slow snaps of both cables may bring both to rest at once, the proof ends.
+    pub(crate) fn check_turns(&self) -> Result<(), Trouble> {
+        let both = self.slow.contains(&0) && self.slow.contains(&1);
+        if self.slow.len() < SLOW_IN_A_ROW || !both {
+            return Ok(());
+        }
+        Err(Trouble::beyond(format!(
+            "whether two cables that snap slowly in turn come to rest at impact {}",
+            self.impacts
+        )))
+    }
+
+    /// The rules that are looked at at impacts, at a height, with so many cables taut from now on.
+    pub(crate) fn stop_at_impact(
+        &self,
+        y: &Ball,
+        sticks: bool,
+        taut: usize,
+    ) -> Result<Option<Stop>, Trouble> {
+        if (sticks || taut >= 2) && (self.case.stop_when_settled || self.case.stop_when_sliding) {
+            let height = Decimal::parse(SETTLING_HEIGHT).map(|d| d.ball(self.coarse.limbs));
+            let above = y - &height.unwrap_or_else(Ball::zero);
+            let high = self.sign(&above, "the height over that of settling")?;
+            if !high && self.case.stop_when_settled {
+                return Ok(Some(Stop::Settled));
+            }
+            if high && sticks && self.case.stop_when_sliding {
+                return Ok(Some(Stop::SlidingStart));
             }
         }
-        if self.impacts > self.case.max_impacts && matches!(reason, None | Some(Reason::Sticks)) {
-            reason = Some(Reason::Stop(Stop::ImpactLimit));
-        }
-        Ok(reason)
+        let over = self.impacts > self.case.max_impacts;
+        Ok(over.then_some(Stop::ImpactLimit))
     }
 }
 

@@ -83,7 +83,7 @@ pub fn certify(
 ) -> Result<Result<Certification, String>, Cancelled> {
     // Of all attempts the longest.
     let (mut best, mut bits) = (Lines::new(), 0);
-    let found = with_more_bits(if taut { 2 * FIRST_LIMBS } else { FIRST_LIMBS }, |limbs| {
+    let found = with_more_bits(FIRST_LIMBS, |limbs| {
         let mut impacts = Lines::new();
         let end = attempt(case, limbs, taut, &mut impacts, on_impact);
         if impacts.len() >= best.len() {
@@ -169,7 +169,7 @@ fn written(proved: &Proved) -> Option<Line> {
             Line::Impact(impact.cable as u8 + 1, t, v_n)
         }
         Proved::Stretch(stretch) => Line::Stretch(Stretch {
-            mode: vec![stretch.cable as u8 + 1],
+            mode: stretch.mode(),
             from: fixed(&stretch.from, PLACES)?,
             until: t,
             event: stretch.event.clone(),

@@ -4,8 +4,10 @@
 pub(crate) mod ball;
 pub(crate) mod decimal;
 pub(crate) mod elementary;
+pub(crate) mod interval;
 pub(crate) mod number;
 pub(crate) mod radius;
+pub(crate) mod scalar;
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::model::{FIRST_TOP, Force, Model, State, Watched};
-use crate::slack::search::Path;
+use crate::slack::search::{Path, name};
 
 /// A flight from a state at a time, which is a number.
 pub(crate) struct Flight<'a> {
@@ -65,16 +65,16 @@ impl<'a> Flight<'a> {
 }
 
 impl Path for Flight<'_> {
-    fn limbs(&self) -> usize {
-        self.model.limbs
-    }
-
     fn count(&self) -> usize {
         FIRST_TOP + if self.model.has_corners() { 2 } else { 1 }
     }
 
     fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
         self.model.one_watched(which, &self.at(tau).0)
+    }
+
+    fn words(&self, which: usize) -> String {
+        name(which).to_owned()
     }
 
     fn watched(&self, tau: &Ball) -> Vec<Watched> {

@@ -12,7 +12,7 @@ pub(crate) type Matrix = [[Ball; 6]; 6];
 pub(crate) struct Impact {
     pub(crate) end: CableEnd,
     /// G = (n_x, n_y, s), the derivative of the gap by (x, y, θ) over 2 r.
-    g: [Ball; 3],
+    pub(crate) g: [Ball; 3],
     /// u = M⁻¹ G.
     pub(crate) u: [Ball; 3],
     pub(crate) inverse_w: Ball,
@@ -60,9 +60,13 @@ impl Impact {
     /// T r/w at rest on the taut cable, which has the sign of its tension: |Ṗ|² + D·(f − θ̇² ρ) with
     /// the normal velocity taken away.
     pub(crate) fn pull(&self, state: &State, force: &Force) -> Ball {
-        let [vx, vy, spin] = self.velocity(state, &Ball::integer(1));
+        self.load(&self.velocity(state, &Ball::integer(1)), force)
+    }
+
+    /// r b = |Ṗ|² + D·(f − θ̇² ρ), b = g̈/(2r) without any tension, at a velocity of the body.
+    pub(crate) fn load(&self, [vx, vy, spin]: &[Ball; 3], force: &Force) -> Ball {
         let ([px, py], [dx, dy]) = (&self.end.arm, &self.end.reach);
-        let (ux, uy) = (&vx - &(&spin * py), &vy + &(&spin * px));
+        let (ux, uy) = (vx - &(spin * py), vy + &(spin * px));
         let squared = spin.squared();
         let along = dx * &(&force.x - &(&squared * px)) + dy * &(&force.y - &(&squared * py));
         ux.squared() + uy.squared() + along

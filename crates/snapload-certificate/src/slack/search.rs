@@ -8,6 +8,8 @@ use crate::verdict::Trouble;
 
 /// So many pieces of one flight are looked at before it is given up.
 const MOST_PIECES: u32 = 4000;
+/// So often is the first piece halved where a value leaves zero without a rate.
+const MOST_HALVINGS: u32 = 60;
 
 /// A stretch of time in which one value crosses zero once, rising, for every flight of the set, and
 /// before the end of which nothing else of what is watched reaches zero.
@@ -22,14 +24,14 @@ pub(crate) struct Crossing {
 
 /// A stretch of motion along which values are watched, each of which has to stay below zero.
 pub(crate) trait Path {
-    /// Limbs of its numbers.
-    fn limbs(&self) -> usize;
     /// How many values are watched.
     fn count(&self) -> usize;
     /// One of them, at a ball of times.
     fn one_watched(&self, which: usize, tau: &Ball) -> Watched;
     /// Their second derivatives over all times that differ from `middle` by at most `half`.
     fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball>;
+    /// What is reached where one of them is zero.
+    fn words(&self, which: usize) -> String;
     /// All of them.
     fn watched(&self, tau: &Ball) -> Vec<Watched> {
         (0..self.count())
@@ -47,6 +49,8 @@ pub(crate) trait Path {
 pub(crate) enum Zero {
     /// Its rate is negative.
     Opening,
+    /// Its rate is zero, too, and its second derivative is negative.
+    Lifting,
     /// Its rate and second derivative are zero, too, and its third derivative is negative.
     Released,
 }
@@ -83,8 +87,8 @@ pub(crate) fn first_crossing(
     let mut at: Moment = (lo.clone(), first);
     let mut closed: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
     let mut ahead: Vec<Moment> = Vec::new();
-    if zeros.iter().any(|(_, zero)| *zero == Zero::Released) {
-        at = released(path, &at, zeros, &mut length)?;
+    if zeros.iter().any(|(_, zero)| *zero != Zero::Opening) {
+        at = without_rate(path, &at, (zeros, limit), &mut length)?;
         closed.clear();
     }
     for _ in 0..MOST_PIECES {
@@ -116,7 +120,7 @@ pub(crate) fn first_crossing(
             Piece::Open => {
                 let middle = (&at.0 + &next.0).half().centre();
                 if !(at.0.is_below(&middle) && middle.is_below(&next.0)) {
-                    return Err(undecided(&next));
+                    return Err(undecided(path, &next));
                 }
                 let watched = path.watched(&middle);
                 ahead.push(next);
@@ -124,47 +128,51 @@ pub(crate) fn first_crossing(
             }
         }
     }
-    Err(undecided(&at))
+    Err(undecided(path, &at))
 }
 
-/// The first piece after a cable lost its tension: where its gap, its rate and its second derivative
-/// are zero and the third derivative is negative up to a moment, the gap is below zero after the
-/// begin up to that moment.
-fn released(
+/// The first piece where a value leaves zero without a rate: where the value and its rate are zero
+/// and its second derivative is negative up to a moment, or where that is zero, too, and the third
+/// derivative is negative, the value is below zero after the begin up to that moment.
+fn without_rate(
     path: &impl Path,
     at: &Moment,
-    zeros: &Zeros,
+    (zeros, limit): (&Zeros, &Ball),
     length: &mut f64,
 ) -> Result<Moment, Trouble> {
     let mut step = *length;
-    for _ in 0..60 {
-        let to = (&at.0 + &Ball::double(step)).centre();
-        // It begins at −lo at the earliest.
+    let known: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
+    let slow = zeros.iter().filter(|(_, zero)| *zero != Zero::Opening);
+    let slow: Vec<(usize, Zero)> = slow.copied().collect();
+    let skipped: Vec<usize> = slow.iter().map(|(which, _)| *which).collect();
+    for _ in 0..MOST_HALVINGS {
+        let mut to = (&at.0 + &Ball::double(step)).centre();
+        if !to.is_below(limit) {
+            to = limit.clone();
+        }
+        // The motion begins at −lo at the earliest.
         let half = Ball::double(step)
             .half()
             .upper()
             .plus(at.0.upper().scaled(1));
         let middle = (&at.0 + &Ball::double(step / 2.0)).centre();
-        let falls = zeros.iter().all(|(which, zero)| {
-            *zero != Zero::Released
-                || path
-                    .third(*which, &middle, half)
-                    .is_some_and(|t| t.is_negative())
+        let bends = path.bends(&middle, half);
+        let falls = slow.iter().all(|(which, zero)| match zero {
+            Zero::Released => path
+                .third(*which, &middle, half)
+                .is_some_and(|third| third.is_negative()),
+            _ => bends[*which].is_negative(),
         });
         let next: Moment = (to.clone(), path.watched(&to));
-        let known: Vec<usize> = zeros.iter().map(|(which, _)| *which).collect();
-        let free = zeros.iter().filter(|(_, zero)| *zero == Zero::Released);
-        let below = free
-            .clone()
-            .all(|(which, _)| next.1[*which].value.is_negative());
-        let skipped: Vec<usize> = free.map(|(which, _)| *which).collect();
+        let mut ends = skipped.iter().map(|which| &next.1[*which].value);
+        let below = ends.all(Ball::is_negative);
         if falls && below && others_clear(path, at, &next, &known, &skipped) {
             *length = step;
             return Ok(next);
         }
         step /= 2.0;
     }
-    Err(undecided(at))
+    Err(undecided(path, at))
 }
 
 /// Whether all values but those that are skipped stay below zero over a piece.
@@ -193,14 +201,14 @@ fn others_clear(
 }
 
 /// Which value is nearest to zero there.
-fn undecided((_, watched): &Moment) -> Trouble {
+fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
     let size = |k: &usize| watched[*k].value.to_f64().abs();
     let nearest = (0..watched.len()).min_by(|a, b| size(a).total_cmp(&size(b)));
     let which = nearest.unwrap_or(0);
     let value = watched[which].value.to_f64();
     Trouble::undecided(format!(
         "whether {} is reached, {value:.2e} from it",
-        name(which)
+        path.words(which)
     ))
 }
 
@@ -214,7 +222,7 @@ pub(crate) fn name(which: usize) -> &'static str {
 }
 
 /// What is watched on the ball of times in which the motion begins. What is zero at that instant is
-/// below zero from there to the end of the ball, as its rate is negative on it (or by its third
+/// below zero from there to the end of the ball, as its rate is negative on it (or by a higher
 /// derivative, of which the first piece takes care); all else is below zero.
 fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watched>, Trouble> {
     let first = path.watched(begin);
@@ -222,11 +230,14 @@ fn beginning(path: &impl Path, begin: &Ball, zeros: &Zeros) -> Result<Vec<Watche
         let zero = zeros.iter().find(|(zero, _)| *zero == which);
         let (holds, what) = match zero {
             Some((_, Zero::Opening)) => (watched.rate.is_negative(), "leaves"),
-            Some((_, Zero::Released)) => (true, "leaves"),
+            Some((_, Zero::Lifting | Zero::Released)) => (true, "leaves"),
             None => (watched.value.is_negative(), "is clear"),
         };
         if !holds {
-            let what = format!("whether {} {what} at the begin of a stretch", name(which));
+            let what = format!(
+                "whether {} {what} at the begin of a stretch",
+                path.words(which)
+            );
             return Err(Trouble::undecided(what));
         }
     }

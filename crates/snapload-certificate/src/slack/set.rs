@@ -41,23 +41,23 @@ impl<const N: usize> Set<N> {
         })
     }
 
-    /// The image under a map that takes the centre into `image`, and the Jacobian of which is within
-    /// `jacobian` everywhere on the hull.
+    /// The image under a map into M dimensions that takes the centre into `image`, and the Jacobian of
+    /// which is within `jacobian` everywhere on the hull.
     ///
     /// By the mean value theorem, row by row, the image lies in image + J B r. With any invertible
     /// B' that is c' + B' r', where c' is the middle of `image`, δ its radius and
     /// r' = (B'⁻¹ J B) r + B'⁻¹ δ. Let B'ᵀB' = 1 + E and ε < 1 bound the sums of |E| along rows. Then
     /// B'⁻¹ y = (1 + E)⁻¹ B'ᵀ y, and by Neumann's series (1 + E)⁻¹ z differs from z by no more than
     /// ε/(1 − ε) max |z|, at most 2 ε max |z| for ε ≤ 1/2.
-    pub(crate) fn mapped(
+    pub(crate) fn mapped<const M: usize>(
         &self,
-        image: &[Ball; N],
-        jacobian: &[[Ball; N]; N],
-    ) -> Result<Self, Trouble> {
+        image: &[Ball; M],
+        jacobian: &[[Ball; N]; M],
+    ) -> Result<Set<M>, Trouble> {
         let old = self.axes.map(|row| row.map(Ball::double));
         let moved = product(jacobian, &old);
         let axes = self.new_axes(&moved);
-        let transposed: [[Ball; N]; N] =
+        let transposed: [[Ball; M]; M] =
             std::array::from_fn(|i| std::array::from_fn(|j| Ball::double(axes[j][i])));
         let new = axes.map(|row| row.map(Ball::double));
         let epsilon = departure(&product(&transposed, &new));
@@ -65,16 +65,17 @@ impl<const N: usize> Set<N> {
             return Err(Trouble::undecided("a set of states that has become flat"));
         }
         let turned = product(&transposed, &moved);
-        let reach: [Radius; N] = std::array::from_fn(|i| {
-            (0..N).fold(Radius::ZERO, |sum, j| {
-                let rounding = transposed[i][j].upper().times(image[j].radius());
+        let reach: [Radius; M] = std::array::from_fn(|i| {
+            let carried = (0..N).fold(Radius::ZERO, |sum, j| {
                 sum.plus(turned[i][j].upper().times(self.sides[j]))
-                    .plus(rounding)
+            });
+            (0..M).fold(carried, |sum, j| {
+                sum.plus(transposed[i][j].upper().times(image[j].radius()))
             })
         });
         let largest = reach.iter().copied().max().unwrap_or(Radius::ZERO);
         let more = epsilon.times(largest).scaled(1);
-        Ok(Self {
+        Ok(Set {
             centre: std::array::from_fn(|i| image[i].centre()),
             axes,
             sides: reach.map(|side| side.plus(more)),
@@ -83,10 +84,10 @@ impl<const N: usize> Set<N> {
 
     /// Orthonormal directions along the columns of a matrix, those first along which the set is
     /// longest. How good they are has no part in the proof.
-    fn new_axes(&self, moved: &[[Ball; N]; N]) -> Doubles<N> {
-        let columns: [[f64; N]; N] =
+    fn new_axes<const M: usize>(&self, moved: &[[Ball; N]; M]) -> Doubles<M> {
+        let columns: [[f64; M]; N] =
             std::array::from_fn(|j| std::array::from_fn(|i| moved[i][j].to_f64()));
-        let length = |v: &[f64; N]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let length = |v: &[f64; M]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let longest = self.sides.iter().copied().max().unwrap_or(Radius::ZERO);
         let weight = |j: usize| match longest.is_zero() {
             true => length(&columns[j]),
@@ -94,8 +95,8 @@ impl<const N: usize> Set<N> {
         };
         let mut order: [usize; N] = std::array::from_fn(|j| j);
         order.sort_by(|a, b| weight(*b).total_cmp(&weight(*a)));
-        let units = (0..N).map(|k| std::array::from_fn(|i| f64::from(u8::from(i == k))));
-        let mut found: Vec<[f64; N]> = Vec::with_capacity(N);
+        let units = (0..M).map(|k| std::array::from_fn(|i| f64::from(u8::from(i == k))));
+        let mut found: Vec<[f64; M]> = Vec::with_capacity(M);
         for column in order.map(|j| columns[j]).into_iter().chain(units) {
             let least = 1e-12 * length(&column);
             let mut v = column;
@@ -107,7 +108,7 @@ impl<const N: usize> Set<N> {
                 }
             }
             let size = length(&v);
-            if size > least && size.is_finite() && found.len() < N {
+            if size > least && size.is_finite() && found.len() < M {
                 found.push(v.map(|x| x / size));
             }
         }
@@ -116,10 +117,13 @@ impl<const N: usize> Set<N> {
 }
 
 /// The product of two matrices.
-fn product<const N: usize>(a: &[[Ball; N]; N], b: &[[Ball; N]; N]) -> [[Ball; N]; N] {
+fn product<const M: usize, const K: usize, const N: usize>(
+    a: &[[Ball; K]; M],
+    b: &[[Ball; N]; K],
+) -> [[Ball; N]; M] {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
-            (1..N).fold(&a[i][0] * &b[0][j], |sum, k| sum + &a[i][k] * &b[k][j])
+            (1..K).fold(&a[i][0] * &b[0][j], |sum, k| sum + &a[i][k] * &b[k][j])
         })
     })
 }

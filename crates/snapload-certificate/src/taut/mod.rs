@@ -1,7 +1,13 @@
-//! The proof of motion with one taut cable.
+//! The proof of motion with taut cables.
+pub(crate) mod begin;
+pub(crate) mod chart;
+pub(crate) mod free;
+pub(crate) mod law;
+pub(crate) mod rocking;
 pub(crate) mod run;
 pub(crate) mod series;
 pub(crate) mod sliding;
+pub(crate) mod snap;
 pub(crate) mod step;
 
 #[cfg(test)]

@@ -1,141 +1,40 @@
 //! Taylor coefficients of a motion, order by order: a list of operations on power series, evaluated
-//! over balls, or over balls with their derivatives by the state at the begin.
+//! over balls or intervals, or with their derivatives by the state at the begin.
 
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::elementary::Elementary;
-
-/// Coordinates of taut motion with one cable: φ, θ and their rates.
-pub(crate) const DIMENSION: usize = 4;
-
-/// Numbers that power series are made of.
-pub(crate) trait Scalar: Clone {
-    /// A number that does not depend on the state.
-    fn constant(ball: Ball) -> Self;
-    fn plus(&self, other: &Self) -> Self;
-    fn minus(&self, other: &Self) -> Self;
-    fn times(&self, other: &Self) -> Self;
-    fn scaled(&self, by: &Ball) -> Self;
-    fn over_small(&self, divisor: u64) -> Self;
-    fn reciprocal(&self) -> Option<Self>;
-    fn sin_cos(&self, functions: &Elementary) -> (Self, Self);
-}
-
-impl Scalar for Ball {
-    fn constant(ball: Ball) -> Self {
-        ball
-    }
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-    fn scaled(&self, by: &Ball) -> Self {
-        self * by
-    }
-    fn over_small(&self, divisor: u64) -> Self {
-        Self::over_small(self, divisor)
-    }
-    fn reciprocal(&self) -> Option<Self> {
-        Self::reciprocal(self)
-    }
-    fn sin_cos(&self, functions: &Elementary) -> (Self, Self) {
-        functions.sin_cos(self)
-    }
-}
-
-/// A ball with its derivatives by the four coordinates at the begin.
-#[derive(Clone, Debug)]
-pub(crate) struct Jet {
-    pub(crate) value: Ball,
-    pub(crate) slopes: [Ball; DIMENSION],
-}
-
-impl Jet {
-    /// A coordinate at the begin.
-    pub(crate) fn coordinate(value: Ball, which: usize) -> Self {
-        let slopes = std::array::from_fn(|i| Ball::integer(i64::from(i == which)));
-        Self { value, slopes }
-    }
-
-    fn with(value: Ball, slope: impl Fn(usize) -> Ball) -> Self {
-        let slopes = std::array::from_fn(slope);
-        Self { value, slopes }
-    }
-}
-
-impl Scalar for Jet {
-    fn constant(ball: Ball) -> Self {
-        Self::with(ball, |_| Ball::zero())
-    }
-    fn plus(&self, other: &Self) -> Self {
-        Self::with(&self.value + &other.value, |i| {
-            &self.slopes[i] + &other.slopes[i]
-        })
-    }
-    fn minus(&self, other: &Self) -> Self {
-        Self::with(&self.value - &other.value, |i| {
-            &self.slopes[i] - &other.slopes[i]
-        })
-    }
-    fn times(&self, other: &Self) -> Self {
-        Self::with(&self.value * &other.value, |i| {
-            &self.slopes[i] * &other.value + &self.value * &other.slopes[i]
-        })
-    }
-    fn scaled(&self, by: &Ball) -> Self {
-        Self::with(&self.value * by, |i| &self.slopes[i] * by)
-    }
-    fn over_small(&self, divisor: u64) -> Self {
-        Self::with(self.value.over_small(divisor), |i| {
-            self.slopes[i].over_small(divisor)
-        })
-    }
-    fn reciprocal(&self) -> Option<Self> {
-        let inverse = self.value.reciprocal()?;
-        let slope = -inverse.squared();
-        Some(Self::with(inverse, |i| &slope * &self.slopes[i]))
-    }
-    fn sin_cos(&self, functions: &Elementary) -> (Self, Self) {
-        let (sine, cosine) = functions.sin_cos(&self.value);
-        let first = Self::with(sine.clone(), |i| &cosine * &self.slopes[i]);
-        let second = Self::with(cosine.clone(), |i| -(&sine * &self.slopes[i]));
-        (first, second)
-    }
-}
+use crate::arithmetic::scalar::Scalar;
 
 /// The place of a series in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Term(usize);
 
-enum Operation {
+enum Operation<C> {
     Coordinate(usize),
-    Constant(Ball),
+    Constant(C),
     /// Ωt, of the time since the begin.
-    Phase(Ball),
+    Phase(C),
     Add(Term, Term),
     Subtract(Term, Term),
     Multiply(Term, Term),
-    Scale(Term, Ball),
+    Scale(Term, C),
     Reciprocal(Term),
+    Root(Term),
     /// Its cosine is the next in the list.
     Sine(Term),
     Cosine(Term),
 }
 
 /// A system of differential equations and what is to be known along its motion.
-pub(crate) struct Program {
-    operations: Vec<Operation>,
+pub(crate) struct Program<C = Ball> {
+    operations: Vec<Operation<C>>,
     /// The derivatives of the coordinates by time.
     pub(crate) rates: Vec<Term>,
     /// What is watched.
     pub(crate) outputs: Vec<Term>,
 }
 
-impl Program {
+impl Program<Ball> {
     pub(crate) fn new() -> Self {
         Self {
             operations: Vec::new(),
@@ -144,7 +43,7 @@ impl Program {
         }
     }
 
-    fn push(&mut self, operation: Operation) -> Term {
+    fn push(&mut self, operation: Operation<Ball>) -> Term {
         self.operations.push(operation);
         Term(self.operations.len() - 1)
     }
@@ -173,31 +72,75 @@ impl Program {
     pub(crate) fn reciprocal(&mut self, a: Term) -> Term {
         self.push(Operation::Reciprocal(a))
     }
+    pub(crate) fn root(&mut self, a: Term) -> Term {
+        self.push(Operation::Root(a))
+    }
+    pub(crate) fn negate(&mut self, a: Term) -> Term {
+        self.scale(a, Ball::integer(-1))
+    }
+    pub(crate) fn dot(&mut self, a: [Term; 2], b: [Term; 2]) -> Term {
+        let [x, y] = [self.multiply(a[0], b[0]), self.multiply(a[1], b[1])];
+        self.add(x, y)
+    }
+    pub(crate) fn sum(&mut self, a: [Term; 2], b: [Term; 2]) -> [Term; 2] {
+        [self.add(a[0], b[0]), self.add(a[1], b[1])]
+    }
+    pub(crate) fn difference(&mut self, a: [Term; 2], b: [Term; 2]) -> [Term; 2] {
+        [self.subtract(a[0], b[0]), self.subtract(a[1], b[1])]
+    }
+    pub(crate) fn times(&mut self, a: [Term; 2], by: Term) -> [Term; 2] {
+        a.map(|term| self.multiply(term, by))
+    }
     pub(crate) fn sin_cos(&mut self, a: Term) -> (Term, Term) {
         let sine = self.push(Operation::Sine(a));
         (sine, self.push(Operation::Cosine(a)))
     }
 
+    /// The same with other numbers for its constants.
+    pub(crate) fn map<C>(&self, number: impl Fn(&Ball) -> C) -> Program<C> {
+        let operations = self.operations.iter().map(|operation| match operation {
+            Operation::Coordinate(which) => Operation::Coordinate(*which),
+            Operation::Constant(ball) => Operation::Constant(number(ball)),
+            Operation::Phase(ball) => Operation::Phase(number(ball)),
+            Operation::Add(a, b) => Operation::Add(*a, *b),
+            Operation::Subtract(a, b) => Operation::Subtract(*a, *b),
+            Operation::Multiply(a, b) => Operation::Multiply(*a, *b),
+            Operation::Scale(a, ball) => Operation::Scale(*a, number(ball)),
+            Operation::Reciprocal(a) => Operation::Reciprocal(*a),
+            Operation::Root(a) => Operation::Root(*a),
+            Operation::Sine(a) => Operation::Sine(*a),
+            Operation::Cosine(a) => Operation::Cosine(*a),
+        });
+        Program {
+            operations: operations.collect(),
+            rates: self.rates.clone(),
+            outputs: self.outputs.clone(),
+        }
+    }
+}
+
+impl<C: Clone> Program<C> {
     /// All series up to an order; none where something is divided by zero. Each coefficient follows
     /// from those before it:
     ///
     /// (ab)_k = Σ a_i b_{k−i},   (1/a)_k = −(1/a)_0 Σ_{i≥1} a_i (1/a)_{k−i},
+    /// (√a)_k = (a_k − Σ_{0<i<k} (√a)_i (√a)_{k−i})/(2 (√a)_0),
     /// (sin a)_k = Σ i a_i (cos a)_{k−i}/k,   (cos a)_k = −Σ i a_i (sin a)_{k−i}/k,
     ///
     /// and a coordinate's from its rate, y_k = ẏ_{k−1}/k.
-    pub(crate) fn expand<S: Scalar>(
+    pub(crate) fn expand<S: Scalar<Constant = C>, const N: usize>(
         &self,
-        begin: &[S; DIMENSION],
-        time: &Ball,
+        begin: &[S; N],
+        time: &S,
         order: usize,
         functions: &Elementary,
-    ) -> Option<Expansion<S>> {
+    ) -> Option<Expansion<S, N>> {
         let mut list: Vec<Vec<S>> = self.operations.iter().map(|_| Vec::new()).collect();
-        let mut state: [Vec<S>; DIMENSION] = std::array::from_fn(|j| vec![begin[j].clone()]);
+        let mut state: [Vec<S>; N] = std::array::from_fn(|j| vec![begin[j].clone()]);
         for k in 0..=order {
             if k > 0 {
                 for (series, rate) in state.iter_mut().zip(&self.rates) {
-                    series.push(list[rate.0][k - 1].over_small(k as u64));
+                    series.push(list[rate.0][k - 1].over_small(k as u32));
                 }
             }
             for at in 0..self.operations.len() {
@@ -213,57 +156,74 @@ impl Program {
         Some(Expansion { state, outputs })
     }
 
-    fn coefficient<S: Scalar>(
+    /// The outputs of numbers in place of coordinates, which do not move.
+    pub(crate) fn evaluate<S: Scalar<Constant = C>, const N: usize>(
+        &self,
+        begin: &[S; N],
+        functions: &Elementary,
+    ) -> Option<Vec<S>> {
+        let found = self.expand(begin, &S::zero(), 0, functions)?;
+        let outputs = found.outputs.into_iter();
+        outputs.map(|series| series.into_iter().next()).collect()
+    }
+
+    fn coefficient<S: Scalar<Constant = C>, const N: usize>(
         &self,
         at: usize,
         k: usize,
         list: &[Vec<S>],
-        state: &[Vec<S>; DIMENSION],
-        time: &Ball,
+        state: &[Vec<S>; N],
+        time: &S,
         functions: &Elementary,
     ) -> Option<S> {
-        let zero = || S::constant(Ball::zero());
+        let product = |a: &[S], b: &[S]| {
+            let pairs = a.iter().zip(b.iter().rev());
+            pairs
+                .filter(|(a, b)| !(a.is_nothing() || b.is_nothing()))
+                .map(|(a, b)| a.times(b))
+                .reduce(|sum, term| sum.plus(&term))
+                .unwrap_or_else(S::zero)
+        };
+        // Σ i a_i b_{k−i}/k.
         let angle_sum = |angle: Term, other: usize| {
-            let terms = (1..=k).map(|i| {
-                let part = list[angle.0][i].times(&list[other][k - i]);
-                part.scaled(&Ball::integer(i as i64))
-            });
+            let a = list[angle.0][1..=k].iter().enumerate();
+            let terms = a
+                .filter(|(_, a)| !a.is_nothing())
+                .map(|(i, a)| a.times_small(i as u32 + 1).times(&list[other][k - i - 1]));
             let sum = terms.reduce(|sum, term| sum.plus(&term));
-            sum.unwrap_or_else(zero).over_small(k as u64)
+            sum.unwrap_or_else(S::zero).over_small(k as u32)
         };
         Some(match &self.operations[at] {
             Operation::Coordinate(which) => state[*which][k].clone(),
-            Operation::Constant(ball) if k == 0 => S::constant(ball.clone()),
-            Operation::Phase(omega) if k == 0 => S::constant(omega * time),
-            Operation::Phase(omega) if k == 1 => S::constant(omega.clone()),
-            Operation::Constant(_) | Operation::Phase(_) => zero(),
+            Operation::Constant(constant) if k == 0 => S::constant(constant),
+            Operation::Phase(omega) if k == 0 => time.scaled(omega),
+            Operation::Phase(omega) if k == 1 => S::constant(omega),
+            Operation::Constant(_) | Operation::Phase(_) => S::zero(),
             Operation::Add(a, b) => list[a.0][k].plus(&list[b.0][k]),
             Operation::Subtract(a, b) => list[a.0][k].minus(&list[b.0][k]),
             Operation::Scale(a, by) => list[a.0][k].scaled(by),
-            Operation::Multiply(a, b) => {
-                let terms = (0..=k).map(|i| list[a.0][i].times(&list[b.0][k - i]));
-                terms
-                    .reduce(|sum, term| sum.plus(&term))
-                    .unwrap_or_else(zero)
-            }
+            Operation::Multiply(a, b) => product(&list[a.0], &list[b.0]),
             Operation::Reciprocal(a) if k == 0 => list[a.0][0].reciprocal()?,
             Operation::Reciprocal(a) => {
-                let terms = (1..=k).map(|i| list[a.0][i].times(&list[at][k - i]));
-                let sum = terms
-                    .reduce(|sum, term| sum.plus(&term))
-                    .unwrap_or_else(zero);
-                zero().minus(&sum.times(&list[at][0]))
+                let sum = product(&list[a.0][1..], &list[at]);
+                S::zero().minus(&sum.times(&list[at][0]))
             }
-            Operation::Sine(a) if k == 0 => list[a.0][0].sin_cos(functions).0,
-            Operation::Cosine(a) if k == 0 => list[a.0][0].sin_cos(functions).1,
+            Operation::Root(a) if k == 0 => list[a.0][0].sqrt()?,
+            Operation::Root(a) => {
+                let sum = product(&list[at][1..], &list[at][1..]);
+                let inverse = list[at][0].reciprocal()?;
+                list[a.0][k].minus(&sum).times(&inverse).over_small(2)
+            }
+            Operation::Sine(a) if k == 0 => list[a.0][0].sin_cos(functions)?.0,
+            Operation::Cosine(a) if k == 0 => list[a.0][0].sin_cos(functions)?.1,
             Operation::Sine(a) => angle_sum(*a, at + 1),
-            Operation::Cosine(a) => zero().minus(&angle_sum(*a, at - 1)),
+            Operation::Cosine(a) => S::zero().minus(&angle_sum(*a, at - 1)),
         })
     }
 }
 
 /// Power series of a motion.
-pub(crate) struct Expansion<S> {
-    pub(crate) state: [Vec<S>; DIMENSION],
+pub(crate) struct Expansion<S, const N: usize> {
+    pub(crate) state: [Vec<S>; N],
     pub(crate) outputs: Vec<Vec<S>>,
 }

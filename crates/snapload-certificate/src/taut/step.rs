@@ -1,205 +1,441 @@
 //! One step of taut motion by its Taylor polynomial, with a bound on what is left out.
 
 use crate::arithmetic::ball::Ball;
+use crate::arithmetic::elementary::Elementary;
+use crate::arithmetic::interval::Interval;
 use crate::arithmetic::radius::Radius;
+use crate::arithmetic::scalar::{Jet, Scalar};
 use crate::model::{Model, Watched};
 use crate::slack::search::Path;
 use crate::slack::set::Set;
-use crate::taut::series::{DIMENSION, Expansion, Jet, Program};
-use crate::taut::sliding::Coordinates;
+use crate::taut::chart::{Chart, Watch};
+use crate::taut::series::{Expansion, Program};
 use crate::verdict::Trouble;
 
-/// Motion over [0, H] from a set of states at a time, which is a number.
-pub(crate) struct Step<'a> {
-    model: &'a Model,
-    /// H, a number.
-    pub(crate) length: Ball,
-    centre: Expansion<Ball>,
-    whole: Expansion<Jet>,
-    /// Of each coordinate and output the coefficient after the last, over all states passed.
-    rest: Expansion<Ball>,
-    /// From the centre to any state of the set.
-    spread: Coordinates,
-    /// Of each output the coefficients over the set, with the remainder's as the last, and those of its
-    /// first and second derivative.
-    outputs: Vec<[Vec<Ball>; 3]>,
+/// The equations of a motion, with all digits and with those of doubles.
+pub(crate) struct Equations<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) program: Program,
+    pub(crate) few: Program<Interval>,
+    /// For intervals.
+    pub(crate) functions: Elementary,
+    pub(crate) watched: Vec<Watch>,
 }
 
+/// A program with all digits and with those of doubles.
+pub(crate) struct Place {
+    pub(crate) exact: Program,
+    pub(crate) few: Program<Interval>,
+}
+
+impl Place {
+    pub(crate) fn of(exact: Program) -> Self {
+        Self {
+            few: exact.map(Interval::of),
+            exact,
+        }
+    }
+}
+
+impl<'a> Equations<'a> {
+    pub(crate) fn of<const N: usize>(chart: &impl Chart<N>, model: &'a Model) -> Self {
+        let terms = chart.terms(model);
+        Self {
+            model,
+            few: terms.program.map(Interval::of),
+            functions: Elementary::new(2),
+            program: terms.program,
+            watched: terms.watched,
+        }
+    }
+}
+
+/// Motion over [0, H] from a set of states at a time, which is a number.
+pub(crate) struct Step<'a, const N: usize> {
+    equations: &'a Equations<'a>,
+    /// H, a number.
+    pub(crate) length: Ball,
+    centre: Expansion<Ball, N>,
+    /// From all states of the set, with the derivatives by them; the last coefficients are those of
+    /// order n + 1 over all states passed, and stand for all that is left out.
+    whole: Expansion<Jet<Interval, N>, N>,
+    /// From the centre to any state of the set.
+    spread: [Ball; N],
+    /// Of each output the coefficients of the second and third derivative over the set, with the
+    /// remainder's as the last.
+    bends: Vec<[Vec<Interval>; 2]>,
+}
+
+/// What is left out of the polynomial is less than 2 to the power of this times the limbs.
+const REMAINDER_BITS: f64 = 38.0;
+/// How much larger the boxes are than the ranges of the polynomials, those of the states and those of
+/// the derivatives by the begin.
+const ROOM: Radius = Radius::power_of_two(-48);
+const SLOPE_ROOM: Radius = Radius::power_of_two(-24);
+/// So many lengths are tried for a step.
+const MOST_TRIALS: u32 = 40;
+
 /// Terms of the polynomial, by the limbs of its numbers.
-pub(crate) fn order(limbs: usize) -> usize {
+fn order(limbs: usize) -> usize {
     8 + 8 * limbs
 }
 
-impl<'a> Step<'a> {
+impl<'a, const N: usize> Step<'a, N> {
     /// A step of a length of its own choice, at most `most`.
     ///
-    /// Let P be the Taylor polynomial of order N of the solution from a state x of the set X. If for a
-    /// box Y and R, the coefficients of order N + 1 over Y and the times passed, the range of P over
-    /// [0, H] with R [0, H]^(N+1) is within Y for every x, then each solution exists on [0, H], is
-    /// within Y, and is within P + R τ^(N+1) (Nedialkov and Jackson's enclosure of higher order; the
-    /// remainder is Lagrange's).
+    /// Let P be the Taylor polynomial of order n of the solution from a state x of the set X. If for a
+    /// box Y and R, the coefficients of order n + 1 over Y and the times passed, the range of P over
+    /// [0, H] with R [0, H]^(n+1) is within Y for every x, then each solution exists on [0, H], is
+    /// within Y, and is within P + R τ^(n+1) (Nedialkov and Jackson's enclosure of higher order; the
+    /// remainder is Lagrange's). The derivatives by x solve the variational equation, and are
+    /// enclosed alike: their coefficients over Y and a box that is proved to hold them.
     pub(crate) fn new(
-        model: &'a Model,
-        program: &Program,
+        equations: &'a Equations<'a>,
         time: &Ball,
-        set: &Set<DIMENSION>,
+        set: &Set<N>,
         most: f64,
     ) -> Result<Self, Trouble> {
+        let Equations {
+            model,
+            program,
+            few,
+            functions,
+            ..
+        } = equations;
         let n = order(model.limbs);
         let lost = || Trouble::undecided("the forces of a taut motion");
-        let functions = &model.functions;
-        let centre = program.expand(set.centre(), time, n, functions);
+        let centre = program.expand(set.centre(), time, n, &model.functions);
         let centre = centre.ok_or_else(lost)?;
         let hull = set.hull();
-        let jets = std::array::from_fn(|i| Jet::coordinate(hull[i].clone(), i));
-        let whole = program.expand(&jets, time, n, functions).ok_or_else(lost)?;
+        let one = Interval::of(&Ball::integer(1));
+        let jets = std::array::from_fn(|i| Jet::coordinate(Interval::of(&hull[i]), i, &one));
+        let whole = few.expand(&jets, &Jet::constant(&Interval::of(time)), n, functions);
+        let whole = whole.ok_or_else(lost)?;
         let spread = std::array::from_fn(|i| &hull[i] - &set.centre()[i]);
         let mut length = likely_length(&centre, model.limbs).min(most);
-        for _ in 0..12 {
+        for _ in 0..MOST_TRIALS {
             let h = Ball::double(length).with_limbs(model.limbs);
-            if let Some(rest) = enclosed(program, model, time, &whole, &h, n) {
-                let outputs = outputs(&whole, &rest);
+            let wide = enclosed(equations, time, &whole, length);
+            let bits = wide.as_ref().map_or(f64::INFINITY, |wide| wide.bits);
+            let most_bits = -REMAINDER_BITS * model.limbs as f64;
+            let is_little = bits <= most_bits;
+            let rest = wide
+                .filter(|_| is_little)
+                .and_then(|wide| wide.rest(&whole));
+            if let Some(rest) = rest {
+                let whole = with_last(whole, &rest);
                 return Ok(Self {
-                    model,
+                    equations,
                     length: h,
                     centre,
+                    bends: bends(&whole),
                     whole,
-                    rest,
                     spread,
-                    outputs,
                 });
             }
-            length = rounded(length / 2.0);
+            // The remainder falls with the power n + 1 of the length, and a bit faster.
+            let over = if is_little {
+                f64::INFINITY
+            } else {
+                (bits - most_bits) / (n + 1) as f64
+            };
+            length = rounded(length * (-over).exp2().max(0.5));
         }
         Err(Trouble::undecided("an enclosure of the taut motion"))
     }
 
-    /// The states of the set after τ in [0, H]: P of the centre, and by the mean value theorem the
-    /// derivative of P over the set times what is between.
-    pub(crate) fn at(&self, tau: &Ball) -> Coordinates {
-        let power = self.last_power(tau);
-        std::array::from_fn(|i| {
-            let mut sum = horner(&self.centre.state[i], tau) + &self.remainder(i) * &power;
-            for (j, off) in self.spread.iter().enumerate() {
-                sum = sum + self.slope(i, j, tau) * off;
-            }
-            sum
-        })
+    pub(crate) fn limbs(&self) -> usize {
+        self.equations.model.limbs
+    }
+
+    /// The states of the set after τ in [0, H].
+    pub(crate) fn at(&self, tau: &Ball) -> [Ball; N] {
+        std::array::from_fn(|i| self.with_spread(&self.centre.state[i], &self.whole.state[i], tau))
+    }
+
+    /// A polynomial of the centre with what it leaves out, and by the mean value theorem the
+    /// derivatives over the set times what is between.
+    fn with_spread(&self, centre: &[Ball], whole: &[Jet<Interval, N>], tau: &Ball) -> Ball {
+        let slopes = slopes_of(whole, Interval::of(tau)).map(some_ball);
+        let pairs = slopes.iter().zip(&self.spread);
+        let off = pairs.fold(Ball::zero(), |sum, (slope, off)| sum + slope * off);
+        polynomial(centre, whole, tau) + off
     }
 
     /// The set after the whole step.
-    pub(crate) fn end(&self, set: &Set<DIMENSION>) -> Result<Set<DIMENSION>, Trouble> {
+    pub(crate) fn end(&self, set: &Set<N>) -> Result<Set<N>, Trouble> {
         let h = &self.length;
-        let power = self.last_power(h);
-        let image =
-            std::array::from_fn(|i| horner(&self.centre.state[i], h) + &self.remainder(i) * &power);
-        let jacobian = std::array::from_fn(|i| std::array::from_fn(|j| self.slope(i, j, h)));
+        let image = self.centre_at(h);
+        let over = Interval::of(h);
+        let jacobian =
+            std::array::from_fn(|i| slopes_of(&self.whole.state[i], over).map(some_ball));
         set.mapped(&image, &jacobian)
     }
 
-    fn remainder(&self, i: usize) -> Ball {
-        last(&self.rest.state[i])
+    /// The coordinates of the centre after τ in [0, H].
+    fn centre_at(&self, tau: &Ball) -> [Ball; N] {
+        std::array::from_fn(|i| polynomial(&self.centre.state[i], &self.whole.state[i], tau))
     }
 
-    fn slope(&self, i: usize, j: usize, tau: &Ball) -> Ball {
-        let mut series = self.whole.state[i].iter().rev();
-        let first = series
-            .next()
-            .map_or_else(Ball::zero, |jet| jet.slopes[j].clone());
-        series.fold(first, |sum, jet| sum * tau + &jet.slopes[j])
+    /// The set after τ in [0, H], each state at an instant τ* of its own within `whole`, at which the
+    /// output `which` is zero; `centre` is that of the set's centre.
+    ///
+    /// With q(τ, x) the coordinates and f the output, dq/dx = ∂q/∂x + q̇ dτ*/dx and
+    /// dτ*/dx = −(∂f/∂x)/ḟ.
+    pub(crate) fn crossed(
+        &self,
+        which: usize,
+        time: &Ball,
+        [centre, whole]: [&Ball; 2],
+        place: &Place,
+    ) -> Option<([Ball; 7], [[Ball; N]; 7])> {
+        let rate = Interval::of(&self.one_watched(which, whole).rate).reciprocal()?;
+        let slope = slopes_of(&self.whole.outputs[which], Interval::of(whole));
+        let instant = slope.map(|slope| Interval::zero().minus(&slope.times(&rate)));
+        self.moved(time, [centre, whole], instant, place)
     }
 
-    fn last_power(&self, tau: &Ball) -> Ball {
-        let n = self.centre.state[0].len();
-        (1..n).fold(tau.clone(), |power, _| power * tau)
+    /// The map to the state at an instant τ* and that instant, with the derivatives of τ*.
+    fn moved(
+        &self,
+        time: &Ball,
+        [centre, whole]: [&Ball; 2],
+        instant: [Interval; N],
+        place: &Place,
+    ) -> Option<([Ball; 7], [[Ball; N]; 7])> {
+        let over = Interval::of(whole);
+        let at = self.at(whole);
+        let jets: [Jet<Interval, N>; N] = std::array::from_fn(|i| {
+            let series: Vec<Interval> = self.whole.state[i].iter().map(|jet| jet.value).collect();
+            let speed = value_of(&derivative(&series), over);
+            let slopes = slopes_of(&self.whole.state[i], over);
+            Jet {
+                value: Interval::of(&at[i]),
+                slopes: std::array::from_fn(|j| slopes[j].plus(&speed.times(&instant[j]))),
+            }
+        });
+        let jets = place.few.evaluate(&jets, &self.equations.functions)?;
+        let mean = self.centre_at(centre);
+        let state = place
+            .exact
+            .evaluate::<Ball, N>(&mean, &self.equations.model.functions)?;
+        let mut image = state.into_iter().chain([time + centre]);
+        let mut rows = jets.iter().map(|jet| jet.slopes).chain([instant]);
+        let image = std::array::from_fn(|_| image.next().unwrap_or_else(Ball::zero));
+        let rows = std::array::from_fn(|_| rows.next().unwrap_or([Interval::zero(); N]));
+        Some((image, rows.map(|row| row.map(some_ball))))
+    }
+
+    /// The set after a time τ that does not depend on the state.
+    pub(crate) fn at_time(
+        &self,
+        time: &Ball,
+        tau: &Ball,
+        place: &Place,
+        set: &Set<N>,
+    ) -> Result<Set<7>, Trouble> {
+        let fixed = [Interval::zero(); N];
+        let lost = || Trouble::undecided("the state at the end of time");
+        let (image, jacobian) = self
+            .moved(time, [tau, tau], fixed, place)
+            .ok_or_else(lost)?;
+        set.mapped(&image, &jacobian)
+    }
+
+    /// A watched value of the centre after τ.
+    pub(crate) fn centre_value(&self, which: usize, tau: &Ball) -> Ball {
+        polynomial(&self.centre.outputs[which], &self.whole.outputs[which], tau)
     }
 }
 
-fn outputs(whole: &Expansion<Jet>, rest: &Expansion<Ball>) -> Vec<[Vec<Ball>; 3]> {
-    let pairs = whole.outputs.iter().zip(&rest.outputs);
-    let all = pairs.map(|(known, rest)| {
-        let known = known.iter().map(|jet| jet.value.clone());
-        let value: Vec<Ball> = known.chain([last(rest)]).collect();
-        let rate = derivative(&value);
-        let bend = derivative(&rate);
-        [value, rate, bend]
+/// Σ c_k τ^k of the centre, and R τ^(n+1) with the last coefficient of all states.
+fn polynomial<const N: usize>(centre: &[Ball], whole: &[Jet<Interval, N>], tau: &Ball) -> Ball {
+    let rest = whole.last().map_or_else(Interval::zero, |jet| jet.value);
+    horner(centre, tau) + some_ball(rest) * power(tau, centre.len())
+}
+
+/// τ^n.
+fn power(tau: &Ball, n: usize) -> Ball {
+    (1..n).fold(tau.clone(), |power, _| power * tau)
+}
+
+/// The derivatives of a polynomial at τ by the coordinates at the begin.
+fn slopes_of<const N: usize>(whole: &[Jet<Interval, N>], tau: Interval) -> [Interval; N] {
+    std::array::from_fn(|j| {
+        let slopes: Vec<Interval> = whole.iter().map(|jet| jet.slopes[j]).collect();
+        value_of(&slopes, tau)
+    })
+}
+
+/// A ball about an interval; of one without an end, a ball so large that nothing follows from it.
+pub(crate) fn some_ball(interval: Interval) -> Ball {
+    let endless = || Ball::within(Radius::power_of_two(1 << 20));
+    interval.ball().unwrap_or_else(endless)
+}
+
+fn bends<const N: usize>(whole: &Expansion<Jet<Interval, N>, N>) -> Vec<[Vec<Interval>; 2]> {
+    let all = whole.outputs.iter().map(|series| {
+        let value: Vec<Interval> = series.iter().map(|jet| jet.value).collect();
+        let bend = derivative(&derivative(&value));
+        let third = derivative(&bend);
+        [bend, third]
     });
     all.collect()
 }
 
-fn last(series: &[Ball]) -> Ball {
-    series.last().cloned().unwrap_or_else(Ball::zero)
+/// A polynomial with one more coefficient, the last of another.
+fn with_last<S: Scalar, const N: usize>(
+    mut series: Expansion<S, N>,
+    rest: &Expansion<S, N>,
+) -> Expansion<S, N> {
+    let outputs = series.outputs.iter_mut().zip(&rest.outputs);
+    for (series, rest) in series.state.iter_mut().zip(&rest.state).chain(outputs) {
+        series.extend(rest.last().cloned());
+    }
+    series
 }
 
-impl Path for Step<'_> {
-    fn limbs(&self) -> usize {
-        self.model.limbs
-    }
-
+/// An output f is a function of the solution, so that f is its own polynomial with the coefficient
+/// of order n + 1 taken over Y, and a derivative of f that polynomial's derivative: that of order d
+/// has as its Lagrange remainder the derivative of order n + 1 of f, over Y, divided by (n + 1 − d)!.
+impl<const N: usize> Path for Step<'_, N> {
     fn count(&self) -> usize {
-        self.outputs.len()
+        self.bends.len()
     }
 
-    /// An output f is a function of the solution, so that it is its own polynomial with the
-    /// coefficient of order N + 1 taken over Y, and ḟ likewise with (N + 1) times that.
+    fn words(&self, which: usize) -> String {
+        self.equations.watched[which].words()
+    }
+
     fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
-        let [value, rate, _] = &self.outputs[which];
+        let (centre, whole) = (&self.centre.outputs[which], &self.whole.outputs[which]);
+        let rates = derivative(whole);
         Watched {
-            value: horner(value, tau),
-            rate: horner(rate, tau),
+            value: self.with_spread(centre, whole, tau),
+            rate: self.with_spread(&derivative(centre), &rates, tau),
         }
     }
 
     fn bends(&self, middle: &Ball, half: Radius) -> Vec<Ball> {
-        let over = middle.clone().widened(half);
-        let bends = self.outputs.iter().map(|[.., bend]| horner(bend, &over));
-        bends.collect()
+        let over = Interval::of(&middle.clone().widened(half));
+        let bends = self.bends.iter();
+        bends
+            .map(|[bend, _]| some_ball(value_of(bend, over)))
+            .collect()
+    }
+
+    fn third(&self, which: usize, middle: &Ball, half: Radius) -> Option<Ball> {
+        let over = Interval::of(&middle.clone().widened(half));
+        let [_, third] = &self.bends[which];
+        Some(some_ball(value_of(third, over)))
     }
 }
 
 /// Σ c_k τ^k.
 fn horner(coefficients: &[Ball], tau: &Ball) -> Ball {
-    let mut series = coefficients.iter().rev();
-    let first = series.next().cloned().unwrap_or_else(Ball::zero);
-    series.fold(first, |sum, next| sum * tau + next)
+    let series = coefficients.iter().rev();
+    series.fold(Ball::zero(), |sum, next| sum * tau + next)
 }
 
-fn derivative(coefficients: &[Ball]) -> Vec<Ball> {
+/// Σ c_k τ^k.
+fn value_of(coefficients: &[Interval], tau: Interval) -> Interval {
+    let series = coefficients.iter().rev();
+    series.fold(Interval::zero(), |sum, next| sum.times(&tau).plus(next))
+}
+
+fn derivative<S: Scalar>(coefficients: &[S]) -> Vec<S> {
     let terms = coefficients.iter().enumerate().skip(1);
-    terms.map(|(k, c)| c * &Ball::integer(k as i64)).collect()
+    terms.map(|(k, c)| c.times_small(k as u32)).collect()
 }
 
-/// The coefficients of order N + 1 over a box that is proved to hold the motion; none if the box is
-/// too small.
-fn enclosed(
-    program: &Program,
-    model: &Model,
+/// A box that is proved to hold the motion for a length.
+struct Enclosed<'a, const N: usize> {
+    equations: &'a Equations<'a>,
+    length: f64,
+    over: Interval,
+    times: Interval,
+    wide: [Interval; N],
+    /// The logarithm of the largest of what the coefficients of order n + 1 over it add to the state.
+    bits: f64,
+}
+
+/// Such a box; none if the one that is tried is too small.
+fn enclosed<'a, const N: usize>(
+    equations: &'a Equations<'a>,
     time: &Ball,
-    whole: &Expansion<Jet>,
-    h: &Ball,
-    n: usize,
-) -> Option<Expansion<Ball>> {
+    whole: &Expansion<Jet<Interval, N>, N>,
+    length: f64,
+) -> Option<Enclosed<'a, N>> {
+    let h = Ball::double(length);
     let within = h.half().widened(h.upper().scaled(-1));
-    let range: Coordinates = std::array::from_fn(|i| {
-        let series: Vec<Ball> = whole.state[i].iter().map(|jet| jet.value.clone()).collect();
-        horner(&series, &within)
-    });
-    let room = Radius::power_of_two(-48);
-    let wide: Coordinates = std::array::from_fn(|i| range[i].clone().widened(room));
-    let times = time + &within;
-    let rest = program.expand(&wide, &times, n + 1, &model.functions)?;
-    let power = (0..n).fold(h.upper(), |power, _| power.times(h.upper()));
+    let over = Interval::of(&within);
+    let mut wide = [Interval::zero(); N];
+    for (wide, series) in wide.iter_mut().zip(&whole.state) {
+        let series: Vec<Interval> = series.iter().map(|jet| jet.value).collect();
+        *wide = widened(value_of(&series, over), ROOM)?;
+    }
+    let order = whole.state[0].len();
+    let times = Interval::of(&(time + &within));
+    let rest = equations
+        .few
+        .expand(&wide, &times, order, &equations.functions)?;
+    let last = rest.state.iter().map(|series| series.last().copied());
+    let largest = largest(last, length, order)?;
     // The range and what is left out stay within the box if that is less than the room.
-    let fits = rest
-        .state
-        .iter()
-        .all(|series| last(series).upper().times(power) < room);
-    fits.then_some(rest)
+    (largest < ROOM).then(|| Enclosed {
+        equations,
+        length,
+        over,
+        times,
+        wide,
+        bits: largest.to_f64().log2(),
+    })
+}
+
+impl<const N: usize> Enclosed<'_, N> {
+    /// The coefficients of order n + 1 over the box, and their derivatives by the begin; none if the box
+    /// that is tried for the derivatives is too small.
+    fn rest(
+        self,
+        whole: &Expansion<Jet<Interval, N>, N>,
+    ) -> Option<Expansion<Jet<Interval, N>, N>> {
+        let mut jets: [Jet<Interval, N>; N] = std::array::from_fn(|i| Jet::constant(&self.wide[i]));
+        for (jet, series) in jets.iter_mut().zip(&whole.state) {
+            for (slope, range) in jet.slopes.iter_mut().zip(slopes_of(series, self.over)) {
+                *slope = widened(range, SLOPE_ROOM)?;
+            }
+        }
+        let order = whole.state[0].len();
+        let Equations { few, functions, .. } = self.equations;
+        let rest = few.expand(&jets, &Jet::constant(&self.times), order, functions)?;
+        let last = rest.state.iter().flat_map(|series| {
+            let slopes = series.last().map(|jet| jet.slopes);
+            (0..N).map(move |j| slopes.map(|slopes| slopes[j]))
+        });
+        (largest(last, self.length, order)? < SLOPE_ROOM).then_some(rest)
+    }
+}
+
+fn widened(interval: Interval, by: Radius) -> Option<Interval> {
+    Some(Interval::of(&interval.ball()?.widened(by)))
+}
+
+/// The largest of some coefficients of τ^order, over a length.
+fn largest(
+    mut coefficients: impl Iterator<Item = Option<Interval>>,
+    length: f64,
+    order: usize,
+) -> Option<Radius> {
+    let h = Ball::double(length).upper();
+    let power = (1..order).fold(h, |power, _| power.times(h));
+    coefficients.try_fold(Radius::ZERO, |largest, coefficient| {
+        Some(largest.max(coefficient?.upper()?.times(power)))
+    })
 }
 
 /// A length at which the last terms of the polynomial are as small as the digits ask for.
-fn likely_length(centre: &Expansion<Ball>, limbs: usize) -> f64 {
-    let bits = 38.0 * limbs as f64;
+fn likely_length<const N: usize>(centre: &Expansion<Ball, N>, limbs: usize) -> f64 {
+    let bits = REMAINDER_BITS * limbs as f64;
     let mut least = 0.25f64;
     for series in &centre.state {
         for (k, coefficient) in series.iter().enumerate().skip(series.len() - 4) {

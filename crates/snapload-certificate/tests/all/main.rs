@@ -3,4 +3,5 @@ mod alterations;
 mod common;
 mod grazes;
 mod oracle;
+mod probe;
 mod taut;

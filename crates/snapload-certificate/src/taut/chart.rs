@@ -1,0 +1,93 @@
+//! Coordinates of motion with taut cables, in which the lengths of those cables are exact.
+
+use crate::arithmetic::ball::Ball;
+use crate::arithmetic::interval::Interval;
+use crate::arithmetic::scalar::Jet;
+use crate::model::{Model, State};
+use crate::taut::series::{Program, Term};
+use crate::verdict::Trouble;
+
+/// What is watched along a taut motion: each value stays below zero until it ends it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Watch {
+    /// −T of a taut cable, by index from 0.
+    Tension(usize),
+    /// The gap of a slack one.
+    Gap(usize),
+    /// θ − π/2 or −θ − π/2.
+    Rotation,
+    /// The height of a top over the anchors' level.
+    Top,
+}
+
+impl Watch {
+    /// What is reached where it ends the motion.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Self::Tension(cable) => format!("the end of the tension of cable {}", cable + 1),
+            Self::Gap(cable) => format!("the length of cable {}", cable + 1),
+            Self::Rotation => "the rotation limit".to_owned(),
+            Self::Top => "the upper bound".to_owned(),
+        }
+    }
+}
+
+/// The equations of motion as terms and, as their outputs, what is watched.
+pub(crate) struct Terms {
+    pub(crate) program: Program,
+    pub(crate) watched: Vec<Watch>,
+}
+
+impl Terms {
+    /// One more output.
+    pub(crate) fn watch(&mut self, what: Watch, value: Term) {
+        self.watched.push(what);
+        self.program.outputs.push(value);
+    }
+
+    /// Both sides of the rotation limit.
+    pub(crate) fn watch_rotation(&mut self, model: &Model, theta: Term) {
+        let limit = self.program.constant(model.functions.half_pi().clone());
+        let minus_theta = self.program.negate(theta);
+        for angle in [theta, minus_theta] {
+            let over = self.program.subtract(angle, limit);
+            self.watch(Watch::Rotation, over);
+        }
+    }
+}
+
+/// x, y, θ, their rates and a time, with their derivatives by as many numbers.
+pub(crate) type StateJets = [Jet<Interval, 7>; 6];
+
+/// N coordinates, the rates among them, of the motion with some cables taut.
+pub(crate) trait Chart<const N: usize> {
+    fn terms(&self, model: &Model) -> Terms;
+    /// The coordinates of a state in which those cables are taut and have no normal velocity.
+    fn coordinates(&self, model: &Model, state: &State) -> Result<[Ball; N], Trouble>;
+    /// The derivatives of the coordinates of such a state; none where they are not known.
+    fn slopes(&self, model: &Model, state: &StateJets) -> Option<[[Interval; 7]; N]>;
+    /// Its outputs are the state of coordinates.
+    fn place(&self, model: &Model) -> Program;
+}
+
+/// f_x and f_y − 1.
+pub(crate) fn force(p: &mut Program, model: &Model) -> [Term; 2] {
+    let weight = p.constant(Ball::integer(1));
+    if model.is_steady {
+        let nothing = p.constant(Ball::zero());
+        let fx = p.constant(model.f_o.clone());
+        return [fx, p.subtract(nothing, weight)];
+    }
+    let phase = p.phase(model.omega.clone());
+    let (sine, cosine) = p.sin_cos(phase);
+    let fx = p.scale(cosine, model.f_o.clone());
+    let fy = p.scale(sine, &model.nu * &model.f_o);
+    [fx, p.subtract(fy, weight)]
+}
+
+/// R(θ) of a vector of the body, from sin θ and cos θ.
+pub(crate) fn arm(p: &mut Program, [a, b]: [&Ball; 2], [sine, cosine]: [Term; 2]) -> [Term; 2] {
+    let [a_cos, a_sin] = [p.scale(cosine, a.clone()), p.scale(sine, a.clone())];
+    let [b_cos, b_sin] = [p.scale(cosine, b.clone()), p.scale(sine, b.clone())];
+    [p.subtract(a_cos, b_sin), p.add(a_sin, b_cos)]
+}
