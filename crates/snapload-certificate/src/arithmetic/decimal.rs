@@ -215,7 +215,12 @@ pub(crate) fn significant(ball: &Ball, digits: i64) -> Option<String> {
     if ball.is_zero() {
         return Some("0".to_owned());
     }
-    let exponent = ball.mid().to_f64().abs().log10().floor() as i64;
+    let exponent = ball.mid().to_f64().abs().log10().floor();
+    if !exponent.is_finite() {
+        // No double is next to it, or it may be zero.
+        return None;
+    }
+    let exponent = exponent as i64;
     (digits - 2..=digits).rev().find_map(|digits| {
         let (sign, magnitude) = rounded(ball, digits - 1 - exponent)?.into_parts();
         let text = magnitude.to_string();
