@@ -291,7 +291,7 @@ def check(text):
             bits = bits * 4 // 3
     except No as no:
         return no.args[0], f"{('', 'refused', 'undecided', 'no certificate')[no.args[0]]}: {no.args[1]}"
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError, ZeroDivisionError) as error:
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError, ZeroDivisionError) as error:
         return (2, "undecided: a division") if type(error) is ZeroDivisionError else (3, f"no certificate: {error!r}")
 
 if __name__ == "__main__":

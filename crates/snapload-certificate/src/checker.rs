@@ -57,7 +57,7 @@ impl Verdict {
 
 /// Checks a certificate.
 pub fn check(text: &str) -> Verdict {
-    let certificate: Written = match serde_json::from_str(text) {
+    let certificate = match Written::read(text) {
         Ok(certificate) => certificate,
         Err(error) => return Verdict::Malformed(error.to_string()),
     };

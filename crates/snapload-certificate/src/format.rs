@@ -2,7 +2,11 @@
 
 use crate::arithmetic::decimal::Decimal;
 use crate::case::{ExactCase, NUMBERS};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
+use std::marker::PhantomData;
 
 /// The format of certificates of slack flight.
 pub(crate) const FORMAT: &str = "snapload-certificate-1";
@@ -20,9 +24,21 @@ pub(crate) struct Written {
     pub(crate) format: String,
     pub(crate) model: String,
     pub(crate) bits: u64,
+    #[serde(deserialize_with = "keyed")]
     pub(crate) case: WrittenCase,
     pub(crate) impacts: Vec<Line>,
+    #[serde(deserialize_with = "keyed")]
     pub(crate) end: WrittenEnd,
+}
+
+impl Written {
+    /// A certificate out of its text.
+    pub(crate) fn read(text: &str) -> Result<Self, serde_json::Error> {
+        let mut json = serde_json::Deserializer::from_str(text);
+        let certificate = keyed(&mut json)?;
+        json.end()?;
+        Ok(certificate)
+    }
 }
 
 /// One after the other what a run has.
@@ -31,7 +47,7 @@ pub(crate) struct Written {
 pub(crate) enum Line {
     /// Cable from 1, time, normal velocity.
     Impact(u8, String, String),
-    Stretch(Stretch),
+    Stretch(#[serde(deserialize_with = "keyed")] Stretch),
 }
 
 impl Line {
@@ -90,6 +106,21 @@ pub(crate) struct WrittenCase {
     stop_when_sliding: bool,
     max_impacts: u64,
     body: String,
+}
+
+/// Something with keys. Without this a list of the values in the order of the keys would do as well.
+fn keyed<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<T, D::Error> {
+    struct Keys<T>(PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Keys<T> {
+        type Value = T;
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("an object with keys")
+        }
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+            T::deserialize(MapAccessDeserializer::new(map))
+        }
+    }
+    deserializer.deserialize_map(Keys(PhantomData))
 }
 
 /// A key that may be null and must be there.

@@ -202,6 +202,51 @@ fn other_shapes_are_no_certificates() {
     }
 }
 
+/// A list of the values in the order of the keys is not what has the keys.
+#[test]
+fn lists_in_place_of_keys_are_no_certificates() {
+    let whole = certificate();
+    let values =
+        |all: &Value, keys: &[&str]| -> Value { keys.iter().map(|key| all[key].clone()).collect() };
+    let top = values(
+        &whole,
+        &["format", "model", "bits", "case", "impacts", "end"],
+    );
+    let mut end = whole.clone();
+    end["end"] = values(&whole["end"], &["reason", "t", "state"]);
+    let mut case = whole.clone();
+    let keys = [
+        "r",
+        "e",
+        "a",
+        "b",
+        "inertia",
+        "f_o",
+        "nu",
+        "omega",
+        "x",
+        "y",
+        "theta",
+        "vx",
+        "vy",
+        "vtheta",
+        "t_end",
+        "v_stick",
+        "stop_when_settled",
+        "stop_when_sliding",
+        "max_impacts",
+        "body",
+    ];
+    case["case"] = values(&whole["case"], &keys);
+    let mut stretch = whole;
+    stretch["format"] = json!("snapload-certificate-2");
+    stretch["impacts"][0] = json!([[2], "0.5", "0.6", "impact 1"]);
+    for altered in [top, end, case, stretch] {
+        let verdict = check(&altered.to_string());
+        assert!(matches!(verdict, Verdict::Malformed(_)), "{verdict:?}");
+    }
+}
+
 /// The times of the ordinary run, however few of their decimals are printed, are not those of the
 /// standard case.
 #[test]
