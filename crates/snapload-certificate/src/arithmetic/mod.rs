@@ -10,6 +10,6 @@ pub(crate) mod radius;
 pub(crate) mod scalar;
 
 #[cfg(test)]
-mod wide_tests;
-#[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod wide_tests;
