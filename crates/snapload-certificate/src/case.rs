@@ -66,8 +66,13 @@ impl ExactCase {
             numbers.push(decimal(key, value.unwrap_or(0.0))?);
         }
         let natural = snapload::natural_inertia(parameters.a, parameters.b);
-        let inertia = match parameters.inertia {
-            Some(inertia) if Some(inertia) != natural => Some(decimal("inertia", inertia)?),
+        // A decimal that was typed is that number, also where the double next to it is that of the size.
+        let inertia = match (parameters.inertia, typed("inertia")) {
+            (Some(_), Some(written)) => Some(written),
+            (Some(inertia), None) if Some(inertia) != natural => {
+                let shortest = Decimal::shortest(inertia);
+                Some(shortest.ok_or_else(|| format!("inertia = {inertia} is no decimal"))?)
+            }
             _ => None,
         };
         let numbers = numbers.try_into().map_err(|_| "a key is missing")?;

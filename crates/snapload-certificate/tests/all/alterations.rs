@@ -269,3 +269,16 @@ fn times_of_the_ordinary_run_are_refused() {
         assert!(why.contains("time of impact"), "{why}");
     }
 }
+
+/// An inertia that was typed is that decimal, also where its double is that of the size.
+#[test]
+fn a_typed_inertia_is_kept() {
+    let typed = "0.010000000000000002";
+    let natural = snapload::natural_inertia(0.1, 0.0);
+    assert_eq!(Some(typed.parse().expect("a number")), natural);
+    let proof = proof(&case_of(&format!("e=0.5 inertia={typed}")));
+    let certificate: Value = serde_json::from_str(&proof.text()).expect("JSON");
+    assert_eq!(certificate["case"]["inertia"], json!(typed));
+    let untyped = self::certificate();
+    assert_eq!(untyped["case"]["inertia"], Value::Null);
+}
