@@ -144,8 +144,7 @@ fn snapped(
     let pair = Pair::new(run.fine, &state, &t, [struck, taut])?;
     run.impacts += 1;
     let may_stick = run.is_slow(&pair.struck.v_n, struck)? || run.fine.e.is_zero();
-    run.check_turns()?;
-    let snap = pair.after(may_stick)?;
+    let snap = pair.after(may_stick, run.is_in_turns())?;
     let impact = ProvedImpact {
         cable: struck,
         t: t.clone(),

@@ -403,8 +403,12 @@ impl<'a> Run<'a> {
         let slow = self.is_slow(&impact.v_n, cable)?;
         let sticks = (slow || self.case.number("e").is_zero())
             && self.sign(&impact.pull(state, force), "the tension")?;
-        if !sticks && slow {
-            self.check_turns()?;
+        if !sticks && self.is_in_turns() {
+            // Its rest of normal velocity is taken away without a tension.
+            return Err(Trouble::beyond(format!(
+                "how a cable leaves that snaps slowly in turn with the other, at impact {}",
+                self.impacts
+            )));
         }
         let stop = self.stop_at_impact(&state[1], sticks, usize::from(sticks))?;
         let stop = stop.map(Reason::Stop);
@@ -436,16 +440,10 @@ impl<'a> Run<'a> {
         Ok(!fast)
     }
 
-    /// Where a row of slow snaps of both cables may bring both to rest at once, the proof ends.
-    pub(crate) fn check_turns(&self) -> Result<(), Trouble> {
+    /// Whether the latest snaps are a row of slow ones with both cables among them.
+    pub(crate) fn is_in_turns(&self) -> bool {
         let both = self.slow.contains(&0) && self.slow.contains(&1);
-        if self.slow.len() < SLOW_IN_A_ROW || !both {
-            return Ok(());
-        }
-        Err(Trouble::beyond(format!(
-            "whether two cables that snap slowly in turn come to rest at impact {}",
-            self.impacts
-        )))
+        both && self.slow.len() >= SLOW_IN_A_ROW
     }
 
     /// The rules that are looked at at impacts, at a height, with so many cables taut from now on.

@@ -7,7 +7,7 @@ use crate::stage::Stage;
 use serde::Serialize;
 use snapload::analysis::Progress;
 use snapload_certificate::{
-    Cancelled, Certification, Decimal, Ended, ExactCase, Verdict, certify, check,
+    Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Verdict, certify, check,
 };
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -17,13 +17,15 @@ const EXAMPLES: &str = "\
 The case is taken as the decimals that it is written in. Its motion is enclosed from impact to impact in
 numbers of many digits: that each one exists, comes next, and is of that cable, and how the run ends.
 Only what was proved is written, each number rounded to nearest at its last digit. The proof covers slack
-flight, impacts and stops; where a cable stays taut it ends, or goes on with --taut as long as one alone does.
+flight, impacts and stops; where a cable stays taut it ends, or goes on with --taut, sliding and rocking.
 
 Examples:
   snapload certify
       the standard case: 290 impacts, proved
   snapload certify --case 1922001000-359 --out square.cert
       a built-in case, with its certificate
+  snapload certify --taut --case sliding-example --set t_end=10
+      through sliding, an accumulation of snaps beside a taut cable, and rocking
   snapload certify --set v_stick=1e-9 --json - | jq .end
       the certificate, for the next program
   snapload certify --check square.cert
@@ -47,7 +49,7 @@ pub(crate) struct Args {
     /// Write the certificate, or what --check finds, as JSON to a file; - is standard output, which then gets nothing else
     #[arg(long, value_name = "FILE|-")]
     json: Option<PathBuf>,
-    /// Go on where a cable stays taut, as far as one cable alone does
+    /// Go on where a cable stays taut: a unit of time of such motion takes some tenths of a second
     #[arg(long, conflicts_with = "check")]
     taut: bool,
     /// Write the certificate of a proof that came to no end, too
@@ -106,7 +108,16 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
 
 /// The case as decimals: what was typed stays as typed.
 fn exact(input: &Input) -> Result<ExactCase, Failure> {
-    let typed = |key: &str| input.written(key).and_then(Decimal::parse);
+    for key in NUMBERS.into_iter().chain(["inertia"]) {
+        let written = input.written(key);
+        if let Some(text) = written.filter(|text| Decimal::typed(text).is_none()) {
+            return Err(Failure::BadInput(format!(
+                "{key} = {text}: a certificate needs a decimal of at most 399 characters and a power of \
+                 ten within 400, such as 0.25 or 1e-6"
+            )));
+        }
+    }
+    let typed = |key: &str| input.written(key).and_then(Decimal::typed);
     ExactCase::of(input.case.parameters(), typed).map_err(Failure::BadInput)
 }
 

@@ -57,6 +57,23 @@ impl Decimal {
         })
     }
 
+    /// A number as people write it, such as `+0.3` or `3E-1`, as a decimal.
+    pub fn typed(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let text = text.strip_prefix('+').unwrap_or(text);
+        let text = text.replace('_', "").replace('E', "e").replace("e+", "e");
+        let text = match text.strip_prefix("-.") {
+            Some(rest) => format!("-0.{rest}"),
+            None => text,
+        };
+        let text = if text.starts_with('.') {
+            format!("0{text}")
+        } else {
+            text
+        };
+        Self::parse(text.trim_end_matches('.').replace(".e", "e").as_str())
+    }
+
     /// The shortest decimal that is read back as this double; none if that is not finite.
     pub fn shortest(value: f64) -> Option<Self> {
         let size = value.abs();

@@ -1,5 +1,6 @@
 //! Balls against exact rationals.
 use crate::arithmetic::ball::Ball;
+use crate::arithmetic::decimal::Decimal;
 use crate::arithmetic::elementary::Elementary;
 use dashu_int::IBig;
 use proptest::prelude::*;
@@ -156,5 +157,25 @@ proptest! {
         let one = s.squared() + c.squared() - Ball::integer(1);
         prop_assert!(!one.is_positive() && !one.is_negative());
         prop_assert!((s.to_f64() - a.sin()).abs() < 1e-15 && (c.to_f64() - a.cos()).abs() < 1e-15);
+    }
+}
+
+/// What is typed in another way is the same number.
+#[test]
+fn decimals_are_read_as_people_write_them() {
+    for (typed, plain) in [
+        ("+0.3000000000000000000001", "0.3000000000000000000001"),
+        ("3.000000000000000000001E-1", "3.000000000000000000001e-1"),
+        (".5", "0.5"),
+        ("-.5e+2", "-0.5e2"),
+        ("1_000", "1000"),
+        ("7.", "7"),
+        ("7.e1", "7e1"),
+    ] {
+        let decimal = Decimal::typed(typed).map(|decimal| decimal.text().to_owned());
+        assert_eq!(decimal.as_deref(), Some(plain), "{typed}");
+    }
+    for text in ["nan", "inf", "1e999", "", "+", "0x10"] {
+        assert!(Decimal::typed(text).is_none(), "{text}");
     }
 }

@@ -12,10 +12,10 @@ use crate::taut::series::{Program, Term};
 pub(crate) enum Law {
     /// Takes `share` of the normal velocity v of a cable away: v → v − share v u/w.
     One { cable: usize, share: Ball },
-    /// The same of a struck cable while another, without normal velocity, keeps none: with q the
-    /// impulse of that one, w p + W q = share v, W p + w_t q = 0,
+    /// The same of a struck cable, and all of the normal velocity v_t of another: with q the impulse
+    /// of that one, w p + W q = share v, W p + w_t q = v_t,
     ///
-    /// p = share v/(w − W²/w_t),   q = −W p/w_t.
+    /// p = (share v − W v_t/w_t)/(w − W²/w_t),   q = (v_t − W p)/w_t.
     Beside {
         struck: usize,
         taut: usize,
@@ -54,6 +54,8 @@ impl Law {
                 let [one, other] =
                     [*struck, *taut].map(|cable| Normal::of(&mut p, model, cable, [x, y], turn));
                 let v = scalar(&mut p, one.g, velocity);
+                let v = p.scale(v, share.clone());
+                let v_taut = scalar(&mut p, other.g, velocity);
                 let coupling = scalar(&mut p, one.u, other.g);
                 let pulled = p.multiply(coupling, other.inverse_w);
                 let shared = p.multiply(coupling, pulled);
@@ -61,14 +63,17 @@ impl Law {
                 let unit = p.constant(Ball::integer(1).with_limbs(model.limbs));
                 let left = p.subtract(unit, shared);
                 let inverse = p.reciprocal(left);
-                let impulse = p.multiply(v, one.inverse_w);
-                let impulse = p.multiply(impulse, inverse);
-                let impulse = p.scale(impulse, share.clone());
-                // −q.
-                let less = p.multiply(pulled, impulse);
+                let passed = p.multiply(pulled, v_taut);
+                let net = p.subtract(v, passed);
+                let net = p.multiply(net, one.inverse_w);
+                let impulse = p.multiply(net, inverse);
+                let lost = p.multiply(coupling, impulse);
+                let other_impulse = p.subtract(v_taut, lost);
+                let other_impulse = p.multiply(other_impulse, other.inverse_w);
                 [0, 1, 2].map(|i: usize| {
-                    let [a, b] = [p.multiply(one.u[i], impulse), p.multiply(other.u[i], less)];
-                    p.subtract(a, b)
+                    let first = p.multiply(one.u[i], impulse);
+                    let second = p.multiply(other.u[i], other_impulse);
+                    p.add(first, second)
                 })
             }
         };

@@ -19,6 +19,12 @@ pub(crate) struct Rocking {
 }
 
 impl Rocking {
+    /// As the body hangs below its anchors where a cos θ < 1.
+    #[cfg(test)]
+    pub(crate) fn hanging() -> Self {
+        Self { sign: 1 }
+    }
+
     /// On the side on which the state is.
     ///
     /// # Errors

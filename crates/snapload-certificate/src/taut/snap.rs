@@ -57,51 +57,78 @@ impl<'a> Pair<'a> {
     }
 
     /// The law of impact, and of what it leaves the taut set. `may_stick` is whether the struck cable
-    /// is slower than `v_stick` or does not bounce.
+    /// is slower than `v_stick` or does not bounce; `in_turns` whether it is the last of a row of slow
+    /// snaps of both cables.
     ///
     /// With W > 0 between them the impulse of the struck cable, (1 + e) v/w, opens the taut one:
     /// its normal velocity becomes −W p < 0. With W < 0 it pulls on the taut one, which stays
     /// without normal velocity by an impulse of its own.
-    pub(crate) fn after(&self, may_stick: bool) -> Result<After, Trouble> {
+    pub(crate) fn after(&self, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
         let all = Ball::integer(1) + &self.model.e;
-        let [struck, taut] = self.cables;
-        if sign(&self.coupling, "whether a snap unloads the taut cable")? {
-            let one = |share: Ball| {
-                vec![Law::One {
-                    cable: struck,
-                    share,
-                }]
-            };
-            let leaves = (taut, Zero::Opening);
-            let sticks =
-                may_stick && sign(&self.struck.pull(self.state, &self.force), "the tension")?;
-            return Ok(if sticks {
-                After {
-                    rebound: one(all),
-                    goes_on: one(Ball::integer(1)),
-                    taut: vec![struck],
-                    zeros: vec![leaves],
-                }
-            } else {
-                After {
-                    rebound: one(all.clone()),
-                    goes_on: one(all),
-                    taut: Vec::new(),
-                    zeros: vec![leaves, (struck, self.struck_leaves())],
-                }
-            });
+        let unloads = sign(&self.coupling, "whether a snap unloads the taut cable")?;
+        let rebound = if unloads {
+            self.alone(all)
+        } else {
+            self.beside(all)
+        };
+        if in_turns && self.leaves_slowly(unloads)? {
+            let halted = self.beside(Ball::integer(1));
+            let carries = self.carrying(&self.velocity(&halted)?, true)?;
+            return Ok(self.at_rest(rebound, halted, carries));
         }
-        let rebound = self.beside(all);
+        if unloads {
+            return self.unloading(rebound, may_stick, in_turns);
+        }
         let halted = if may_stick {
             self.beside(Ball::integer(1))
         } else {
             rebound.clone()
         };
+        let carries = self.carrying(&self.velocity(&halted)?, may_stick)?;
+        Ok(self.loading(rebound, halted, carries))
+    }
+
+    /// The velocity after a law.
+    fn velocity(&self, law: &Law) -> Result<[Ball; 3], Trouble> {
         let lost = || Trouble::undecided("two cables of one effective mass");
-        let [.., vx, vy, spin] =
-            after(std::slice::from_ref(&halted), self.model, self.state).ok_or_else(lost)?;
-        let carries = self.carrying(&[vx, vy, spin], may_stick)?;
-        Ok(self.with(rebound, halted, carries))
+        let state = after(std::slice::from_ref(law), self.model, self.state);
+        let [.., vx, vy, spin] = state.ok_or_else(lost)?;
+        Ok([vx, vy, spin])
+    }
+
+    /// Whether the taut cable leaves by less than `v_stick`: by nothing, or by W (1 + e) v/w.
+    fn leaves_slowly(&self, unloads: bool) -> Result<bool, Trouble> {
+        let e = Ball::integer(1) + &self.model.e;
+        let speed = &self.coupling * &e * &self.struck.v_n * &self.struck.inverse_w;
+        let what = "whether the taut cable leaves by less than v_stick";
+        Ok(!unloads || sign(&(&self.model.v_stick - &speed), what)?)
+    }
+
+    /// Where the taut cable leaves and the struck one may stick.
+    fn unloading(&self, rebound: Law, may_stick: bool, in_turns: bool) -> Result<After, Trouble> {
+        let [struck, taut] = self.cables;
+        let leaves = (taut, Zero::Opening);
+        let sticks = may_stick && sign(&self.struck.pull(self.state, &self.force), "the tension")?;
+        let halted = self.alone(Ball::integer(1));
+        let (goes_on, set, zeros) = match (sticks, in_turns) {
+            (true, _) => (halted, vec![struck], vec![leaves]),
+            (false, true) => (halted, Vec::new(), vec![leaves, (struck, Zero::Lifting)]),
+            (false, false) => {
+                let zeros = vec![leaves, (struck, self.struck_leaves())];
+                (rebound.clone(), Vec::new(), zeros)
+            }
+        };
+        Ok(After {
+            rebound: vec![rebound],
+            goes_on: vec![goes_on],
+            taut: set,
+            zeros,
+        })
+    }
+
+    fn alone(&self, share: Ball) -> Law {
+        let [cable, _] = self.cables;
+        Law::One { cable, share }
     }
 
     fn beside(&self, share: Ball) -> Law {
@@ -122,7 +149,7 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Which carry tension, the struck one and the taut one, at the velocity `halted`, with W < 0:
+    /// Which carry tension, the struck one and the taut one, at the velocity `halted`:
     /// 0 ≤ T ⟂ −g̈ ≥ 0 with g̈/(2r) = b − W T, all signs strict. Where the struck one leaves anyway, the
     /// taut one alone is asked.
     fn carrying(&self, halted: &[Ball; 3], may_stick: bool) -> Result<[bool; 2], Trouble> {
@@ -138,8 +165,7 @@ impl<'a> Pair<'a> {
         if struck.is_positive() && taut.is_positive() {
             return Ok([true, true]);
         }
-        // As W < 0, a cable that carries alone with the other's acceleration below zero leaves no
-        // other solution.
+        // The matrix of the problem is positive definite, so that there is one solution alone.
         if b_taut.is_positive() && struck.is_negative() {
             return Ok([false, true]);
         }
@@ -152,7 +178,22 @@ impl<'a> Pair<'a> {
         Err(Trouble::undecided("which cables stay taut after a snap"))
     }
 
-    fn with(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
+    /// Both closed cables at rest; those that do not carry leave by their acceleration.
+    fn at_rest(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
+        let pairs = || self.cables.into_iter().zip(carries);
+        let mut taut: Vec<usize> = pairs().filter(|pair| pair.1).map(|pair| pair.0).collect();
+        taut.sort_unstable();
+        let zeros = pairs().filter(|pair| !pair.1);
+        After {
+            rebound: vec![rebound],
+            goes_on: vec![halted],
+            taut,
+            zeros: zeros.map(|pair| (pair.0, Zero::Lifting)).collect(),
+        }
+    }
+
+    /// Where the taut cable is pulled on.
+    fn loading(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
         let [struck, taut] = self.cables;
         let lifts = (taut, Zero::Lifting);
         let leaves = (struck, self.struck_leaves());

@@ -267,7 +267,8 @@ fn slopes_of<const N: usize>(whole: &[Jet<Interval, N>], tau: Interval) -> [Inte
     })
 }
 
-/// A ball about an interval; of one without an end, a ball so large that nothing follows from it.
+/// A ball about an interval; of one without an end a ball so large that whatever is made with it, but by
+/// a factor of exactly zero, has no sign, and decides nothing.
 pub(crate) fn some_ball(interval: Interval) -> Ball {
     let endless = || Ball::within(Radius::power_of_two(1 << 20));
     interval.ball().unwrap_or_else(endless)

@@ -11,7 +11,7 @@ pub fn case(settings: &[String]) -> ExactCase {
     }
     let parameters = Parameters::from_entries(entries.values("case")).expect("a case");
     Case::new(parameters).expect("a legal start");
-    let typed = |key: &str| entries.written(key).and_then(Decimal::parse);
+    let typed = |key: &str| entries.written(key).and_then(Decimal::typed);
     ExactCase::of(&parameters, typed).expect("a legal case")
 }
 

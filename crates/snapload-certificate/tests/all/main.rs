@@ -4,5 +4,4 @@ mod borders;
 mod common;
 mod grazes;
 mod oracle;
-mod probe;
 mod taut;

@@ -1,14 +1,192 @@
-//! Certificates of motion with a taut cable; its numbers are compared with references beside the
+//! Certificates of motion with taut cables; its numbers are compared with references beside the
 //! proof itself.
+use crate::common::case_of;
 use serde_json::Value;
-use snapload::Parameters;
+use snapload::{Case, Entries, Impact, Parameters, Trajectory};
 use snapload_certificate::{Certification, Ended, ExactCase, Verdict, certify, check};
 use std::ops::ControlFlow;
 
-fn taut(parameters: &Parameters) -> Certification {
-    let exact = ExactCase::of(parameters, |_| None).expect("a legal case");
-    let proof = certify(&exact, true, &mut |_| ControlFlow::Continue(()));
+fn proved(exact: &ExactCase) -> Certification {
+    let proof = certify(exact, true, &mut |_| ControlFlow::Continue(()));
     proof.expect("not cancelled").expect("a legal start")
+}
+
+fn taut(parameters: &Parameters) -> Certification {
+    proved(&ExactCase::of(parameters, |_| None).expect("a legal case"))
+}
+
+/// A line of a certificate.
+enum Line {
+    Impact {
+        cable: usize,
+        t: f64,
+        v_n: f64,
+    },
+    Stretch {
+        mode: Vec<u64>,
+        from: f64,
+        until: f64,
+        event: String,
+    },
+}
+
+fn lines(proof: &Certification) -> Vec<Line> {
+    let number = |value: &Value| value.as_str().and_then(|text| text.parse().ok());
+    let certificate: Value = serde_json::from_str(&proof.text()).expect("JSON");
+    let lines = certificate["impacts"].as_array().expect("lines").iter();
+    let line = |line: &Value| -> Option<Line> {
+        Some(if line.is_array() {
+            Line::Impact {
+                cable: line[0].as_u64()? as usize - 1,
+                t: number(&line[1])?,
+                v_n: number(&line[2])?,
+            }
+        } else {
+            let mode = line["mode"].as_array()?.iter();
+            Line::Stretch {
+                mode: mode.filter_map(Value::as_u64).collect(),
+                from: number(&line["from"])?,
+                until: number(&line["until"])?,
+                event: line["event"].as_str()?.to_owned(),
+            }
+        })
+    };
+    lines.map(|each| line(each).expect("a line")).collect()
+}
+
+/// What becomes of the taut cables at each end of a stretch: how many there are, the event, and which
+/// are taut then.
+fn changes(lines: &[Line]) -> Vec<String> {
+    let stretches = lines.iter().filter_map(|line| match line {
+        Line::Stretch {
+            mode,
+            from,
+            until,
+            event,
+        } => Some((mode, from, until, event)),
+        Line::Impact { .. } => None,
+    });
+    let stretches: Vec<_> = stretches.collect();
+    let pairs = stretches.windows(2);
+    let change = pairs.map(|pair| {
+        let [(mode, _, until, event), (next, from, ..)] = [pair[0], pair[1]];
+        let then = match next.len() {
+            _ if from != until => "none",
+            _ if next == mode => "the same",
+            2 => "both",
+            _ => "another",
+        };
+        let event = event.split(' ').next().unwrap_or_default();
+        format!("{} taut, {event}, then {then}", mode.len())
+    });
+    change.collect()
+}
+
+/// Short runs that slide, rock, snap beside a taut cable and fly again, as the simulator has them with
+/// doubles, which is another formulation: multipliers in x, y and θ. Each snap is of its cable, at its
+/// time, as fast; and both end alike.
+#[test]
+fn taut_runs_are_those_of_the_simulator() {
+    let common = "vy=0 stop_when_settled=false";
+    let mut seen = Vec::new();
+    for settings in [
+        // A cable that does not bounce, and snaps of both in turn that come to rest together.
+        "r=1.2 e=0 a=0.3 b=0.2 f_o=0.6 nu=0 omega=3 x=0 y=0.15 theta=0.1 vx=0 vtheta=0.3 v_stick=1e-3 t_end=1.2",
+        // A snap that pulls on the taut cable, which stays so.
+        "r=2 e=0.5 a=0.5 b=0.2 f_o=0.8 nu=0 omega=1.5 x=0 y=0.1 theta=0.1 vx=0 vtheta=0 v_stick=1e-3 t_end=2.5",
+        // Snaps that unload the taut cable, until both come to rest together in turns.
+        "r=2 e=0.2 a=0.3 b=0.4 f_o=0.4 nu=1 omega=3 x=-0.1 y=0.15 theta=-0.2 vx=0.2 vtheta=0 v_stick=1e-2 t_end=2.7",
+        // Rocking that loses a tension, and sliding that does.
+        "r=1.2 e=0.2 a=0.1 b=0 f_o=1 nu=1 omega=3 x=0.05 y=0.15 theta=0.1 vx=0 vtheta=0.3 v_stick=1e-2 t_end=4",
+    ] {
+        let settings = format!("{settings} {common}");
+        let proof = proved(&case_of(&settings));
+        assert!(
+            matches!(proof.end, Ended::Proved(_)),
+            "{settings}: {:?}",
+            proof.end
+        );
+        let mut entries = Entries::new(&snapload::CASE);
+        for setting in settings.split_whitespace() {
+            entries.set(setting).expect("a key");
+        }
+        let parameters = Parameters::from_entries(entries.values("case")).expect("a case");
+        let run = Trajectory::record(Case::new(parameters).expect("a legal start").simulation());
+        // Where a taut cable only passes an impulse on, the simulator lists it with v_n = 0.
+        let snaps = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
+        let snaps: Vec<&Impact> = snaps.collect();
+        let lines = lines(&proof);
+        let ours = lines.iter().filter_map(|line| match line {
+            Line::Impact { cable, t, v_n } => Some((*cable, *t, *v_n)),
+            Line::Stretch { .. } => None,
+        });
+        let ours: Vec<(usize, f64, f64)> = ours.collect();
+        assert_eq!(ours.len(), snaps.len(), "{settings}");
+        for ((cable, t, v_n), snap) in ours.into_iter().zip(snaps) {
+            let off = (t - snap.t).abs().max((v_n - snap.v_n).abs());
+            assert!(
+                cable == snap.cable && off < 1e-8,
+                "{settings}: {t} {v_n} {snap:?}"
+            );
+        }
+        let end: f64 = proof.t.parse().expect("a number");
+        assert!(
+            (end - run.end().t).abs() < 1e-8,
+            "{settings}: {end} {:?}",
+            run.end()
+        );
+        seen.extend(changes(&lines));
+    }
+    for change in [
+        "1 taut, impact, then none",
+        "1 taut, impact, then the same",
+        "1 taut, impact, then another",
+        "1 taut, impact, then both",
+        "1 taut, tension, then none",
+        "2 taut, tension, then another",
+    ] {
+        assert!(
+            seen.iter().any(|known| known == change),
+            "{change}: {seen:?}"
+        );
+    }
+}
+
+/// The sliding example, by its published account: cable 2 is taut from 7.907, cable 1 snaps at 8.008,
+/// cable 2 sticks again from about 8.75, and after an accumulation of snaps beside it both hold the
+/// body from 8.876 on.
+#[test]
+fn the_sliding_example_is_proved_into_rocking() {
+    let named = snapload::named_case("sliding-example").expect("a built-in case");
+    let proof = taut(&Parameters {
+        t_end: 8.9,
+        ..named.parameters
+    });
+    assert!(matches!(proof.end, Ended::Proved(_)), "{:?}", proof.end);
+    let lines = lines(&proof);
+    let stretches = lines.iter().filter_map(|line| match line {
+        Line::Stretch {
+            mode,
+            from,
+            until,
+            event,
+        } => Some((mode, *from, *until, event)),
+        Line::Impact { .. } => None,
+    });
+    let stretches: Vec<_> = stretches.collect();
+    let (first, second) = (&stretches[0], &stretches[1]);
+    assert_eq!(
+        (first.0.as_slice(), first.3.as_str()),
+        (&[2][..], "impact 1")
+    );
+    assert!((first.1 - 7.907).abs() < 1e-3 && (first.2 - 8.008).abs() < 1e-3);
+    assert!(second.0 == &[2] && (second.1 - 8.755).abs() < 1e-2);
+    let last = stretches.last().expect("a stretch");
+    assert!(
+        last.0 == &[1, 2] && (last.1 - 8.8765).abs() < 1e-3,
+        "{}",
+        last.1
+    );
 }
 
 /// A taut stretch is checked again, and refused where anything of it is altered.
