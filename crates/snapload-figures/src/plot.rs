@@ -71,7 +71,7 @@ pub enum Layer {
     /// A marker at each point, and their words. They shrink as they grow many, and of thousands
     /// that cover one another some are left out.
     Markers(Vec<Point>, Shape, Colour, String),
-    /// The boundary of a region, thin, and its name, written along it where there is room.
+    /// The boundary of a region, dotted, and its name, written along it where there is room.
     /// It enters an automatic range only where there are no data.
     Boundary(Vec<Point>, String),
     /// A dashed line across the plot at a height, and its name, written at its right end.

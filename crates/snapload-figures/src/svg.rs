@@ -7,8 +7,8 @@ use crate::text;
 use kurbo::{Point, Rect};
 use std::fmt::{Arguments, Display, Formatter, Result, Write};
 
-/// The thin line of boundaries.
-pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Solid);
+/// The dots of boundaries.
+pub(crate) const BOUNDARY: Stroke = Stroke::new(Colour::BLACK, 0.6, Dash::Dotted);
 /// A dashed line across a plot.
 pub(crate) const ACROSS: Stroke = Stroke::new(Colour::BLACK, 0.4, Dash::Dashed);
 /// The frame of a plot and its ticks.
