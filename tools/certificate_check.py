@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks certificates of snapload (docs/certificate.md) in another language and another arithmetic, Arb by python-flint.
 usage: certificate_check.py FILE.cert ...     exit status 0 proved, 1 refused, 2 undecided, 3 no certificate (the largest)
-It knows slack flight, impacts and stops; where a cable stays taut a certificate ends with the reason `sticks`. The case is all
-that it takes as given: times are guesses, and are compared. Bounds on second derivatives come from power series over intervals
-of time, the Jacobian of an impact from power series along each coordinate."""
+It knows slack flight, impacts and stops; where a cable stays taut a certificate ends with the reason `sticks`. Only the case is
+taken as given: times are guesses, and are compared. Second derivatives are bounded by power series over intervals of time,
+the Jacobian of an impact by power series along each coordinate."""
 import json, re, sys
 from math import hypot
 from pathlib import Path
@@ -164,8 +164,8 @@ def jacobian(model, side, state, force, before, after):
 def directions(matrix, sides):
     """Orthonormal columns along those of a matrix, the longest first; any invertible matrix would do."""
     columns = [[float(q.mid()) for q in column] for column in matrix.transpose().tolist()]
-    sizes = [side.abs_upper() for side in sides]
-    share = [float(size / max(sizes)) if max(sizes) > 0 else 1.0 for size in sizes]
+    longest = max(side.abs_upper() for side in sides)
+    share = [float(side.abs_upper() / longest) if longest > 0 else 1.0 for side in sides]
     columns = [column for _, column in sorted(zip([-w * hypot(*v) for w, v in zip(share, columns)], columns))]
     basis = []
     for v in columns + [[float(i == j) for i in range(6)] for j in range(6)]:
@@ -175,6 +175,8 @@ def directions(matrix, sides):
             v = [c - along * a for a, c in zip(u, v)]
         if len(basis) < 6 and hypot(*v) > least:
             basis.append([c / hypot(*v) for c in v])
+    if len(basis) < 6:
+        raise No(2, "a set of states that has become flat")
     return arb_mat(basis).transpose()
 
 def ends_here(model, count, k, state, force, vn, slow):
@@ -259,7 +261,6 @@ def prove(certificate):
     same("the time of the end", t, end["t"])
     for key, ball, text in zip(COORDINATES, final, end["state"]):
         same(f"{key} at the end", ball, text)
-
 def well_formed(certificate):
     """Whether it has the shape of a certificate, with decimals where they belong."""
     case, end, lines = certificate["case"], certificate["end"], certificate["impacts"]
@@ -272,29 +273,28 @@ def well_formed(certificate):
         and kinds == [list, list, int, int, bool, bool] and set(rows) <= {(list, 3, int, True)} and len(end["state"]) == 6
         and 64 <= certificate["bits"] <= MOST_BITS and case["body"] in ("rigid", "point") and all(map(decimal, texts))
     )
-
-def check(text):
-    """Exit status and words for a certificate."""
+def check(source):
+    """Exit status and words for a certificate, or the file of one."""
     try:
+        text = source.read_text(encoding="utf-8") if isinstance(source, Path) else source
         certificate = json.loads(text, object_pairs_hook=lambda pairs: dict(pairs) if len(dict(pairs)) == len(pairs) else None)
         if not well_formed(certificate):
             raise No(3, "not of the format, or of one that is not known here, such as of taut motion")
-        bits = certificate["bits"]
+        bits = ctx.prec = certificate["bits"]
         while True:
-            ctx.prec = bits
             try:
                 prove(certificate)
                 return 0, f"proved: {len(certificate['impacts'])} impacts, {certificate['end']['reason']} ({bits} bits)"
             except No as no:
                 if no.args[0] != 2 or bits * 4 // 3 > MOST_BITS:
                     raise
-            bits = bits * 4 // 3
+            bits = ctx.prec = bits * 4 // 3
     except No as no:
         return no.args[0], f"{('', 'refused', 'undecided', 'no certificate')[no.args[0]]}: {no.args[1]}"
-    except (ValueError, LookupError, TypeError, AttributeError, RecursionError, ZeroDivisionError) as error:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError, ZeroDivisionError) as error:
         return (2, "undecided: a division") if type(error) is ZeroDivisionError else (3, f"no certificate: {error!r}")
 
 if __name__ == "__main__":
-    verdicts = [check(Path(name).read_text(encoding="utf-8")) for name in sys.argv[1:]]
+    verdicts = [check(Path(name)) for name in sys.argv[1:]]
     print("\n".join(f"{name}: {words}" for name, (_, words) in zip(sys.argv[1:], verdicts)))
     sys.exit(max((status for status, _ in verdicts), default=3))

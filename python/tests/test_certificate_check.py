@@ -96,3 +96,10 @@ def test_other_shapes_are_no_certificates() -> None:
     assert certificate_check.check("{")[0] == 3
     twice = json.dumps(TRUE_ONE).replace('"bits"', '"bits": 256, "bits"', 1)
     assert certificate_check.check(twice)[0] == 3
+
+
+def test_a_file_that_can_not_be_read_is_no_certificate(tmp_path):
+    other = tmp_path / "other.cert"
+    other.write_bytes(b"\xff\xfe{")
+    assert certificate_check.check(other)[0] == 3
+    assert certificate_check.check(tmp_path / "missing.cert")[0] == 3
