@@ -1,5 +1,7 @@
 """The standard case in heyoka: an adaptive Taylor integrator, terminal events, the impact in their callback."""
 
+import sys
+
 import heyoka as hy
 
 from standard import (
@@ -50,8 +52,8 @@ class Impact:
         return self  # the integrator copies its callbacks, and the run has to stay ours
 
 
-def integrator(impacts: list[Impact]) -> hy.taylor_adaptive:
-    """Tolerance is left at its default, the rounding of doubles; so is the cooldown of events."""
+def integrator(impacts: list[Impact], tolerance: float) -> hy.taylor_adaptive:
+    """A tolerance of 0 is the default, the rounding of doubles; the cooldown of events is left at its default."""
     x, y, theta, vx, vy, spin = hy.make_vars("x", "y", "theta", "vx", "vy", "spin")
     phase = OMEGA * hy.time
     system = [
@@ -75,7 +77,7 @@ def integrator(impacts: list[Impact]) -> hy.taylor_adaptive:
     ]
     events.append(hy.t_event(theta * theta - ROTATION_LIMIT**2, direction=upward))
     events.append(hy.t_event(y + A - HEIGHT, direction=upward))
-    return hy.taylor_adaptive(system, list(START), t_events=events)
+    return hy.taylor_adaptive(system, list(START), t_events=events, tol=tolerance)
 
 
 def solve(motion: hy.taylor_adaptive, impacts: list[Impact]) -> Run:
@@ -94,5 +96,5 @@ def solve(motion: hy.taylor_adaptive, impacts: list[Impact]) -> Run:
 
 if __name__ == "__main__":
     both = [Impact(0), Impact(1)]
-    compiled = integrator(both)
+    compiled = integrator(both, float(sys.argv[1]))
     report(hy.__version__, lambda: solve(compiled, both), repeats=20)

@@ -54,11 +54,13 @@ for event_function in EVENTS:
     event_function.direction = 1.0  # type: ignore[attr-defined]
 
 
-def solve(inside: float) -> Run:
+def solve(method: str, tolerance: float, inside: float) -> Run:
     run = Run()
     t, u = 0.0, START
     while len(run.impacts) < MAX_IMPACTS:
-        flight = solve_ivp(rates, (t, T_END), u, method="DOP853", rtol=1e-13, atol=1e-15, events=EVENTS)
+        flight = solve_ivp(
+            rates, (t, T_END), u, events=EVENTS, method=method, rtol=tolerance, atol=tolerance / 1000
+        )
         if flight.status != 1:
             return run
         event = next(i for i, hits in enumerate(flight.t_events) if hits.size)
@@ -84,5 +86,5 @@ def solve(inside: float) -> Run:
 
 
 if __name__ == "__main__":
-    distance = float(sys.argv[1])
-    report(scipy.__version__, lambda: solve(distance), repeats=3)
+    way, number, distance = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
+    report(scipy.__version__, lambda: solve(way, number, distance), repeats=3)
