@@ -12,6 +12,7 @@ use crate::taut::law::{Law, after};
 use crate::taut::run::{Begin, Event, hold};
 use crate::taut::snap::Pair;
 use crate::verdict::Trouble;
+use snapload::Stop;
 use std::ops::ControlFlow;
 
 /// What a proof tells as it goes.
@@ -35,6 +36,16 @@ pub(crate) fn prove(
         ControlFlow::Break(trouble) => Err(trouble),
         ControlFlow::Continue(()) => Ok(()),
     };
+    if run.is_at_rest() {
+        let now = resting(&run, taut).map_err(|trouble| trouble.at(0.0))?;
+        let now = match now {
+            ControlFlow::Break(end) => return Ok(*end),
+            ControlFlow::Continue(now) => now,
+        };
+        if let Some(end) = hang(&mut run, now, &mut tell).map_err(|trouble| trouble.at(0.0))? {
+            return Ok(end);
+        }
+    }
     loop {
         let t = run.t.to_f64();
         match run.fly().map_err(|trouble| trouble.at(t))? {
@@ -46,7 +57,7 @@ pub(crate) fn prove(
                 tell(Proved::Impact(impact))?;
                 match (end, stick) {
                     (_, Some(stick)) if taut => {
-                        let end = hang(&mut run, stick, &mut tell);
+                        let end = hang(&mut run, Hanging::from(stick), &mut tell);
                         if let Some(end) = end.map_err(|trouble| trouble.at(t))? {
                             return Ok(end);
                         }
@@ -68,22 +79,46 @@ struct Hanging {
     zeros: Zeros,
 }
 
+impl From<Stick> for Hanging {
+    fn from(Stick { cable, instants }: Stick) -> Self {
+        Self {
+            taut: vec![cable],
+            instants,
+            laws: vec![Law::One {
+                cable,
+                share: Ball::integer(1),
+            }],
+            zeros: Zeros::new(),
+        }
+    }
+}
+
+/// How a run goes on that starts at rest with both cables closed, or its end.
+fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hanging>, Trouble> {
+    let instants = run.start();
+    let (state, t) = hull_of(&instants);
+    let (cables, zeros) = Pair::new(run.fine, &state, &t, [0, 1])?.resting()?;
+    if cables.len() == 2 && run.case.stop_when_settled {
+        let reason = Reason::Stop(Stop::Settled);
+        return Ok(ControlFlow::Break(Box::new(ProvedEnd { reason, t, state })));
+    }
+    if !cables.is_empty() && !taut {
+        return Err(Trouble::beyond("a motion with taut cables from the start"));
+    }
+    Ok(ControlFlow::Continue(Hanging {
+        taut: cables,
+        instants,
+        laws: Vec::new(),
+        zeros,
+    }))
+}
+
 /// The motion from where a cable sticks to where all fly again, or to the end of the run.
 fn hang(
     run: &mut Run<'_>,
-    stick: Stick,
+    mut now: Hanging,
     tell: &mut dyn FnMut(Proved) -> Result<(), Trouble>,
 ) -> Result<Option<ProvedEnd>, Trouble> {
-    let cable = stick.cable;
-    let mut now = Hanging {
-        taut: vec![cable],
-        instants: stick.instants,
-        laws: vec![Law::One {
-            cable,
-            share: Ball::integer(1),
-        }],
-        zeros: Zeros::new(),
-    };
     while !now.taut.is_empty() {
         let (_, from) = hull_of(&now.instants);
         let begin = Begin {

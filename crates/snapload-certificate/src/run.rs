@@ -1,5 +1,7 @@
 //! Slack flight from impact to impact, with a set of states that holds the true one.
 
+mod start;
+
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::decimal::Decimal;
 use crate::arithmetic::radius::Radius;
@@ -17,8 +19,6 @@ use crate::taut::step::Equations;
 use crate::verdict::Trouble;
 use snapload::Stop;
 
-/// A gap at the start within this of zero counts as closed, as a decimal.
-const START_TOLERANCE: &str = "1e-9";
 /// A cable that sticks below this height settles the run.
 const SETTLING_HEIGHT: &str = "0.05";
 /// So many slow snaps in a row may bring two cables to rest together.
@@ -73,52 +73,6 @@ pub(crate) struct Root {
 }
 
 impl<'a> Run<'a> {
-    pub(crate) fn begin(
-        case: &'a ExactCase,
-        fine: &'a Model,
-        coarse: &'a Model,
-    ) -> Result<Self, Trouble> {
-        let mut start = case.start().iter().map(|number| number.ball(fine.limbs));
-        let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
-        let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
-        let tolerance = tolerance.unwrap_or_else(Ball::zero);
-        for (which, watched) in fine.watched(&start).iter().enumerate() {
-            let clear = match which {
-                0..FIRST_TOP => (&watched.value + &tolerance).is_negative(),
-                _ => watched.value.is_negative(),
-            };
-            if (&watched.value - &tolerance).is_positive() {
-                let what = format!("the start is past {}", name(which));
-                return Err(Trouble::False(what));
-            }
-            if !clear {
-                let what = format!(
-                    "the start: {} is {:.2e} away, and what counts as there is put right by a \
-                     projection that no theorem speaks of",
-                    name(which),
-                    watched.value.to_f64()
-                );
-                return Err(Trouble::undecided(what).at(0.0));
-            }
-        }
-        if !start[2].abs().is_below(fine.functions.half_pi()) {
-            return Err(
-                Trouble::undecided("the start: whether it is at the rotation limit").at(0.0),
-            );
-        }
-        Ok(Self {
-            case,
-            fine,
-            coarse,
-            t: Ball::zero(),
-            set: Set::of_box(&start),
-            slack: Radius::ZERO,
-            zeros: Zeros::new(),
-            impacts: 0,
-            slow: Vec::new(),
-        })
-    }
-
     /// The flight of all states.
     fn flight(&self, model: &'a Model) -> Flight<'a> {
         let hull = self.set.hull().map(|ball| ball.with_limbs(model.limbs));

@@ -1,6 +1,7 @@
 //! The proof of motion with taut cables.
 pub(crate) mod begin;
 pub(crate) mod chart;
+mod enclosure;
 pub(crate) mod free;
 pub(crate) mod law;
 pub(crate) mod rocking;

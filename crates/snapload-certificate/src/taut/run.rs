@@ -4,6 +4,7 @@ use crate::arithmetic::ball::Ball;
 use crate::arithmetic::radius::Radius;
 use crate::model::Model;
 use crate::slack::search::{Crossing, Path, Zeros, first_crossing};
+use crate::slack::set::Set;
 use crate::taut::begin::{Begun, Instants, begin, hull_of};
 use crate::taut::chart::{Chart, Watch};
 use crate::taut::law::Law;
@@ -87,38 +88,18 @@ fn follow<const N: usize>(
         let step = Step::new(&equations, &t, &set, most)?;
         // A little more than what served last time, as a length that is too large costs a trial.
         most = LONGEST_STEP.min(1.06 * step.length.to_f64());
-        let limit = step.length.clone();
-        let found = first_crossing(&step, &from, &zeros, &limit)?;
-        let roots = match &found {
-            Some(crossing) => Some(roots(&step, crossing)?),
-            None => None,
+        let now = Now {
+            t: &t,
+            set: &set,
+            left: &left,
+            from: &from,
+            zeros: &zeros,
         };
-        let root = roots.as_ref().map(|[_, whole]| whole);
-        if left.is_below(root.unwrap_or(&limit)) && from.1.is_below(&left) {
-            return Ok(TautEnd {
-                instants: step.at_time(&t, &left, &place, &set)?,
-                event: Event::Stop(Stop::EndTime),
-            });
-        }
-        if let (Some(crossing), Some([centre, whole])) = (&found, &roots) {
-            if !(whole.is_below(&left) && from.1.is_below(whole)) {
-                return Err(Trouble::undecided(
-                    "two events of a taut motion at one instant",
-                ));
-            }
-            let map = step.crossed(crossing.which, &t, [centre, whole], &place);
-            let lost = || Trouble::undecided("the state at an event of a taut motion");
-            let (image, jacobian) = map.ok_or_else(lost)?;
-            return Ok(TautEnd {
-                instants: set.mapped(&image, &jacobian)?,
-                event: event(equations.watched[crossing.which]),
-            });
-        }
-        if !limit.is_below(&left) {
-            return Err(Trouble::undecided("the end of time at the end of a step"));
+        if let Some(end) = ending(&step, &now, &place)? {
+            return Ok(end);
         }
         set = step.end(&set)?;
-        let next = &t + &limit;
+        let next = &t + &step.length;
         if !next.radius().is_zero() {
             return Err(Trouble::undecided("the time of a step"));
         }
@@ -126,6 +107,57 @@ fn follow<const N: usize>(
         from = (Ball::zero(), Ball::zero());
     }
     Err(Trouble::undecided("a taut motion of very many steps"))
+}
+
+/// Where a step begins: its time, the states, the time that is left, when the motion begins, and what is
+/// zero then.
+struct Now<'a, const N: usize> {
+    t: &'a Ball,
+    set: &'a Set<N>,
+    left: &'a Ball,
+    from: &'a (Ball, Ball),
+    zeros: &'a Zeros,
+}
+
+/// The end of the motion within a step, if it is there.
+fn ending<const N: usize>(
+    step: &Step<'_, N>,
+    now: &Now<'_, N>,
+    place: &Place,
+) -> Result<Option<TautEnd>, Trouble> {
+    let (limit, left) = (&step.length, now.left);
+    let begun = &now.from.1;
+    let found = first_crossing(step, now.from, now.zeros, limit)?;
+    let roots = match &found {
+        Some(crossing) => Some(roots(step, crossing)?),
+        None => None,
+    };
+    let root = roots.as_ref().map(|[_, whole]| whole);
+    if left.is_below(root.unwrap_or(limit)) && begun.is_below(left) {
+        return Ok(Some(TautEnd {
+            instants: step.at_time(now.t, left, place, now.set)?,
+            event: Event::Stop(Stop::EndTime),
+        }));
+    }
+    if let (Some(crossing), Some([centre, whole])) = (&found, &roots) {
+        if !(whole.is_below(left) && begun.is_below(whole)) {
+            return Err(Trouble::undecided(
+                "two events of a taut motion at one instant",
+            ));
+        }
+        let map = step.crossed(crossing.which, now.t, [centre, whole], place);
+        let lost = || Trouble::undecided("the state at an event of a taut motion");
+        let (image, jacobian) = map.ok_or_else(lost)?;
+        return Ok(Some(TautEnd {
+            instants: now.set.mapped(&image, &jacobian)?,
+            event: event(step.watch(crossing.which)),
+        }));
+    }
+    if limit.is_below(left) {
+        Ok(None)
+    } else {
+        Err(Trouble::undecided("the end of time at the end of a step"))
+    }
 }
 
 fn event(watched: Watch) -> Event {

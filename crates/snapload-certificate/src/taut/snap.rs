@@ -88,6 +88,13 @@ impl<'a> Pair<'a> {
         Ok(self.loading(rebound, halted, carries))
     }
 
+    /// Where both cables are closed and nothing moves: which of them are taut, and how the others leave.
+    pub(crate) fn resting(&self) -> Result<(Vec<usize>, Zeros), Trouble> {
+        let [vx, vy, spin] = [3, 4, 5].map(|k: usize| self.state[k].clone());
+        let carries = self.carrying(&[vx, vy, spin], true)?;
+        Ok(self.carriers(carries))
+    }
+
     /// The velocity after a law.
     fn velocity(&self, law: &Law) -> Result<[Ball; 3], Trouble> {
         let lost = || Trouble::undecided("two cables of one effective mass");
@@ -180,16 +187,22 @@ impl<'a> Pair<'a> {
 
     /// Both closed cables at rest; those that do not carry leave by their acceleration.
     fn at_rest(&self, rebound: Law, halted: Law, carries: [bool; 2]) -> After {
-        let pairs = || self.cables.into_iter().zip(carries);
-        let mut taut: Vec<usize> = pairs().filter(|pair| pair.1).map(|pair| pair.0).collect();
-        taut.sort_unstable();
-        let zeros = pairs().filter(|pair| !pair.1);
+        let (taut, zeros) = self.carriers(carries);
         After {
             rebound: vec![rebound],
             goes_on: vec![halted],
             taut,
-            zeros: zeros.map(|pair| (pair.0, Zero::Lifting)).collect(),
+            zeros,
         }
+    }
+
+    /// Of cables at rest those that carry, and the others, which leave by their acceleration.
+    fn carriers(&self, carries: [bool; 2]) -> (Vec<usize>, Zeros) {
+        let pairs = || self.cables.into_iter().zip(carries);
+        let mut taut: Vec<usize> = pairs().filter(|pair| pair.1).map(|pair| pair.0).collect();
+        taut.sort_unstable();
+        let others = pairs().filter(|pair| !pair.1);
+        (taut, others.map(|pair| (pair.0, Zero::Lifting)).collect())
     }
 
     /// Where the taut cable is pulled on.

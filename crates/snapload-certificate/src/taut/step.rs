@@ -9,6 +9,7 @@ use crate::model::{Model, Watched};
 use crate::slack::search::Path;
 use crate::slack::set::Set;
 use crate::taut::chart::{Chart, Watch};
+use crate::taut::enclosure::enclosed;
 use crate::taut::series::{Expansion, Program};
 use crate::verdict::Trouble;
 
@@ -68,10 +69,6 @@ pub(crate) struct Step<'a, const N: usize> {
 
 /// What is left out of the polynomial is less than 2 to the power of this times the limbs.
 const REMAINDER_BITS: f64 = 38.0;
-/// How much larger the boxes are than the ranges of the polynomials, those of the states and those of
-/// the derivatives by the begin.
-const ROOM: Radius = Radius::power_of_two(-48);
-const SLOPE_ROOM: Radius = Radius::power_of_two(-24);
 /// So many lengths are tried for a step.
 const MOST_TRIALS: u32 = 40;
 
@@ -142,6 +139,10 @@ impl<'a, const N: usize> Step<'a, N> {
             length = rounded(length * (-over).exp2().max(0.5));
         }
         Err(Trouble::undecided("an enclosure of the taut motion"))
+    }
+
+    pub(crate) fn watch(&self, which: usize) -> Watch {
+        self.equations.watched[which]
     }
 
     pub(crate) fn limbs(&self) -> usize {
@@ -260,7 +261,10 @@ fn power(tau: &Ball, n: usize) -> Ball {
 }
 
 /// The derivatives of a polynomial at τ by the coordinates at the begin.
-fn slopes_of<const N: usize>(whole: &[Jet<Interval, N>], tau: Interval) -> [Interval; N] {
+pub(super) fn slopes_of<const N: usize>(
+    whole: &[Jet<Interval, N>],
+    tau: Interval,
+) -> [Interval; N] {
     std::array::from_fn(|j| {
         let slopes: Vec<Interval> = whole.iter().map(|jet| jet.slopes[j]).collect();
         value_of(&slopes, tau)
@@ -339,7 +343,7 @@ fn horner(coefficients: &[Ball], tau: &Ball) -> Ball {
 }
 
 /// Σ c_k τ^k.
-fn value_of(coefficients: &[Interval], tau: Interval) -> Interval {
+pub(super) fn value_of(coefficients: &[Interval], tau: Interval) -> Interval {
     let series = coefficients.iter().rev();
     series.fold(Interval::zero(), |sum, next| sum.times(&tau).plus(next))
 }
@@ -347,91 +351,6 @@ fn value_of(coefficients: &[Interval], tau: Interval) -> Interval {
 fn derivative<S: Scalar>(coefficients: &[S]) -> Vec<S> {
     let terms = coefficients.iter().enumerate().skip(1);
     terms.map(|(k, c)| c.times_small(k as u32)).collect()
-}
-
-/// A box that is proved to hold the motion for a length.
-struct Enclosed<'a, const N: usize> {
-    equations: &'a Equations<'a>,
-    length: f64,
-    over: Interval,
-    times: Interval,
-    wide: [Interval; N],
-    /// The logarithm of the largest of what the coefficients of order n + 1 over it add to the state.
-    bits: f64,
-}
-
-/// Such a box; none if the one that is tried is too small.
-fn enclosed<'a, const N: usize>(
-    equations: &'a Equations<'a>,
-    time: &Ball,
-    whole: &Expansion<Jet<Interval, N>, N>,
-    length: f64,
-) -> Option<Enclosed<'a, N>> {
-    let h = Ball::double(length);
-    let within = h.half().widened(h.upper().scaled(-1));
-    let over = Interval::of(&within);
-    let mut wide = [Interval::zero(); N];
-    for (wide, series) in wide.iter_mut().zip(&whole.state) {
-        let series: Vec<Interval> = series.iter().map(|jet| jet.value).collect();
-        *wide = widened(value_of(&series, over), ROOM)?;
-    }
-    let order = whole.state[0].len();
-    let times = Interval::of(&(time + &within));
-    let rest = equations
-        .few
-        .expand(&wide, &times, order, &equations.functions)?;
-    let last = rest.state.iter().map(|series| series.last().copied());
-    let largest = largest(last, length, order)?;
-    // The range and what is left out stay within the box if that is less than the room.
-    (largest < ROOM).then(|| Enclosed {
-        equations,
-        length,
-        over,
-        times,
-        wide,
-        bits: largest.to_f64().log2(),
-    })
-}
-
-impl<const N: usize> Enclosed<'_, N> {
-    /// The coefficients of order n + 1 over the box, and their derivatives by the begin; none if the box
-    /// that is tried for the derivatives is too small.
-    fn rest(
-        self,
-        whole: &Expansion<Jet<Interval, N>, N>,
-    ) -> Option<Expansion<Jet<Interval, N>, N>> {
-        let mut jets: [Jet<Interval, N>; N] = std::array::from_fn(|i| Jet::constant(&self.wide[i]));
-        for (jet, series) in jets.iter_mut().zip(&whole.state) {
-            for (slope, range) in jet.slopes.iter_mut().zip(slopes_of(series, self.over)) {
-                *slope = widened(range, SLOPE_ROOM)?;
-            }
-        }
-        let order = whole.state[0].len();
-        let Equations { few, functions, .. } = self.equations;
-        let rest = few.expand(&jets, &Jet::constant(&self.times), order, functions)?;
-        let last = rest.state.iter().flat_map(|series| {
-            let slopes = series.last().map(|jet| jet.slopes);
-            (0..N).map(move |j| slopes.map(|slopes| slopes[j]))
-        });
-        (largest(last, self.length, order)? < SLOPE_ROOM).then_some(rest)
-    }
-}
-
-fn widened(interval: Interval, by: Radius) -> Option<Interval> {
-    Some(Interval::of(&interval.ball()?.widened(by)))
-}
-
-/// The largest of some coefficients of τ^order, over a length.
-fn largest(
-    mut coefficients: impl Iterator<Item = Option<Interval>>,
-    length: f64,
-    order: usize,
-) -> Option<Radius> {
-    let h = Ball::double(length).upper();
-    let power = (1..order).fold(h, |power, _| power.times(h));
-    coefficients.try_fold(Radius::ZERO, |largest, coefficient| {
-        Some(largest.max(coefficient?.upper()?.times(power)))
-    })
 }
 
 /// A length at which the last terms of the polynomial are as small as the digits ask for.

@@ -57,6 +57,23 @@ fn model(params: &Value, inertia: &Value, t_end: f64) -> Model {
     Model::new(&case, 2).expect("a model")
 }
 
+/// The event of a kind of the references.
+fn event_of(kind: &str) -> Event {
+    match kind {
+        "rotation_limit" => Event::Stop(Stop::RotationLimit),
+        "t_max" => Event::Stop(Stop::EndTime),
+        "tension_lost_1" => Event::Released(0),
+        "tension_lost_2" => Event::Released(1),
+        "impact_1" => Event::Struck(0),
+        other => panic!("{other}"),
+    }
+}
+
+fn close(case: &Value, ours: &Ball, theirs: &Value) {
+    let off = (ours - &ball(theirs)).upper().to_f64();
+    assert!(off < 1e-19, "{}: {off:e}", case["id"]);
+}
+
 /// Motion with one and with two taut cables from a given state to its event: which it is, when, and
 /// the state then are the reference's to 19 digits.
 #[test]
@@ -99,19 +116,7 @@ fn taut_motion_is_the_references() {
             continue;
         }
         seen[taut.len() - 1] += 1;
-        let expected = match kind {
-            "rotation_limit" => Event::Stop(Stop::RotationLimit),
-            "t_max" => Event::Stop(Stop::EndTime),
-            "tension_lost_1" => Event::Released(0),
-            "tension_lost_2" => Event::Released(1),
-            "impact_1" => Event::Struck(0),
-            other => panic!("{other}"),
-        };
-        assert_eq!(end.event, expected, "{} {kind}", case["id"]);
-        let close = |ours: &Ball, theirs: &Value| {
-            let off = (ours - &ball(theirs)).upper().to_f64();
-            assert!(off < 1e-19, "{}: {off:e}", case["id"]);
-        };
+        assert_eq!(end.event, event_of(kind), "{}", case["id"]);
         // Those that go on to the end of their time are followed to a row of their tables.
         let end = if kind == "t_max" {
             let mut rows = case["rows"].as_array().expect("rows").iter();
@@ -119,10 +124,10 @@ fn taut_motion_is_the_references() {
         } else {
             &case["end"]
         };
-        close(&t, &end["t"]);
+        close(case, &t, &end["t"]);
         let theirs = end["state"].as_array().expect("a state");
         for (ours, theirs) in state.iter().zip(theirs) {
-            close(ours, theirs);
+            close(case, ours, theirs);
         }
     }
     // All events: tension lost, the other cable closing, the rotation limit, the end of time.

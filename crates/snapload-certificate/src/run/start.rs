@@ -1,0 +1,89 @@
+//! How a run starts: which cables are closed then, and how they leave.
+
+use crate::arithmetic::ball::Ball;
+use crate::arithmetic::decimal::Decimal;
+use crate::arithmetic::radius::Radius;
+use crate::case::ExactCase;
+use crate::model::{FIRST_TOP, Model, State};
+use crate::run::Run;
+use crate::slack::impact::Impact;
+use crate::slack::search::{Zero, Zeros, name};
+use crate::slack::set::Set;
+use crate::taut::begin::Instants;
+use crate::verdict::Trouble;
+
+/// A gap at the start within this of zero counts as closed, as a decimal.
+const START_TOLERANCE: &str = "1e-9";
+
+impl<'a> Run<'a> {
+    pub(crate) fn begin(
+        case: &'a ExactCase,
+        fine: &'a Model,
+        coarse: &'a Model,
+    ) -> Result<Self, Trouble> {
+        let mut start = case.start().iter().map(|number| number.ball(fine.limbs));
+        let start: State = std::array::from_fn(|_| start.next().unwrap_or_else(Ball::zero));
+        // At x = y = θ = 0 both gaps are zero whatever the sizes are.
+        let at_origin = case.start()[..3].iter().all(Decimal::is_zero);
+        let tolerance = Decimal::parse(START_TOLERANCE).map(|d| d.ball(fine.limbs));
+        let tolerance = tolerance.unwrap_or_else(Ball::zero);
+        for (which, watched) in fine.watched(&start).iter().enumerate() {
+            let clear = match which {
+                0..FIRST_TOP if at_origin => true,
+                0..FIRST_TOP => (&watched.value + &tolerance).is_negative(),
+                _ => watched.value.is_negative(),
+            };
+            if !clear && (&watched.value - &tolerance).is_positive() {
+                let what = format!("the start is past {}", name(which));
+                return Err(Trouble::False(what));
+            }
+            if !clear {
+                let what = format!(
+                    "the start: {} is {:.2e} away, and what counts as there is put right by a \
+                     projection that no theorem speaks of",
+                    name(which),
+                    watched.value.to_f64()
+                );
+                return Err(Trouble::undecided(what).at(0.0));
+            }
+        }
+        if !start[2].abs().is_below(fine.functions.half_pi()) {
+            return Err(
+                Trouble::undecided("the start: whether it is at the rotation limit").at(0.0),
+            );
+        }
+        let mut run = Self {
+            case,
+            fine,
+            coarse,
+            t: Ball::zero(),
+            set: Set::of_box(&start),
+            slack: Radius::ZERO,
+            zeros: Zeros::new(),
+            impacts: 0,
+            slow: Vec::new(),
+        };
+        if at_origin && !run.is_at_rest() {
+            for cable in 0..2 {
+                let speed = Impact::new(fine, cable, &start)?.v_n;
+                if !(&speed + &tolerance).is_negative() {
+                    let what = format!("how the run starts, with cable {} closed", cable + 1);
+                    return Err(Trouble::beyond(what).at(0.0));
+                }
+                run.zeros.push((cable, Zero::Opening));
+            }
+        }
+        Ok(run)
+    }
+
+    /// Whether it starts with both cables closed and without any velocity.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.impacts == 0 && self.case.start().iter().all(Decimal::is_zero)
+    }
+
+    /// The states at the start, with the instant.
+    pub(crate) fn start(&self) -> Instants {
+        let [x, y, theta, vx, vy, spin] = self.set.hull();
+        Set::of_box(&[x, y, theta, vx, vy, spin, Ball::zero()])
+    }
+}
