@@ -11,6 +11,7 @@ use serde::Serialize;
 use snapload::CaseError;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, Progress, Unfinished};
 use snapload_report::{CriticalRow, Probability};
+use std::sync::Arc;
 
 /// The critical force of a case, as JSON.
 #[pyfunction]
@@ -34,27 +35,26 @@ pub(crate) fn critical_force_over(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Vec<f64>)> {
     let scan = ForceScan::new(step, max).map_err(of_scan)?;
-    let drawn = study.study.draw(0..study.study.count()).map_err(of_study)?;
+    let study = Arc::clone(&study.study);
     let rows = interruptible(py, progress, move |watch| {
-        let all = drawn.len() as f64;
-        let rows = drawn.into_iter().enumerate().map(|(k, drawn)| {
+        let drawn = study.draw(0..study.count())?;
+        let all = drawn.count() as f64;
+        let rows = (0..drawn.count()).map(|k| {
             let progress = Progress::new("critical force", k as f64, all);
-            let parameters = drawn.parameters.and_then(|parameters| {
-                snapload::Case::new(parameters)?;
-                Ok(parameters)
-            });
-            match parameters {
-                Ok(parameters) => {
-                    let found = CriticalForce::scan(&parameters, scan, &|_| watch.go_on(progress))?;
+            match drawn.case(k) {
+                Ok(case) => {
+                    let parameters = case.parameters();
+                    let found = CriticalForce::scan(parameters, scan, &|_| watch.go_on(progress))?;
                     Ok(Row::Found(CriticalRow::new(found)))
                 }
-                Err(error) => Ok(Row::NoCase {
-                    error: error.to_string(),
+                Err(no_case) => Ok(Row::NoCase {
+                    error: no_case.error.to_string(),
                 }),
             }
         });
-        rows.collect::<Result<Vec<_>, Unfinished>>()
+        Ok(rows.collect::<Result<Vec<_>, Unfinished>>())
     })?;
+    let rows = rows.map_err(of_study)?;
     let rows = to_json(&rows.map_err(of_work)?)?;
     Ok((rows, scan.amplitudes().collect()))
 }

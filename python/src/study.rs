@@ -276,7 +276,7 @@ pub(crate) fn read_column<'py>(
                 }
                 Values::Words(list) => {
                     for word in list {
-                        let word = word.unwrap_or_default();
+                        let word = word.unwrap_or_default().into_owned();
                         let place = *places.entry(word).or_insert_with_key(|word| {
                             words.push(word.clone());
                             words.len() as i32 - 1

@@ -13,9 +13,16 @@ pub const MOTION: [&str; 10] = [
 #[derive(Clone, Copy)]
 pub struct Sampling {
     dt: f64,
+    /// The digits of the step as a whole number, and the power of ten by which to divide it, where
+    /// doubles hold both.
+    decimal: Option<[f64; 2]>,
     most: u64,
     end: f64,
 }
+
+/// Doubles hold all whole numbers up to this one, and all powers of ten up to that exponent.
+const WHOLE: f64 = 9_007_199_254_740_992.0;
+const POWERS: usize = 22;
 
 /// The most rows of a sampled motion.
 const MOST_ROWS: u64 = 10_000_000;
@@ -29,7 +36,13 @@ impl Sampling {
         let most = MOST_ROWS - 1;
         // Rounding may keep the last multiple below the end, so what is counted is the exact test.
         if dt > 0.0 && dt.is_finite() && most as f64 * dt >= end {
-            return Ok(Self { dt, most, end });
+            let decimal = decimal(dt);
+            return Ok(Self {
+                dt,
+                decimal,
+                most,
+                end,
+            });
         }
         let least = end / most as f64 * 1.05;
         Err(format!(
@@ -42,6 +55,7 @@ impl Sampling {
     pub fn thousand(end: f64) -> Self {
         Self {
             dt: end / 1000.0,
+            decimal: None,
             most: 1000,
             end,
         }
@@ -49,11 +63,29 @@ impl Sampling {
 
     /// The times.
     pub fn times(self) -> impl Iterator<Item = f64> {
-        let multiples = (0..self.most).map(move |k| k as f64 * self.dt);
+        let multiples = (0..self.most).map(move |k| self.multiple(k as f64));
         multiples
             .take_while(move |t| *t < self.end)
             .chain(std::iter::once(self.end))
     }
+
+    /// k steps: of a step that is a decimal number the decimal that one would write, 0.3 and not
+    /// 0.30000000000000004.
+    fn multiple(self, k: f64) -> f64 {
+        match self.decimal {
+            Some([digits, power]) if k * digits <= WHOLE => k * digits / power,
+            _ => k * self.dt,
+        }
+    }
+}
+
+/// The digits of a number as one writes it and the power of ten below them.
+fn decimal(number: f64) -> Option<[f64; 2]> {
+    let text = format!("{number}");
+    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+    let digits: f64 = format!("{whole}{fraction}").parse().ok()?;
+    let power: f64 = format!("1e{}", fraction.len()).parse().ok()?;
+    (digits <= WHOLE && fraction.len() <= POWERS).then_some([digits, power])
 }
 
 /// One line of the sampled motion: the values of [`MOTION`], in that order.

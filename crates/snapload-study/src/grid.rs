@@ -2,11 +2,15 @@
 
 use dashu_int::IBig;
 use dashu_int::UBig;
+use dashu_int::ops::Gcd;
 use dashu_ratio::RBig;
 use std::fmt;
 
 /// So many digits and powers of ten a bound may have: those of doubles, with room.
 const MOST_DIGITS: usize = 400;
+
+/// Doubles hold all whole numbers up to this one.
+const EXACT: i64 = 1 << 53;
 
 /// `n` values from a first to a last one, both among them.
 ///
@@ -23,6 +27,8 @@ pub struct Grid {
     text: String,
     first: RBig,
     span: RBig,
+    /// Numerators of both and their common denominator, where doubles hold them.
+    small: Option<[i64; 3]>,
     count: u64,
 }
 
@@ -34,10 +40,12 @@ impl Grid {
         let from = decimal(first)?;
         let span = decimal(last)? - from.clone();
         let intervals = count.checked_sub(1)?.max(1);
+        let span = span / RBig::from(intervals);
         Some(Self {
             text: format!("{first}:{last}:{count}"),
+            small: over_one_denominator(&from, &span),
             first: from,
-            span: span / RBig::from(intervals),
+            span,
             count,
         })
     }
@@ -49,6 +57,13 @@ impl Grid {
 
     /// The k-th value, from 0.
     pub fn value(&self, k: u64) -> f64 {
+        if let Some([first, span, denominator]) = self.small {
+            let numerator = i128::from(first) + i128::from(span) * i128::from(k);
+            if numerator.abs() <= EXACT.into() {
+                // Both are doubles, and their quotient is rounded once.
+                return numerator as f64 / denominator as f64;
+            }
+        }
         let exact = &self.first + &self.span * RBig::from(k);
         exact.to_f64().value()
     }
@@ -59,6 +74,22 @@ impl fmt::Display for Grid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
+}
+
+/// The numerators of two fractions and their common denominator, if doubles hold all three.
+fn over_one_denominator(one: &RBig, other: &RBig) -> Option<[i64; 3]> {
+    let (a, b) = (one.denominator(), other.denominator());
+    let common = a * b / a.gcd(b);
+    let of = |number: &RBig| number.numerator() * (&common / number.denominator());
+    let small = |number: IBig| {
+        let number = i64::try_from(number).ok()?;
+        (number.abs() <= EXACT).then_some(number)
+    };
+    Some([
+        small(of(one))?,
+        small(of(other))?,
+        small(common.clone().into())?,
+    ])
 }
 
 /// A decimal number, exactly.

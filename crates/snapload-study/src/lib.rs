@@ -14,6 +14,7 @@ mod lines;
 mod list;
 mod metadata;
 mod parquet_file;
+mod parquet_writer;
 #[cfg(feature = "pictures")]
 mod picture;
 mod plan;
@@ -35,12 +36,12 @@ pub use parquet_file::{Holds, Values};
 #[cfg(feature = "pictures")]
 pub use picture::StudyPicture;
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
-pub use rows::{Row, rows};
+pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
-pub use study::{Drawn, Study};
+pub use study::{Drawn, NoCase, Study};
 pub use sweep::{Ending, sweep};
-pub use table::{Column, Run, Take, columns};
+pub use table::{Column, Take, columns};
 pub use threads::threads_for;
 pub use whole::{
     Shown, Tally, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,

@@ -288,6 +288,6 @@ fn cell(column: &Values, row: usize) -> Option<Value> {
         Values::Numbers(list) => list[row].map(Value::Number),
         Values::Counts(list) => list[row].map(Value::Integer),
         Values::Flags(list) => list[row].map(Value::Bool),
-        Values::Words(list) => list[row].clone().map(Value::Text),
+        Values::Words(list) => list[row].clone().map(|text| Value::Text(text.into_owned())),
     }
 }

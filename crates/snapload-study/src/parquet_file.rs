@@ -1,30 +1,23 @@
-//! Columns of Parquet files: written, and read from any row.
+//! Columns of Parquet files, read from any row.
 //!
 //! The Parquet project's own readers and writers of columns do this without Arrow, whose code for
 //! every type there is takes longer to compile than all else that the command line depends on.
 
-use bytes::Bytes;
 use half::f16;
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, get_typed_column_reader};
-use parquet::column::writer::{
-    ColumnCloseResult, ColumnWriter, get_column_writer, get_typed_column_writer_mut,
-};
 use parquet::data_type::{
-    BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType,
-    Int32Type, Int64Type,
+    BoolType, ByteArrayType, DataType, DoubleType, FixedLenByteArrayType, FloatType, Int32Type,
+    Int64Type,
 };
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::FileMetaData;
-use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
-use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
-use parquet::schema::types::{ColumnDescPtr, Type, TypePtr};
-use rayon::prelude::*;
+use parquet::file::reader::FileReader;
+use parquet::file::serialized_reader::{ReadOptionsBuilder, SerializedFileReader};
+use parquet::schema::types::Type;
+use std::borrow::Cow;
 use std::fs::File;
-use std::io::Write;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +42,7 @@ pub enum Values {
     /// True and false.
     Flags(Vec<Option<bool>>),
     /// Texts.
-    Words(Vec<Option<String>>),
+    Words(Vec<Option<Cow<'static, str>>>),
 }
 
 /// The same for each kind of values.
@@ -102,115 +95,12 @@ impl Values {
     }
 }
 
-/// The name of a column, what it holds, and whether each row has a value.
-pub(crate) struct Field {
-    pub name: &'static str,
-    pub holds: Holds,
-    pub required: bool,
-}
-
-fn schema(fields: &[Field]) -> Result<TypePtr> {
-    let column = |field: &Field| {
-        let (physical, logical) = match field.holds {
-            Holds::Numbers => (Physical::DOUBLE, None),
-            Holds::Counts => (Physical::INT64, None),
-            Holds::Flags => (Physical::BOOLEAN, None),
-            Holds::Words => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
-        };
-        let repetition = if field.required {
-            Repetition::REQUIRED
-        } else {
-            Repetition::OPTIONAL
-        };
-        let column = Type::primitive_type_builder(field.name, physical)
-            .with_repetition(repetition)
-            .with_logical_type(logical);
-        Ok(Arc::new(column.build()?))
-    };
-    let columns = fields.iter().map(column).collect::<Result<_>>()?;
-    let whole = Type::group_type_builder("schema").with_fields(columns);
-    Ok(Arc::new(whole.build()?))
-}
-
-/// A file that is written, one group of rows after the other.
-pub(crate) struct Writer<W: Write + Send>(SerializedFileWriter<W>);
-
-impl<W: Write + Send> Writer<W> {
-    pub(crate) fn new(out: W, fields: &[Field], properties: WriterProperties) -> Result<Self> {
-        SerializedFileWriter::new(out, schema(fields)?, Arc::new(properties)).map(Self)
-    }
-
-    /// Writes a group of rows, given by its columns. They are encoded on the threads that there are,
-    /// and written one after the other.
-    pub(crate) fn write(&mut self, columns: &[Values]) -> Result<()> {
-        let places = self.0.schema_descr().columns();
-        if places.len() != columns.len() {
-            return Err(refused("a group has not the columns of the file"));
-        }
-        let properties = self.0.properties();
-        let encode = |(place, values): (&ColumnDescPtr, &Values)| {
-            encoded(Arc::clone(place), Arc::clone(properties), values)
-        };
-        let encoded: Vec<_> = places.par_iter().zip(columns).map(encode).collect();
-        let mut group = self.0.next_row_group()?;
-        for column in encoded {
-            let (bytes, close) = column?;
-            group.append_column(&bytes, close)?;
-        }
-        group.close()?;
-        Ok(())
-    }
-
-    /// Ends the file.
-    pub(crate) fn into_inner(self) -> Result<W> {
-        self.0.into_inner()
-    }
-}
-
-/// A column of a group by itself, as bytes.
-fn encoded(
-    place: ColumnDescPtr,
-    properties: WriterPropertiesPtr,
-    values: &Values,
-) -> Result<(Bytes, ColumnCloseResult)> {
-    let mut bytes = TrackedWrite::new(Vec::new());
-    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
-    let mut column = get_column_writer(place, properties, pages);
-    match values {
-        Values::Numbers(list) => put::<DoubleType, _>(&mut column, list, |n| *n)?,
-        Values::Counts(list) => put::<Int64Type, _>(&mut column, list, |n| *n)?,
-        Values::Flags(list) => put::<BoolType, _>(&mut column, list, |flag| *flag)?,
-        Values::Words(list) => {
-            // Most words are those of the row before: they share its bytes.
-            let mut latest = ByteArray::from("");
-            put::<ByteArrayType, _>(&mut column, list, |word| {
-                if latest.data() != word.as_bytes() {
-                    latest = word.as_bytes().to_vec().into();
-                }
-                latest.clone()
-            })?;
-        }
-    }
-    let close = column.close()?;
-    Ok((bytes.into_inner()?.into(), close))
-}
-
-fn put<D: DataType, V>(
-    column: &mut ColumnWriter<'_>,
-    list: &[Option<V>],
-    write: impl FnMut(&V) -> D::T,
-) -> Result<()> {
-    let values: Vec<D::T> = list.iter().flatten().map(write).collect();
-    let there: Vec<i16> = list
-        .iter()
-        .map(|value| i16::from(value.is_some()))
-        .collect();
-    get_typed_column_writer_mut::<D>(column).write_batch(&values, Some(&there), None)?;
-    Ok(())
-}
-
 /// A file that is read.
-pub(crate) struct Reader(SerializedFileReader<File>);
+pub(crate) struct Reader {
+    pub(crate) reader: SerializedFileReader<File>,
+    /// The same, for its bytes.
+    pub(crate) file: File,
+}
 
 impl Reader {
     /// The compressions that can be read, beside none.
@@ -218,7 +108,7 @@ impl Reader {
 
     /// The compression of a column that can not be read.
     pub(crate) fn codec_without_reader(&self) -> Option<&'static str> {
-        let groups = self.0.metadata().row_groups().iter();
+        let groups = self.reader.metadata().row_groups().iter();
         let mut codecs = groups
             .flat_map(|group| group.columns())
             .map(|column| column.compression());
@@ -230,12 +120,14 @@ impl Reader {
     }
 
     pub(crate) fn open(file: File) -> Result<Self> {
-        SerializedFileReader::new(file).map(Self)
+        let all = ReadOptionsBuilder::new().with_encoding_stats_as_mask(false);
+        let reader = SerializedFileReader::new_with_options(file.try_clone()?, all.build())?;
+        Ok(Self { reader, file })
     }
 
     /// What the file says of itself.
     pub(crate) fn about(&self) -> &FileMetaData {
-        self.0.metadata().file_metadata()
+        self.reader.metadata().file_metadata()
     }
 
     /// The names of the columns, and what each holds; none where that is no kind of [`Values`].
@@ -245,8 +137,8 @@ impl Reader {
     }
 
     /// How many rows each group has.
-    pub(crate) fn groups(&self) -> impl Iterator<Item = u64> {
-        let groups = self.0.metadata().row_groups().iter();
+    pub(crate) fn groups(&self) -> impl ExactSizeIterator<Item = u64> {
+        let groups = self.reader.metadata().row_groups().iter();
         groups.map(|group| group.num_rows().unsigned_abs())
     }
 
@@ -258,7 +150,7 @@ impl Reader {
         rows: Range<u64>,
     ) -> Result<Vec<Values>> {
         let fields: Vec<(&Type, Option<Holds>)> = self.fields().collect();
-        let group = self.0.get_row_group(group)?;
+        let group = self.reader.get_row_group(group)?;
         let read = |&place: &usize| match fields.get(place) {
             Some((field, Some(_))) => get(group.get_column_reader(place)?, field, &rows),
             _ => Err(ParquetError::General(format!(
@@ -343,7 +235,7 @@ fn get(reader: ColumnReader, field: &Type, rows: &Range<u64>) -> Result<Values> 
         }
         ColumnReader::ByteArrayColumnReader(_) => {
             Values::Words(list::<ByteArrayType, _>(reader, rows, |word| {
-                Ok(String::from_utf8_lossy(word.data()).into_owned())
+                Ok(String::from_utf8_lossy(word.data()).into_owned().into())
             })?)
         }
         ColumnReader::FixedLenByteArrayColumnReader(_) => {

@@ -10,7 +10,7 @@
 use crate::seal::{flaw, flaw_of};
 use crate::whole::{identity_of, join, to_bytes};
 use crate::{Identity, Occupied, Row, Study, StudyError, rows};
-use snapload::analysis::{Counter, OnProgress};
+use snapload::analysis::{Counter, Made, OnProgress};
 use std::collections::BTreeMap;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -110,6 +110,11 @@ impl Store {
         self.damaged
     }
 
+    /// The rows that there are to be.
+    pub fn rows(&self) -> Range<u64> {
+        self.identity.rows.clone()
+    }
+
     /// How many rows there are to be.
     pub fn asked(&self) -> u64 {
         self.identity.rows.end - self.identity.rows.start
@@ -134,7 +139,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StudyError::Failed`] if the disk is full, for instance.
-    pub fn save(&mut self, range: Range<u64>, rows: &[Row]) -> Result<(), StudyError> {
+    pub fn save(&mut self, range: Range<u64>, rows: &Made<Row>) -> Result<(), StudyError> {
         let bytes = encode(&self.identity, range.clone(), rows);
         let bytes = bytes.map_err(|error| StudyError::write(&self.directory, error))?;
         self.put(&chunk_name(&range), &bytes)?;
@@ -278,18 +283,19 @@ pub fn chunk(
     on_progress: OnProgress,
 ) -> Result<Vec<u8>, StudyError> {
     let counter = Counter::new("running", 0, range.end - range.start, on_progress);
-    let rows = rows(&study.draw(range.clone())?, study.trust(), &counter)?;
+    let rows = rows(&study.draw(range.clone())?, &counter)?;
     let bytes = encode(&Identity::new(study, None), range, &rows);
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }
 
-fn encode(whole: &Identity, rows: Range<u64>, made: &[Row]) -> io::Result<Vec<u8>> {
+fn encode(whole: &Identity, rows: Range<u64>, made: &Made<Row>) -> io::Result<Vec<u8>> {
     let identity = Identity {
         rows,
         shard: None,
         ..whole.clone()
     };
-    to_bytes(&identity, made)
+    let made: Vec<&Row> = made.iter().collect();
+    to_bytes(&identity, &made)
 }
 
 /// A finished file where one is to be made.

@@ -1,7 +1,8 @@
 //! A study: what is the same in all its cases, and what varies.
 
+use crate::list::ListRow;
 use crate::{Plan, StudyError};
-use snapload::{CaseError, KEYS, Parameters, Value, check_entry};
+use snapload::{Case, CaseError, KEYS, Key, Parameters, Value, check_entry};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -13,15 +14,22 @@ pub struct Study {
     trust: bool,
 }
 
-/// A case of a study before it is run: what was given for it, and what that makes.
-#[derive(Clone, Debug)]
-pub struct Drawn {
-    /// Its place in the study, from 0.
-    pub index: u64,
-    /// Keys and values given, those of the base first; of a key given twice the last value counts.
-    pub given: Vec<(&'static str, Value)>,
-    /// The case, or why there is none.
-    pub parameters: Result<Parameters, CaseError>,
+/// A case of a study that can not be run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoCase {
+    /// The values of all keys in the order of the schema: those given, and the defaults of the
+    /// others.
+    pub keys: Vec<Option<Value>>,
+    /// Why it can not.
+    pub error: CaseError,
+}
+
+/// Some cases of a study, in order. Each is made when it is asked for.
+pub struct Drawn<'a> {
+    study: &'a Study,
+    range: Range<u64>,
+    /// What the list says of each, if it is a list.
+    listed: Vec<ListRow>,
 }
 
 impl Study {
@@ -70,33 +78,17 @@ impl Study {
     ///
     /// # Errors
     /// [`StudyError::Failed`] if the list of cases can no longer be read.
-    pub fn draw(&self, range: Range<u64>) -> Result<Vec<Drawn>, StudyError> {
-        match &self.plan {
-            Plan::List(list) => {
-                let rows = list.read(range.clone())?;
-                let drawn = range.zip(rows);
-                Ok(drawn
-                    .map(|(index, row)| match row {
-                        Ok(entries) => self.case(index, entries),
-                        Err(error) => Drawn {
-                            parameters: Err(error),
-                            ..self.case(index, Vec::new())
-                        },
-                    })
-                    .collect())
-            }
-            plan => Ok(range.map(|i| self.case(i, plan.entries(i))).collect()),
-        }
-    }
-
-    fn case(&self, index: u64, varied: Vec<(&'static str, Value)>) -> Drawn {
-        let given: Vec<_> = self.base.iter().cloned().chain(varied).collect();
-        let parameters = Parameters::from_entries(given.iter().cloned());
-        Drawn {
-            index,
-            given,
-            parameters,
-        }
+    pub fn draw(&self, range: Range<u64>) -> Result<Drawn<'_>, StudyError> {
+        let listed = match &self.plan {
+            Plan::List(list) => list.read(range.clone())?,
+            Plan::Grid(_) | Plan::Random { .. } => Vec::new(),
+        };
+        let study = self;
+        Ok(Drawn {
+            study,
+            range,
+            listed,
+        })
     }
 
     /// The study as a study file. Two studies with the same text have the same rows.
@@ -128,5 +120,63 @@ impl Study {
             }
         }
         text
+    }
+}
+
+impl Drawn<'_> {
+    /// Whether each is to say how far it can be trusted.
+    pub fn trust(&self) -> bool {
+        self.study.trust
+    }
+
+    /// How many.
+    pub fn count(&self) -> usize {
+        (self.range.end - self.range.start) as usize
+    }
+
+    /// What is given for the k-th of them, from 0: keys and values, those of the base first. Of a
+    /// key given twice the last value counts.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if that row of a list can not be read.
+    pub fn given(&self, k: usize) -> Result<Vec<(&'static str, Value)>, CaseError> {
+        Ok([&self.study.base[..], &self.varied(k)?].concat())
+    }
+
+    fn varied(&self, k: usize) -> ListRow {
+        match self.listed.get(k) {
+            Some(row) => row.clone(),
+            None => Ok(self.study.plan.entries(self.range.start + k as u64)),
+        }
+    }
+
+    /// The k-th of them, from 0, checked and ready to run.
+    ///
+    /// # Errors
+    /// A [`NoCase`] if it can not be run.
+    pub fn case(&self, k: usize) -> Result<Case, Box<NoCase>> {
+        let varied = self.varied(k);
+        let made = match &varied {
+            Ok(varied) => Case::from_entries(self.study.base.iter().chain(varied).cloned()),
+            Err(error) => Err(error.clone()),
+        };
+        made.map_err(|error| {
+            let varied = varied.unwrap_or_default();
+            let given = [&self.study.base[..], &varied].concat();
+            Box::new(NoCase::of(&given, error))
+        })
+    }
+}
+
+impl NoCase {
+    fn of(given: &[(&'static str, Value)], error: CaseError) -> Self {
+        let value = |key: &Key| match given.iter().rfind(|(name, _)| *name == key.name) {
+            Some((_, value)) => Some(value.clone()),
+            // What follows from other keys does not follow from wrong ones.
+            None if key.name == "inertia" => None,
+            None => Parameters::STANDARD.get(key.name),
+        };
+        let keys = KEYS.iter().map(value).collect();
+        Self { keys, error }
     }
 }

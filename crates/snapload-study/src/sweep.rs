@@ -1,7 +1,8 @@
 //! The loop of a study: the next cases, their rows, into the store.
 
+use crate::whole::GROUP;
 use crate::{Row, Store, Study, StudyError, rows};
-use snapload::analysis::{Cancelled, Counter, OnProgress, Progress};
+use snapload::analysis::{Cancelled, Counter, Made, OnProgress, Progress};
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -12,8 +13,9 @@ const AIM: Duration = Duration::from_secs(3);
 const FIRST: u64 = 256;
 /// The least cases of a chunk: enough for many threads.
 const LEAST: u64 = 64;
-/// The most: what is held in memory at a time.
-const MOST: u64 = 1 << 14;
+/// The most: what is held in memory at a time, and a group of rows of the file, which takes such a
+/// chunk as it stands.
+const MOST: u64 = GROUP as u64;
 
 /// When a sweep ends that is told to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +30,7 @@ pub enum Ending {
 const TRIES: u32 = 3;
 
 /// A chunk that is run and not yet safe.
-type Chunk = (Range<u64>, Vec<Row>);
+type Chunk = (Range<u64>, Made<Row>);
 
 /// Runs what is missing in the store, on the threads that there are, and completes the file. While
 /// a chunk is run the one before it is written. Rows that come back damaged when the file is put
@@ -103,7 +105,7 @@ fn fill(
 
 fn chunk(study: &Study, range: Range<u64>, counter: &Counter) -> Result<Chunk, StudyError> {
     let drawn = study.draw(range.clone())?;
-    Ok((range, rows(&drawn, study.trust(), counter)?))
+    Ok((range, rows(&drawn, counter)?))
 }
 
 /// The next rows that are missing, after those that are being written.
@@ -112,7 +114,10 @@ fn next_range(store: &Store, written: Option<&Chunk>, size: u64) -> Option<Range
     let mut missing = store.gaps().filter(|gap| gap.end > from);
     let gap = missing.next()?;
     let start = gap.start.max(from);
-    Some(start..gap.end.min(start.saturating_add(size)))
+    let first = store.rows().start;
+    let group_end = first + ((start - first) / MOST + 1) * MOST;
+    let end = start.saturating_add(size).min(group_end);
+    Some(start..gap.end.min(end))
 }
 
 /// The size of a chunk that would take the time aimed at; a row does not depend on it.

@@ -1,10 +1,12 @@
 //! Columns of tables: what each is called, its unit, what it means, and how its values are taken
 //! from a row.
 
-use crate::Row;
-use crate::parquet_file::{Field, Holds, Values};
-use snapload::analysis::{Certainty, Horizon};
-use snapload::{FirstImpact, KEYS, Kind, Outcome, Stop, Value, quantity};
+use crate::parquet_file::{Holds, Values};
+use crate::parquet_writer::Field;
+use crate::{Row, Run};
+use snapload::analysis::Horizon;
+use snapload::{FirstImpact, Get, Parameters, Stop, Value, quantity};
+use std::ops::Range;
 
 /// How a column's values are taken from a row; none where the row has no such value.
 pub enum Take<R = Run> {
@@ -73,7 +75,7 @@ impl<R> Column<R> {
             Take::Number(of) => Values::Numbers(rows.map(|row| of(row?)).collect()),
             Take::Count(of) => Values::Counts(rows.map(|row| of(row?).map(signed)).collect()),
             Take::Flag(of) => Values::Flags(rows.map(|row| of(row?)).collect()),
-            Take::Word(of) => Values::Words(rows.map(|row| Some(of(row?).to_owned())).collect()),
+            Take::Word(of) => Values::Words(rows.map(|row| Some(of(row?).into())).collect()),
         }
     }
 
@@ -85,21 +87,6 @@ impl<R> Column<R> {
             Take::Flag(_) => Holds::Flags,
             Take::Word(_) => Holds::Words,
         }
-    }
-}
-
-/// What there is to tell of a case that could be run.
-pub struct Run {
-    outcome: Outcome,
-    certainty: Option<Certainty>,
-}
-
-impl Run {
-    fn of(row: &Row) -> Option<Self> {
-        Some(Self {
-            outcome: *row.outcome.as_ref().ok()?,
-            certainty: row.certainty,
-        })
     }
 }
 
@@ -167,13 +154,13 @@ pub(crate) fn fields() -> Vec<Field> {
         holds,
         required: name == "row",
     };
-    let key_holds = |kind: &Kind| match kind {
-        Kind::Number { .. } => Holds::Numbers,
-        Kind::Count { .. } => Holds::Counts,
-        Kind::Flag => Holds::Flags,
-        Kind::Choice(_) | Kind::Text | Kind::Pair(_) => Holds::Words,
+    let key_holds = |get: Get| match get {
+        Get::Number(_) => Holds::Numbers,
+        Get::Count(_) => Holds::Counts,
+        Get::Flag(_) => Holds::Flags,
+        Get::Word(_) => Holds::Words,
     };
-    let keys = KEYS.iter().map(|key| field(key.name, key_holds(&key.kind)));
+    let keys = Parameters::keys().map(|(key, get)| field(key.name, key_holds(get)));
     let ends = COLUMNS.iter().map(|c| field(c.name, c.holds()));
     std::iter::once(field("row", Holds::Counts))
         .chain(keys)
@@ -182,62 +169,63 @@ pub(crate) fn fields() -> Vec<Field> {
         .collect()
 }
 
-/// Rows as columns.
-pub(crate) fn columns_of(rows: &[Row]) -> Vec<Values> {
-    let index = rows.iter().map(|row| Some(signed(row.index)));
-    let mut columns = vec![Values::Counts(index.collect())];
-    for (k, key) in KEYS.iter().enumerate() {
-        let values = rows.iter().map(|row| row.keys[k].as_ref());
-        columns.push(key_values(&key.kind, values));
+/// Rows as columns; `range` are their places in the study, from 0.
+pub(crate) fn columns_of(range: Range<u64>, rows: &[&Row]) -> Vec<Values> {
+    let mut columns = vec![Values::Counts(range.map(signed).map(Some).collect())];
+    for (k, (_, get)) in Parameters::keys().enumerate() {
+        columns.push(key_values(rows, k, get));
     }
-    let runs: Vec<Option<Run>> = rows.iter().map(Run::of).collect();
     for column in &COLUMNS {
-        columns.push(column.values(runs.iter().map(Option::as_ref)));
+        let runs = rows.iter().map(|row| row.as_ref().ok().map(|(_, run)| run));
+        columns.push(column.values(runs));
     }
-    let errors = rows
-        .iter()
-        .map(|row| row.outcome.as_ref().err().map(ToString::to_string));
-    columns.push(Values::Words(errors.collect()));
+    let error = |row: &&Row| Some(row.as_ref().err()?.error.to_string().into());
+    columns.push(Values::Words(rows.iter().map(error).collect()));
     columns
 }
 
-/// The values of a key. A value of another type, in a row with an error, is left out: the error
-/// tells it.
-fn key_values<'a>(kind: &Kind, values: impl Iterator<Item = Option<&'a Value>>) -> Values {
-    match kind {
-        Kind::Number { .. } => Values::Numbers(
-            values
-                .map(|v| match v? {
-                    Value::Number(number) => Some(*number),
-                    Value::Integer(number) => Some(*number as f64),
-                    _ => None,
-                })
-                .collect(),
-        ),
-        Kind::Count { .. } => Values::Counts(
-            values
-                .map(|v| match v? {
-                    Value::Integer(number) => Some(*number),
-                    _ => None,
-                })
-                .collect(),
-        ),
-        Kind::Flag => Values::Flags(
-            values
-                .map(|v| match v? {
-                    Value::Bool(flag) => Some(*flag),
-                    _ => None,
-                })
-                .collect(),
-        ),
-        Kind::Choice(_) | Kind::Text | Kind::Pair(_) => Values::Words(
-            values
-                .map(|v| match v? {
-                    Value::Text(text) => Some(text.clone()),
-                    _ => None,
-                })
-                .collect(),
-        ),
+/// The values of the k-th key. A value of another type, in a row with an error, is left out: the
+/// error tells it.
+fn key_values(rows: &[&Row], k: usize, get: Get) -> Values {
+    /// Of a case that could be run by `of`, of one that could not by `given`.
+    fn values<T>(
+        rows: &[&Row],
+        k: usize,
+        of: impl Fn(&Parameters) -> Option<T>,
+        given: impl Fn(&Value) -> Option<T>,
+    ) -> Vec<Option<T>> {
+        let value = |row: &&Row| match row {
+            Ok((parameters, _)) => of(parameters),
+            Err(no_case) => no_case.keys[k].as_ref().and_then(&given),
+        };
+        rows.iter().map(value).collect()
+    }
+    match get {
+        Get::Number(of) => Values::Numbers(values(rows, k, of, Value::number)),
+        Get::Count(of) => Values::Counts(values(
+            rows,
+            k,
+            |p| Some(signed(of(p))),
+            |value| match value {
+                Value::Integer(number) => Some(*number),
+                _ => None,
+            },
+        )),
+        Get::Flag(of) => Values::Flags(values(
+            rows,
+            k,
+            |p| Some(of(p)),
+            |value| match value {
+                Value::Bool(flag) => Some(*flag),
+                _ => None,
+            },
+        )),
+        Get::Word(of) => Values::Words(values(
+            rows,
+            k,
+            |p| Some(of(p).into()),
+            |value| value.text().map(|text| text.to_owned().into()),
+        )),
     }
 }
 

@@ -1,7 +1,8 @@
 //! Files of rows: written, joined in one pass, and read again.
 
 use crate::metadata::{Identity, Shard};
-use crate::parquet_file::{Holds, Reader, Values, Writer};
+use crate::parquet_file::{Holds, Reader, Values};
+use crate::parquet_writer::{Field, Writer};
 use crate::seal::{blank, flaw, seal};
 use crate::table::{columns_of, fields};
 use crate::{Column, Row, StudyError};
@@ -15,16 +16,19 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Rows of a row group. A constant, as the bytes of a file hang on it.
-const GROUP: usize = 1 << 16;
+pub(crate) const GROUP: usize = 1 << 15;
+
+/// How hard columns are compressed; more makes them no shorter.
+const LEVEL: i32 = 1;
 
 /// So many missing parts are named.
 const MOST_NAMES: usize = 10;
 
 /// Rows as the bytes of a file of their own.
-pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>> {
+pub(crate) fn to_bytes(identity: &Identity, rows: &[&Row]) -> io::Result<Vec<u8>> {
     let write = || {
-        let mut writer = Writer::new(Vec::new(), &fields(), quick_properties(identity)?)?;
-        writer.write(&columns_of(rows))?;
+        let mut writer = Writer::new(Vec::new(), &fields(), properties(identity)?)?;
+        writer.write(&columns_of(identity.rows.clone(), rows))?;
         writer.into_inner()
     };
     let mut bytes = write().map_err(to_io)?;
@@ -32,31 +36,31 @@ pub(crate) fn to_bytes(identity: &Identity, rows: &[Row]) -> io::Result<Vec<u8>>
     Ok(bytes)
 }
 
-/// Of a file that is kept.
+/// How columns are encoded. Words are few, and stand in a dictionary. Numbers that runs come to are
+/// all different, and those of keys follow a pattern, which the compression finds sooner than a
+/// dictionary is made. Statistics are those of a group, which is small enough.
 fn properties(identity: &Identity) -> ParquetResult<WriterProperties> {
-    Ok(described(identity, 3)?.build())
-}
-
-/// Of a file that is soon read again and joined with others: quick to write, and hardly larger.
-fn quick_properties(identity: &Identity) -> ParquetResult<WriterProperties> {
-    let quick = described(identity, 1)?
-        .set_dictionary_enabled(false)
-        .set_statistics_enabled(EnabledStatistics::None);
-    Ok(quick.build())
-}
-
-fn described(identity: &Identity, level: i32) -> ParquetResult<WriterPropertiesBuilder> {
     let mut notes = identity.to_metadata();
     notes.push(blank());
-    Ok(WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(level)?))
+    let described = WriterProperties::builder()
+        .set_compression(Compression::ZSTD(ZstdLevel::try_new(LEVEL)?))
+        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_offset_index_disabled(true)
+        .set_dictionary_enabled(false)
         .set_created_by(format!("snapload {}", identity.version))
-        .set_key_value_metadata(Some(notes)))
+        .set_key_value_metadata(Some(notes));
+    let fields = fields();
+    let words = fields.iter().filter(|field| field.holds == Holds::Words);
+    let with = |properties: WriterPropertiesBuilder, field: &Field| {
+        properties.set_column_dictionary_enabled(field.name.into(), true)
+    };
+    Ok(words.fold(described, with).build())
 }
 
 /// Puts the rows of files, one file after the other, into a new one, and has it on the disk when it
-/// returns. Rows are taken out and written anew, so the bytes depend on the rows and not on how
-/// they were cut.
+/// returns. Groups of rows that fall together with those of the new file are taken as they stand, and
+/// have the bytes that they would have if all rows were taken out and written anew, as others are.
+/// So the bytes depend on the rows and not on how they were cut.
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it is one of the files that is wrong, and [`StudyError::Failed`] if it
@@ -71,24 +75,25 @@ pub(crate) fn join(parts: &[PathBuf], out: &Path, identity: &Identity) -> Result
     let properties = properties(identity).map_err(wrong)?;
     let fields = fields();
     let mut writer = Writer::new(BufWriter::new(file), &fields, properties).map_err(wrong)?;
-    let mut waiting: Vec<Values> = fields
-        .iter()
-        .map(|field| Values::none(field.holds))
-        .collect();
+    let nothing = || fields.iter().map(|field| Values::none(field.holds));
+    let mut waiting: Vec<Values> = nothing().collect();
     for part in parts {
-        read_groups(part, None, |columns| {
-            for (list, more) in waiting.iter_mut().zip(columns) {
+        let columns = Columns::all(part)?;
+        for (group, rows) in columns.reader.groups().enumerate() {
+            let last =
+                part == &parts[parts.len() - 1] && group + 1 == columns.reader.groups().len();
+            if waiting[0].len() == 0 && (last || rows == GROUP as u64) {
+                writer.take(&columns.reader, group).map_err(wrong)?;
+                continue;
+            }
+            for (list, more) in waiting.iter_mut().zip(columns.read(group, 0..rows)?) {
                 list.append(more);
             }
             while waiting[0].len() >= GROUP {
-                let group: Vec<_> = waiting
-                    .iter_mut()
-                    .map(|list| list.take_first(GROUP))
-                    .collect();
-                writer.write(&group).map_err(wrong)?;
+                let group = waiting.iter_mut().map(|list| list.take_first(GROUP));
+                writer.write(&group.collect::<Vec<_>>()).map_err(wrong)?;
             }
-            Ok(())
-        })?;
+        }
     }
     if waiting[0].len() > 0 {
         writer.write(&waiting).map_err(wrong)?;
@@ -244,12 +249,13 @@ pub struct Tally {
 pub fn ends(path: &Path) -> Result<Tally, StudyError> {
     let mut tally = Tally::default();
     let mut row = identity_of(path).map_or(0, |identity| identity.rows.start);
-    read_columns(path, &["end", "certain", "error"], |columns| {
+    let columns = Columns::named(path, &["end", "certain", "error"])?;
+    columns.each(|columns| {
         let [
             Values::Words(ends),
             Values::Flags(certain),
             Values::Words(errors),
-        ] = columns
+        ] = &columns[..]
         else {
             return;
         };
@@ -259,16 +265,16 @@ pub fn ends(path: &Path) -> Result<Tally, StudyError> {
         }
         for (end, error) in ends.iter().zip(errors) {
             if let Some(end) = end {
-                match tally.ends.get_mut(end) {
+                match tally.ends.get_mut(&**end) {
                     Some(count) => *count += 1,
-                    None => _ = tally.ends.insert(end.clone(), 1),
+                    None => _ = tally.ends.insert(end.to_string(), 1),
                 }
             }
             if let Some(error) = error {
                 tally.errors += 1;
                 tally
                     .first_error
-                    .get_or_insert_with(|| (row, error.clone()));
+                    .get_or_insert_with(|| (row, error.to_string()));
             }
             row += 1;
         }
@@ -300,8 +306,9 @@ pub fn read_shown(
     mut visit: impl FnMut(u64, Shown, bool),
 ) -> Result<(), StudyError> {
     let mut row = 0;
-    read_columns(path, &[column.name, "error", "certain"], |columns| {
-        let [values, Values::Words(errors), Values::Flags(certain)] = columns else {
+    let columns = Columns::named(path, &[column.name, "error", "certain"])?;
+    columns.each(|columns| {
+        let [values, Values::Words(errors), Values::Flags(certain)] = &columns[..] else {
             return;
         };
         for (k, error) in errors.iter().enumerate() {
@@ -355,54 +362,58 @@ pub fn read_rows(
     rows: Range<u64>,
     mut visit: impl FnMut(Values),
 ) -> Result<(), StudyError> {
-    let reader = open(path)?;
-    let place = reader.fields().position(|(field, _)| field.name() == name);
-    let place =
-        place.ok_or_else(|| StudyError::damaged(path, format!("it has no column {name}")))?;
+    let columns = Columns::named(path, &[name])?;
     let mut begin = 0;
-    for (group, count) in reader.groups().enumerate() {
+    for (group, count) in columns.reader.groups().enumerate() {
         let wanted = rows.start.max(begin)..rows.end.min(begin + count);
         if wanted.start < wanted.end {
             let here = wanted.start - begin..wanted.end - begin;
-            let read = reader.read(group, &[place], here);
-            let read = read.map_err(|error| StudyError::damaged(path, error))?;
-            read.into_iter().for_each(&mut visit);
+            columns.read(group, here)?.into_iter().for_each(&mut visit);
         }
         begin += count;
     }
     Ok(())
 }
 
-fn read_columns(
-    path: &Path,
-    names: &[&str],
-    mut visit: impl FnMut(&[Values]),
-) -> Result<(), StudyError> {
-    read_groups(path, Some(names), |columns| {
-        visit(&columns);
-        Ok(())
-    })
+/// Some columns of a file of rows.
+struct Columns<'a> {
+    path: &'a Path,
+    reader: Reader,
+    places: Vec<usize>,
 }
 
-/// Reads the columns of these names, or all that a study's file has, group by group of the rows.
-fn read_groups(
-    path: &Path,
-    names: Option<&[&str]>,
-    mut visit: impl FnMut(Vec<Values>) -> Result<(), StudyError>,
-) -> Result<(), StudyError> {
-    let reader = open(path)?;
-    let wanted = names.map_or_else(
-        || fields().iter().map(|field| field.name).collect(),
-        <[&str]>::to_vec,
-    );
-    let place = |name: &&str| {
-        let found = reader.fields().position(|(field, _)| field.name() == *name);
-        found.ok_or_else(|| StudyError::damaged(path, format!("it has no column {name}")))
-    };
-    let places = wanted.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-    for (group, rows) in reader.groups().enumerate() {
-        let columns = reader.read(group, &places, 0..rows);
-        visit(columns.map_err(|error| StudyError::damaged(path, error))?)?;
+impl<'a> Columns<'a> {
+    /// All that a study's file has.
+    fn all(path: &'a Path) -> Result<Self, StudyError> {
+        let names: Vec<&str> = fields().iter().map(|field| field.name).collect();
+        Self::named(path, &names)
     }
-    Ok(())
+
+    fn named(path: &'a Path, names: &[&str]) -> Result<Self, StudyError> {
+        let reader = open(path)?;
+        let place = |name: &&str| {
+            let found = reader.fields().position(|(field, _)| field.name() == *name);
+            found.ok_or_else(|| StudyError::damaged(path, format!("it has no column {name}")))
+        };
+        let places = names.iter().map(place).collect::<Result<_, _>>()?;
+        Ok(Self {
+            path,
+            reader,
+            places,
+        })
+    }
+
+    /// Their values in some rows of a group.
+    fn read(&self, group: usize, rows: Range<u64>) -> Result<Vec<Values>, StudyError> {
+        let columns = self.reader.read(group, &self.places, rows);
+        columns.map_err(|error| StudyError::damaged(self.path, error))
+    }
+
+    /// All of their values, group by group.
+    fn each(&self, mut visit: impl FnMut(Vec<Values>)) -> Result<(), StudyError> {
+        for (group, rows) in self.reader.groups().enumerate() {
+            visit(self.read(group, 0..rows)?);
+        }
+        Ok(())
+    }
 }

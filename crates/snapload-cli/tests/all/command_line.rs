@@ -156,6 +156,22 @@ fn the_end_is_sampled_once() {
 }
 
 #[test]
+fn times_of_samples_are_the_decimals_that_one_writes() {
+    let d = directory();
+    for (dt, places) in [("0.1", 1), ("0.07", 2), ("1e-3", 3)] {
+        let run = json(d.path(), &["--set", "t_end=1", "--sample", dt]);
+        let motion = run["motion"].as_array().unwrap();
+        let (end, times) = motion.split_last().unwrap();
+        let step: f64 = dt.parse().unwrap();
+        for (k, row) in times.iter().enumerate() {
+            let written = format!("{:.places$}", k as f64 * step);
+            assert_eq!(row["t"].as_f64(), written.parse().ok(), "{written}");
+        }
+        assert_eq!(end["t"], 1.0);
+    }
+}
+
+#[test]
 fn the_echoed_case_can_be_fed_back() {
     let d = directory();
     for args in [

@@ -20,13 +20,8 @@ type Row = Result<Vec<(&'static str, Value)>, CaseError>;
 /// Some rows of a list.
 fn read(list: List, range: Range<u64>) -> Vec<Row> {
     let study = Study::new([], Plan::List(list), false).unwrap();
-    let drawn = study.draw(range).unwrap().into_iter();
-    drawn
-        .map(|drawn| match drawn.parameters {
-            Err(error) if drawn.given.is_empty() => Err(error),
-            _ => Ok(drawn.given),
-        })
-        .collect()
+    let drawn = study.draw(range).unwrap();
+    (0..drawn.count()).map(|k| drawn.given(k)).collect()
 }
 
 fn csv(text: &str) -> tempfile::NamedTempFile {
@@ -172,10 +167,11 @@ fn counts(values: &[u64], codec: Compression) -> tempfile::NamedTempFile {
 fn a_count_that_is_too_large_spoils_its_own_row() {
     let file = counts(&[7, u64::MAX, 9], Compression::UNCOMPRESSED);
     let plan = Plan::List(List::open(file.path()).unwrap());
-    let drawn = Study::new([], plan, false).unwrap().draw(0..3).unwrap();
-    let runs = drawn.iter().map(|drawn| drawn.parameters.is_ok());
+    let study = Study::new([], plan, false).unwrap();
+    let drawn = study.draw(0..3).unwrap();
+    let runs = (0..3).map(|k| drawn.case(k).is_ok());
     assert_eq!(runs.collect::<Vec<_>>(), [true, false, true]);
-    let error = drawn[1].parameters.as_ref().unwrap_err().to_string();
+    let error = drawn.case(1).unwrap_err().error.to_string();
     assert!(error.contains("max_impacts = 1.8"), "{error}");
 }
 

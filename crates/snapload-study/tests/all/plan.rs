@@ -10,7 +10,8 @@ fn even(key: &str, first: &str, last: &str, count: u64) -> Axis {
 fn entries(plan: Plan) -> Vec<Vec<(&'static str, Value)>> {
     let study = Study::new([], plan, false).unwrap();
     let drawn = study.draw(0..study.count()).unwrap();
-    drawn.into_iter().map(|drawn| drawn.given).collect()
+    let entries = (0..drawn.count()).map(|k| drawn.given(k).unwrap());
+    entries.collect()
 }
 
 #[test]

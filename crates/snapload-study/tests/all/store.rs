@@ -1,7 +1,8 @@
 //! What is safe stays safe, and the file depends on the rows alone.
 use snapload::analysis::{Cancelled, Counter, Progress, unwatched};
 use snapload_study::{
-    Axis, Ending, Grid, Identity, Opened, Plan, Store, Study, StudyError, chunk, rows, sweep,
+    Axis, Ending, Grid, Identity, Opened, Plan, Shard, Store, Study, StudyError, chunk, merge,
+    rows, sweep,
 };
 use std::fs;
 use std::ops::{ControlFlow, Range};
@@ -55,9 +56,8 @@ fn rows_come_from_elsewhere() {
 pub(crate) fn save(store: &mut Store, study: &Study, range: Range<u64>) {
     let drawn = study.draw(range.clone()).unwrap();
     let counter = Counter::new("running", 0, 0, &unwatched);
-    store
-        .save(range, &rows(&drawn, false, &counter).unwrap())
-        .unwrap();
+    let rows = rows(&drawn, &counter).unwrap();
+    store.save(range, &rows).unwrap();
 }
 
 pub(crate) fn complete(target: &Path, study: &Study) -> Vec<u8> {
@@ -93,6 +93,28 @@ fn the_file_depends_on_the_rows_alone() {
     assert!(work(&target, &study).gap() == Some(1..200));
     assert!(complete(&target, &study) == wanted);
     assert!(!parts.exists());
+}
+
+/// Groups of rows that a chunk holds as a whole are taken as they stand; of parts that are cut
+/// elsewhere each row is written anew.
+#[test]
+fn groups_that_are_taken_have_the_bytes_of_those_written_anew() {
+    let directory = tempfile::tempdir().unwrap();
+    let study = study(70_000);
+    let wanted = complete(&directory.path().join("whole"), &study);
+    let parts = ["1/3", "2/3", "3/3"].map(|text| {
+        let shard = Shard::parse(text).unwrap();
+        let target = directory.path().join(text.replace('/', "-"));
+        let identity = Identity::new(&study, Some(shard));
+        let Opened::Work(store) = Store::open(&target, identity, false).unwrap() else {
+            panic!("complete");
+        };
+        sweep(&study, store, Ending::AfterChunk, &unwatched).unwrap();
+        target
+    });
+    let merged = directory.path().join("merged");
+    merge(&parts, &merged).unwrap();
+    assert!(fs::read(merged).unwrap() == wanted);
 }
 
 /// However it ends, what is safe is whole, and the rest is done later.

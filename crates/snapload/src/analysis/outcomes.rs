@@ -3,43 +3,72 @@
 use crate::analysis::progress::{Cancelled, Counter, OnProgress};
 use crate::analysis::threads::in_parallel;
 use crate::batch::followers::{Follower, Unfollowed};
-use crate::batch::lanes::Lanes;
+use crate::batch::lanes::{Lanes, Told};
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Items that a thread takes at a time at most. Where it ends, lanes stand idle until the longest
-/// of the last runs has ended: one part in twenty of the time with 512.
-const MOST_AT_ONCE: usize = 2048;
-/// Fewer than this do not fill the lanes; a list is cut finer only to give every thread something.
-const FULL: usize = 64;
-/// Times that each thread takes some, so that one that meets long runs is relieved by the others.
-const TURNS: usize = 4;
+/// What was made of each number below some count, in the lists of the threads that made it.
+#[derive(Debug)]
+pub struct Made<R> {
+    lists: Vec<Vec<R>>,
+    /// The list of each number, and the place in it.
+    places: Vec<(u32, u32)>,
+}
 
-/// What `work` makes of the items, a result for each, in their order, on all threads that there
-/// are.
+impl<R> Made<R> {
+    /// In the order of the numbers.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &R> + Clone {
+        let of = |(list, place): &(u32, u32)| &self.lists[*list as usize][*place as usize];
+        self.places.iter().map(of)
+    }
+
+    /// In the order of the numbers.
+    pub fn into_vec(self) -> Vec<R> {
+        let mut lists: Vec<_> = self.lists.into_iter().map(Vec::into_iter).collect();
+        // Each list is in the order of its own numbers.
+        let next = |(list, _): &(u32, u32)| lists[*list as usize].next();
+        self.places.iter().filter_map(next).collect()
+    }
+}
+
+/// What `work` makes of each number below `count`, on all threads that there are.
 ///
-/// A thread takes items from all over the list, as neighbours in a study take alike long, and a few
-/// very long.
+/// Each thread is handed numbers one by one, and makes one result of each, in that order. So its
+/// lanes are full as long as there is anything to do, and all threads end together.
 ///
 /// # Errors
 /// That of the work, which ends the rest of it.
-pub fn on_all_threads<I: Sync, R: Send, E: Send>(
-    items: &[I],
-    work: impl Fn(&[&I]) -> Result<Vec<R>, E> + Sync,
-) -> Result<Vec<R>, E> {
-    let (count, threads) = (items.len(), rayon::current_num_threads());
-    let fewest = count.div_ceil(MOST_AT_ONCE).max(count.min(threads));
-    let parts = count.div_ceil(FULL).min(TURNS * threads).max(fewest);
-    let done = in_parallel(parts, |part| {
-        let mine: Vec<&I> = items.iter().skip(part).step_by(parts).collect();
-        let made = work(&mine)?;
-        assert_eq!(made.len(), mine.len(), "every item has one result");
-        Ok(made)
+///
+/// # Panics
+/// If the work makes another number of results than it took numbers.
+pub fn on_all_threads<R: Send, E: Send>(
+    count: usize,
+    work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
+) -> Result<Made<R>, E> {
+    let next = AtomicUsize::new(0);
+    let done = in_parallel(rayon::current_num_threads().min(count), |_| {
+        let mut mine = Vec::new();
+        let mut numbers = std::iter::from_fn(|| {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            (number < count).then(|| {
+                mine.push(number);
+                number
+            })
+        });
+        let made = work(&mut numbers).inspect_err(|_| next.store(count, Ordering::Relaxed))?;
+        assert_eq!(made.len(), mine.len(), "every number has one result");
+        Ok((mine, made))
     })?;
-    let mut lists: Vec<_> = done.into_iter().map(Vec::into_iter).collect();
-    let all = (0..count).filter_map(|k| lists[k % parts].next());
-    Ok(all.collect())
+    let mut places = vec![(0, 0); count];
+    for (list, (numbers, _)) in done.iter().enumerate() {
+        for (place, number) in numbers.iter().enumerate() {
+            places[*number] = (list as u32, place as u32);
+        }
+    }
+    let lists = done.into_iter().map(|(_, made)| made).collect();
+    Ok(Made { lists, places })
 }
 
 /// The outcomes of many cases, in their order: side by side in the lanes of the processor, on all
@@ -49,28 +78,28 @@ pub fn on_all_threads<I: Sync, R: Send, E: Send>(
 /// [`Cancelled`] if the work is to end before.
 pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>, Cancelled> {
     let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
-    on_all_threads(cases, |cases| {
-        let outcomes = outcomes_on_one_thread(cases.iter().copied(), &counter)?;
-        counter.add(outcomes.len() as u64)?;
-        Ok(outcomes)
-    })
+    let made = on_all_threads(cases.len(), |numbers| {
+        let cases = numbers.map(|k| cases[k].clone());
+        outcomes_on_one_thread(cases, &counter)
+    });
+    made.map(Made::into_vec)
 }
 
-/// The same on one thread, with a counter that is only asked whether to go on.
+/// The same on one thread; each case is counted when it begins.
 ///
 /// # Errors
 /// As for [`outcomes`].
-pub fn outcomes_on_one_thread<'a>(
-    cases: impl Iterator<Item = &'a Case>,
+pub fn outcomes_on_one_thread(
+    cases: impl Iterator<Item = Case>,
     counter: &Counter,
 ) -> Result<Vec<Outcome>, Cancelled> {
-    let runs = cases.map(|case| (case.simulation(), Unfollowed));
+    let runs = cases.map(|case| (case.into_simulation(), Unfollowed));
     let told = side_by_side(Lanes::best(), runs, counter)?;
-    Ok(told.into_iter().map(|(outcome, _)| outcome).collect())
+    Ok(told.map(|(outcome, _)| outcome).collect())
 }
 
-/// What runs come to, and their followers, in their order; before each begins the counter is asked
-/// whether to go on.
+/// What runs come to, and their followers, in their order. Each is counted when it begins, and the
+/// counter asked whether to go on.
 ///
 /// # Errors
 /// As for [`outcomes`].
@@ -78,10 +107,10 @@ pub(crate) fn side_by_side<F: Follower>(
     lanes: Lanes,
     runs: impl Iterator<Item = (Simulation, F)>,
     counter: &Counter,
-) -> Result<Vec<(Outcome, F)>, Cancelled> {
+) -> Result<Told<F>, Cancelled> {
     let mut cancelled = None;
     let runs = runs.map_while(|run| {
-        cancelled = counter.add(0).err();
+        cancelled = counter.add(1).err();
         cancelled.is_none().then_some(run)
     });
     let (told, _) = lanes.outcomes_beside(runs);
@@ -91,30 +120,43 @@ pub(crate) fn side_by_side<F: Follower>(
 #[cfg(test)]
 mod tests {
     use std::convert::Infallible;
-    use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
-    fn results_come_in_the_order_of_the_items() {
+    fn results_come_in_the_order_of_the_numbers() {
         for count in [0, 1, 2, 255, 256, 257, 5000] {
-            let items: Vec<usize> = (0..count).collect();
-            let doubled = super::on_all_threads(&items, |part| {
-                Ok::<_, Infallible>(part.iter().map(|k| **k * 2).collect())
+            let doubled = super::on_all_threads(count, |numbers| {
+                Ok::<_, Infallible>(numbers.map(|k| k * 2).collect())
             });
             let doubled = doubled.expect("it can not fail");
-            assert!(doubled.iter().copied().eq(items.iter().map(|k| k * 2)));
+            let known = || (0..count).map(|k| k * 2);
+            assert!(doubled.iter().copied().eq(known()));
+            assert!(doubled.into_vec().into_iter().eq(known()));
         }
+    }
+
+    #[test]
+    fn an_error_ends_the_work() {
+        let refused = super::on_all_threads(5000, |numbers| {
+            let made: Result<Vec<usize>, usize> = numbers
+                .map(|k| if k == 700 { Err(k) } else { Ok(k) })
+                .collect();
+            made
+        });
+        assert_eq!(refused.map(super::Made::into_vec), Err(700));
     }
 
     #[test]
     fn a_short_list_is_for_all_threads_too() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build();
-        let calls = AtomicUsize::new(0);
+        // Each thread waits with its first number until all have one.
+        let all_there = std::sync::Barrier::new(3);
         let done = pool.expect("threads").install(|| {
-            super::on_all_threads(&[0; 6], |part| {
-                calls.fetch_add(1, Ordering::Relaxed);
-                Ok::<_, Infallible>(part.iter().map(|item| **item).collect())
+            super::on_all_threads(6, |numbers| {
+                let first: Vec<usize> = numbers.take(1).collect();
+                all_there.wait();
+                Ok::<_, Infallible>(first.into_iter().chain(numbers).collect())
             })
         });
-        assert_eq!((done, calls.into_inner()), (Ok(vec![0; 6]), 3));
+        assert_eq!(done.map(super::Made::into_vec), Ok((0..6).collect()));
     }
 }

@@ -14,6 +14,11 @@ use crate::batch::vector::Several;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
+use std::iter::Flatten;
+use std::vec::IntoIter;
+
+/// What runs came to, and their followers, in their order.
+pub(crate) type Told<C> = Flatten<IntoIter<Option<(Outcome, C)>>>;
 
 /// How many runs go side by side. All give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +80,7 @@ impl Lanes {
     ) -> (Vec<Outcome>, Usage) {
         let count = runs.len();
         let (told, usage) = self.outcomes_beside(runs.map(|simulation| (simulation, Unfollowed)));
-        let outcomes: Vec<Outcome> = told.into_iter().map(|(outcome, _)| outcome).collect();
+        let outcomes: Vec<Outcome> = told.map(|(outcome, _)| outcome).collect();
         assert_eq!(outcomes.len(), count, "every run is told of once");
         (outcomes, usage)
     }
@@ -84,7 +89,7 @@ impl Lanes {
     pub(crate) fn outcomes_beside<C: Follower>(
         self,
         runs: impl Iterator<Item = (Simulation, C)>,
-    ) -> (Vec<(Outcome, C)>, Usage) {
+    ) -> (Told<C>, Usage) {
         let mut told: Vec<Option<(Outcome, C)>> = Vec::new();
         let mut left = Vec::new();
         let mut begun = runs
@@ -116,7 +121,7 @@ impl Lanes {
             }
         });
         usage.add(&alone);
-        (told.into_iter().flatten().collect(), usage)
+        (told.into_iter().flatten(), usage)
     }
 
     /// Runs all of `runs` to their ends, or as far as their followers go, and hands them on. In

@@ -1,8 +1,9 @@
 //! From keys and values to a case, and back. What the keys ask of each other is checked here, once.
 
 use crate::case::error::CaseError;
+use crate::case::key::Key;
 use crate::case::keys::{KEYS, check_entry};
-use crate::case::parameters::{BODIES, Parameters, natural_inertia};
+use crate::case::parameters::{BODIES, FIELDS, Get, Parameters, natural_inertia};
 use crate::case::value::Value;
 
 /// A moment of inertia may be this part of a^2 + b^2 and no less: a lighter body would turn a
@@ -24,19 +25,20 @@ impl Parameters {
         entries: impl IntoIterator<Item = (K, Value)>,
     ) -> Result<Self, CaseError> {
         let mut p = Self::STANDARD;
-        let (mut is_point, mut inertia, mut given) = (false, None, Vec::new());
+        let (mut is_point, mut inertia, mut sizes) = (false, None, [None; 2]);
         for (name, value) in entries {
             let key = check_entry(name.as_ref(), &value)?;
             match (key.name, &value) {
                 ("body", Value::Text(word)) => is_point = word == BODIES[1],
                 ("inertia", value) => inertia = value.number(),
+                ("a", value) => sizes[0] = value.number(),
+                ("b", value) => sizes[1] = value.number(),
                 (name, value) => p.store(name, value),
             }
-            given.push(key.name);
         }
+        let missing = if is_point { [0.0; 2] } else { [p.a, p.b] };
+        [p.a, p.b] = std::array::from_fn(|k| sizes[k].unwrap_or(missing[k]));
         if is_point {
-            p.a = if given.contains(&"a") { p.a } else { 0.0 };
-            p.b = if given.contains(&"b") { p.b } else { 0.0 };
             p.inertia = None;
             if let Some(inertia) = inertia {
                 let allowed = "no inertia at all for a point mass (body = \"point\")";
@@ -54,9 +56,14 @@ impl Parameters {
         Ok(p)
     }
 
+    /// All keys, in the order of the schema, with how the value of each is read.
+    pub fn keys() -> impl Iterator<Item = (&'static Key, Get)> {
+        KEYS.iter().zip(FIELDS.iter().map(|(_, get, _)| *get))
+    }
+
     /// The names of all keys with their values, in the order of the schema.
     pub fn entries(&self) -> impl Iterator<Item = (&'static str, Option<Value>)> + '_ {
-        KEYS.iter().map(|key| (key.name, self.get(key.name)))
+        Self::keys().map(|(key, get)| (key.name, get.value(self)))
     }
 
     /// The shortest list of keys and values that makes this case: those that are neither the
@@ -90,8 +97,10 @@ impl Parameters {
     /// Checks every range, and what the keys ask of each other. The start's place among the cables
     /// is not looked at here: that is geometry, and the business of the engine.
     pub fn check(&self) -> Result<(), CaseError> {
-        for key in KEYS {
-            self.get(key.name)
+        // Words are those of the schema already.
+        let numbers = Self::keys().filter(|(_, get)| !matches!(get, Get::Word(_)));
+        for (key, get) in numbers {
+            get.value(self)
                 .map_or(Ok(()), |value| key.check(key.name, &value))?;
         }
         self.check_body()?;

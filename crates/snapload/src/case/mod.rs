@@ -12,6 +12,7 @@ pub(crate) mod read;
 pub(crate) mod schema;
 pub(crate) mod value;
 
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
 use crate::case::parameters::{Parameters, SETTLING_HEIGHT, natural_inertia};
@@ -49,7 +50,22 @@ impl Case {
     /// A [`CaseError`] that names the key, its value and what is allowed.
     pub fn new(parameters: Parameters) -> Result<Self, CaseError> {
         parameters.check()?;
-        let simulation = begin(&parameters).map_err(|error| explain(error, &parameters))?;
+        Self::of_checked(parameters)
+    }
+
+    /// Of keys and values, as [`Parameters::from_entries`] takes them.
+    ///
+    /// # Errors
+    /// As for [`Case::new`].
+    pub fn from_entries<K: AsRef<str>>(
+        entries: impl IntoIterator<Item = (K, Value)>,
+    ) -> Result<Self, CaseError> {
+        Self::of_checked(Parameters::from_entries(entries)?)
+    }
+
+    fn of_checked(parameters: Parameters) -> Result<Self, CaseError> {
+        let begun = dispatch(Begin(&parameters));
+        let simulation = begun.map_err(|error| explain(error, &parameters))?;
         Ok(Self {
             parameters,
             simulation,
@@ -64,6 +80,16 @@ impl Case {
     /// The motion at its start.
     pub fn simulation(&self) -> Simulation {
         self.simulation.clone()
+    }
+
+    /// The same, to look at.
+    pub(crate) fn start(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The same where nothing else is asked of the case any more.
+    pub fn into_simulation(self) -> Simulation {
+        self.simulation
     }
 
     /// The same motion in another arithmetic; `number` is told each number's key. An inertia that
@@ -109,6 +135,18 @@ impl Outcome {
     }
 }
 
+/// A start over doubles, by the best instructions for it.
+struct Begin<'a>(&'a Parameters);
+
+impl Kernel for Begin<'_> {
+    type Output = Result<Simulation, StartError>;
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        begin(self.0)
+    }
+}
+
+#[inline(always)]
 fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
     Simulation::new(system(p), rules(p), T::ZERO, start(p))
 }

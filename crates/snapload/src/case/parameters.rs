@@ -96,12 +96,89 @@ impl Default for Parameters {
     }
 }
 
-/// Where a key's value is kept.
-enum Place<'a> {
-    Number(&'a mut f64),
-    Flag(&'a mut bool),
-    Count(&'a mut u64),
+/// How the value of a key is read from a case.
+#[derive(Clone, Copy, Debug)]
+pub enum Get {
+    /// A number; the inertia of a point mass is none.
+    Number(fn(&Parameters) -> Option<f64>),
+    /// A whole number.
+    Count(fn(&Parameters) -> u64),
+    /// Yes or no.
+    Flag(fn(&Parameters) -> bool),
+    /// One of a few words.
+    Word(fn(&Parameters) -> &'static str),
 }
+
+impl Get {
+    /// The value; none for the inertia of a point mass.
+    pub fn value(self, p: &Parameters) -> Option<Value> {
+        Some(match self {
+            Self::Number(of) => Value::Number(of(p)?),
+            Self::Count(of) => Value::Integer(i64::try_from(of(p)).unwrap_or(i64::MAX)),
+            Self::Flag(of) => Value::Bool(of(p)),
+            Self::Word(of) => Value::Text(of(p).to_owned()),
+        })
+    }
+}
+
+/// How the value of a key that is kept in a field of its own is written; none where it is not.
+#[derive(Clone, Copy)]
+pub(crate) enum Put {
+    Number(fn(&mut Parameters, f64)),
+    Count(fn(&mut Parameters, u64)),
+    Flag(fn(&mut Parameters, bool)),
+    None,
+}
+
+/// The field in which a key is kept.
+macro_rules! field {
+    (Number $field:ident) => {
+        (
+            stringify!($field),
+            Get::Number(|p| Some(p.$field)),
+            Put::Number(|p, value| p.$field = value),
+        )
+    };
+    ($kind:ident $field:ident) => {
+        (
+            stringify!($field),
+            Get::$kind(|p| p.$field),
+            Put::$kind(|p, value| p.$field = value),
+        )
+    };
+}
+
+/// Where the value of each key is kept, in the order of the schema.
+pub(crate) static FIELDS: [(&str, Get, Put); 20] = [
+    field!(Number r),
+    field!(Number e),
+    field!(Number a),
+    field!(Number b),
+    (
+        "inertia",
+        Get::Number(|p| p.inertia),
+        Put::Number(|p, value| p.inertia = p.inertia.and(Some(value))),
+    ),
+    field!(Number f_o),
+    field!(Number nu),
+    field!(Number omega),
+    field!(Number x),
+    field!(Number y),
+    field!(Number theta),
+    field!(Number vx),
+    field!(Number vy),
+    field!(Number vtheta),
+    field!(Number t_end),
+    field!(Number v_stick),
+    field!(Flag stop_when_settled),
+    field!(Flag stop_when_sliding),
+    field!(Count max_impacts),
+    (
+        "body",
+        Get::Word(|p| BODIES[usize::from(p.is_point())]),
+        Put::None,
+    ),
+];
 
 impl Parameters {
     /// Whether the inertia is the natural one of the size, and so follows it.
@@ -142,52 +219,21 @@ impl Parameters {
         }
     }
 
-    /// The place of a key that is kept in a field of its own.
-    fn place(&mut self, name: &str) -> Option<Place<'_>> {
-        Some(match name {
-            "r" => Place::Number(&mut self.r),
-            "e" => Place::Number(&mut self.e),
-            "a" => Place::Number(&mut self.a),
-            "b" => Place::Number(&mut self.b),
-            "inertia" => Place::Number(self.inertia.as_mut()?),
-            "f_o" => Place::Number(&mut self.f_o),
-            "nu" => Place::Number(&mut self.nu),
-            "omega" => Place::Number(&mut self.omega),
-            "x" => Place::Number(&mut self.x),
-            "y" => Place::Number(&mut self.y),
-            "theta" => Place::Number(&mut self.theta),
-            "vx" => Place::Number(&mut self.vx),
-            "vy" => Place::Number(&mut self.vy),
-            "vtheta" => Place::Number(&mut self.vtheta),
-            "t_end" => Place::Number(&mut self.t_end),
-            "v_stick" => Place::Number(&mut self.v_stick),
-            "stop_when_settled" => Place::Flag(&mut self.stop_when_settled),
-            "stop_when_sliding" => Place::Flag(&mut self.stop_when_sliding),
-            "max_impacts" => Place::Count(&mut self.max_impacts),
-            _ => return None,
-        })
-    }
-
     /// Puts the value of a key that was checked into its place.
     pub(crate) fn store(&mut self, name: &str, value: &Value) {
-        match (self.place(name), value) {
-            (Some(Place::Number(place)), value) => *place = value.number().unwrap_or(*place),
-            (Some(Place::Count(place)), value) => *place = value.count().unwrap_or(*place),
-            (Some(Place::Flag(place)), Value::Bool(flag)) => *place = *flag,
+        let field = FIELDS.iter().find(|(key, ..)| *key == name);
+        match (field.map_or(Put::None, |(_, _, put)| *put), value) {
+            (Put::Number(put), value) => _ = value.number().map(|number| put(self, number)),
+            (Put::Count(put), value) => _ = value.count().map(|count| put(self, count)),
+            (Put::Flag(put), Value::Bool(flag)) => put(self, *flag),
             _ => {}
         }
     }
 
     /// The value of a key; none for an unknown key, and for the inertia of a point mass.
     pub fn get(&self, name: &str) -> Option<Value> {
-        if name == "body" {
-            return Some(BODIES[usize::from(self.is_point())].into());
-        }
-        Some(match { *self }.place(name)? {
-            Place::Number(number) => Value::Number(*number),
-            Place::Flag(flag) => Value::Bool(*flag),
-            Place::Count(count) => Value::Integer(i64::try_from(*count).unwrap_or(i64::MAX)),
-        })
+        let (_, get, _) = FIELDS.iter().find(|(key, ..)| *key == name)?;
+        get.value(self)
     }
 }
 
@@ -200,4 +246,16 @@ pub fn natural_inertia<T: Real>(a: T, b: T) -> Option<T> {
         (a * a + b * b) / 3.0
     };
     (inertia > T::ZERO).then_some(inertia)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::keys::KEYS;
+
+    #[test]
+    fn fields_stand_in_the_order_of_the_schema() {
+        let kept = FIELDS.iter().map(|(name, ..)| *name);
+        assert!(kept.eq(KEYS.iter().map(|key| key.name)));
+    }
 }

@@ -179,13 +179,14 @@ impl<T: Real> Simulation<T> {
     ///
     /// # Errors
     /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
+    #[inline(always)]
     pub fn new(
         system: System<T>,
         rules: Rules<T>,
         t: T,
         state: State<T>,
     ) -> Result<Self, StartError> {
-        let start = start::prepare(&system, &rules, t, &state)?;
+        let start = apart!(T, { start::prepare(&system, &rules, t, &state) })?;
         Ok(Self {
             flight: Flight::new(&system, &rules),
             series: None,

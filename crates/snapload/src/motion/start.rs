@@ -77,6 +77,7 @@ pub(crate) struct Start<T> {
 /// Checks a start and projects it onto the cables that count as closed: in position, and in
 /// velocity where that counts as zero. The problem on accelerations decides which of those at rest
 /// are taut.
+#[inline(always)]
 pub(crate) fn prepare<T: Real>(
     system: &System<T>,
     rules: &Rules<T>,
@@ -160,6 +161,7 @@ fn check_numbers<T: Real>(
 }
 
 /// The cables that count as closed.
+#[inline(always)]
 fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSet, StartError> {
     let tolerance = T::from_decimal(START_TOLERANCE);
     let mut closed = TautSet::SLACK;
@@ -179,6 +181,7 @@ fn closed_cables<T: Real>(system: &System<T>, state: &State<T>) -> Result<TautSe
 }
 
 /// A start on a limit stops at once; one beyond it is an error.
+#[inline(always)]
 fn stop_at_start<T: Real>(
     system: &System<T>,
     rules: &Rules<T>,

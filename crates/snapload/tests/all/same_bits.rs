@@ -188,7 +188,8 @@ fn trust_in_lanes_is_that_of_one_run_by_itself() {
     let certain = alone.iter().filter(|one| one.decides_the_end()).count();
     assert!(certain > 100 && alone.len() - certain > 100, "{certain}");
     for lanes in Lanes::available() {
-        let together = Certainty::with_outcomes(lanes, &cases, &counter).expect("not cancelled");
+        let together = Certainty::with_outcomes(lanes, cases.iter().cloned(), &counter)
+            .expect("not cancelled");
         let (outcomes, certainties): (Vec<_>, Vec<_>) = together.into_iter().unzip();
         assert_eq!(certainties, alone, "{lanes:?}");
         assert_eq!(outcomes, lanes.outcomes(&cases).0, "{lanes:?}");

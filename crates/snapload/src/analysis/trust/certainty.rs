@@ -110,20 +110,18 @@ impl Certainty {
     /// [`Cancelled`] if the work that is counted is to end before.
     pub fn with_outcomes(
         lanes: Lanes,
-        cases: &[Case],
+        cases: impl Iterator<Item = Case>,
         counter: &Counter,
     ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
-        let runs = cases.iter().map(|case| {
-            let simulation = case.simulation();
-            let monitor = SpreadMonitor::of_exact_case(case, &simulation);
-            (simulation, monitor)
+        let runs = cases.map(|case| {
+            let monitor = SpreadMonitor::of_exact_case(&case, case.start());
+            (case.into_simulation(), monitor)
         });
         let certainty = |(outcome, monitor): (Outcome, SpreadMonitor)| {
             let horizon = monitor.horizon;
             (outcome, Self { horizon })
         };
-        let told = side_by_side(lanes, runs, counter)?;
-        Ok(told.into_iter().map(certainty).collect())
+        Ok(side_by_side(lanes, runs, counter)?.map(certainty).collect())
     }
 
     /// Whether the way in which the run ends is certain.
