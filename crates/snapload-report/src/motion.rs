@@ -116,3 +116,21 @@ impl Serialize for MotionRow {
         serializer.collect_map(MOTION.iter().zip(&self.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_the_decimals_that_one_writes() -> Result<(), String> {
+        for (dt, places) in [(0.1, 1), (0.07, 2), (1e-3, 3), (20.0, 0)] {
+            let times: Vec<f64> = Sampling::every(dt, 1000.0 * dt)?.times().collect();
+            assert_eq!(times.len(), 1001);
+            for (k, time) in times.into_iter().enumerate() {
+                let written = format!("{:.places$}", k as f64 * dt);
+                assert_eq!(Ok(time), written.parse(), "{written}");
+            }
+        }
+        Ok(())
+    }
+}
