@@ -36,4 +36,4 @@ pub use arithmetic::decimal::Decimal;
 pub use case::{ExactCase, NUMBERS};
 pub use checker::{Verdict, check};
 pub use proved::Reason;
-pub use writer::{Cancelled, Certification, Ended, certify};
+pub use writer::{Cancelled, Certification, Ended, PrintedImpact, certify};

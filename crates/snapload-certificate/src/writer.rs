@@ -47,7 +47,30 @@ pub enum Ended {
     },
 }
 
+/// An impact as a certificate has it; each number is the true one to half a unit of its last digit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrintedImpact<'a> {
+    /// By index from 0.
+    pub cable: usize,
+    /// Its time, as a decimal.
+    pub t: &'a str,
+    /// Its normal velocity, as a decimal.
+    pub v_n: &'a str,
+}
+
 impl Certification {
+    /// The impacts that are proved, one after the other.
+    pub fn proved_impacts(&self) -> impl Iterator<Item = PrintedImpact<'_>> {
+        self.written.impacts.iter().filter_map(|line| match line {
+            Line::Impact(cable, t, v_n) => Some(PrintedImpact {
+                cable: usize::from(*cable) - 1,
+                t,
+                v_n,
+            }),
+            Line::Stretch(_) => None,
+        })
+    }
+
     /// The certificate as compact JSON. That of a proof that came to no end says so as its reason.
     pub fn text(&self) -> String {
         // Strings, whole numbers and flags can always be written.
