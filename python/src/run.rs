@@ -98,6 +98,7 @@ impl Run {
             &self.case.name,
             self.case.parameters(),
             trusted,
+            None,
             &[],
         ))
     }
@@ -109,6 +110,7 @@ impl Run {
             &self.case.name,
             self.case.parameters(),
             trusted,
+            None,
         ))
     }
 

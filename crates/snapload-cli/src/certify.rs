@@ -107,7 +107,7 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
 }
 
 /// The case as decimals: what was typed stays as typed.
-fn exact(input: &Input) -> Result<ExactCase, Failure> {
+pub(crate) fn exact(input: &Input) -> Result<ExactCase, Failure> {
     for key in NUMBERS.into_iter().chain(["inertia"]) {
         let written = input.written(key);
         if let Some(text) = written.filter(|text| Decimal::typed(text).is_none()) {

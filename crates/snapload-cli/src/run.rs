@@ -1,6 +1,7 @@
 //! `snapload run`: one case, from its start to its end.
 use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
+use crate::certify::exact;
 use crate::failure::{Failure, print};
 use crate::json::{Json, refuse_directory};
 use crate::pictures::pictures;
@@ -8,7 +9,10 @@ use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
 use snapload::Case;
 use snapload::analysis::Progress;
-use snapload_report::{Report, Sampling, Trusted, case_in_words, summary, tables, write_json};
+use snapload_certificate::Cancelled;
+use snapload_report::{
+    Certified, Report, Sampling, Trusted, case_in_words, prove, summary, tables, write_json,
+};
 use std::path::{Path, PathBuf};
 
 const EXAMPLES: &str = "\
@@ -23,6 +27,8 @@ Examples:
       a case of your own: tables, pictures and run.json in the directory results
   snapload run --set f_o=0.5 --uncertainty 1e-3 --uncertainty f_o=0.01
       how far it can be trusted if the start is known to 1e-3 and the force to 0.01
+  snapload run --certify
+      with a proof of its impacts and of its end, and where the run leaves what is proved
   snapload run --json - --sample 0.1 | jq .norms
       everything as JSON, for the next program";
 
@@ -44,6 +50,10 @@ pub(crate) struct Args {
     /// those end alike
     #[arg(long, value_name = "N")]
     ensemble: Option<u32>,
+    /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out its
+    /// certificate is run.cert
+    #[arg(long)]
+    certify: bool,
     /// Time step of the motion in --json and --out
     #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
     sample: Option<f64>,
@@ -64,6 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .transpose()?;
     let mut outputs = Outputs::open(args)?;
     let trusted = trusted(args, &input.case)?;
+    let certified = certified(args, &input, &trusted)?;
     let trajectory = &trusted.run;
     let sampling = args
         .sample
@@ -71,7 +82,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .transpose()?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let report = Report::new(input.case.parameters(), &trusted, sampling, &on_progress);
+    let report = Report::new(input.case.parameters(), &trusted, sampling, &on_progress)
+        .with_certificate(certified.as_ref());
 
     if let Some((room, directory)) = outputs.directory.take() {
         let stage = &mut outputs.stage;
@@ -79,12 +91,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         stage.write(room, directory.join("run.json"), |out| {
             write_json(&report, out)
         })?;
+        if let Some(certified) = &certified {
+            stage.write(room, directory.join(CERTIFICATE), |out| {
+                write_json(&certified.proof, out)
+            })?;
+        }
     }
     match outputs.json.write(outputs.stage, &report)? {
         Some(written) => print(&summary(
             &input.name,
             input.case.parameters(),
             &trusted,
+            certified.as_ref(),
             &written,
         )),
         None => Ok(()),
@@ -98,6 +116,20 @@ fn trusted(args: &Args, case: &Case) -> Result<Trusted, Failure> {
     let on_progress = |progress: Progress| bar.show(progress);
     Trusted::run(case, uncertainty, args.ensemble, seed, &on_progress)
         .map_err(|error| Failure::from(error).with_prefix("--uncertainty"))
+}
+
+/// The proof beside the run, if it is asked for.
+fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Certified>, Failure> {
+    if !args.certify {
+        return Ok(None);
+    }
+    let (case, t_end) = (exact(input)?, input.case.parameters().t_end);
+    let bar = Bar::new();
+    let proof = prove(&case, t_end, &|progress| bar.show(progress));
+    let proof =
+        proof.map_err(|Cancelled| Failure::Interrupted("nothing was written".to_owned()))?;
+    let proof = proof.map_err(|why| Failure::BadInput(format!("--certify: {why}")))?;
+    Ok(Some(Certified::new(proof, &trusted.run)))
 }
 
 /// A time step, as clap reads it.
@@ -124,8 +156,16 @@ struct Outputs {
     json: Json,
 }
 
+/// The certificate in an output directory.
+const CERTIFICATE: &str = "run.cert";
 /// The files of an output directory, without the pictures.
-const FILES: [&str; 4] = ["impacts.csv", "modes.csv", "motion.csv", "run.json"];
+const FILES: [&str; 5] = [
+    "impacts.csv",
+    "modes.csv",
+    "motion.csv",
+    "run.json",
+    CERTIFICATE,
+];
 
 impl Outputs {
     fn open(args: &Args) -> Result<Self, Failure> {

@@ -2,7 +2,9 @@
 //! command line and from Python.
 
 mod case_file;
+mod certified;
 mod critical;
+mod digits;
 mod followed;
 mod motion;
 mod report;
@@ -13,6 +15,9 @@ mod trusted;
 mod verified;
 
 pub use case_file::{case_file, python_lines, shell_line};
+pub use certified::{
+    CertificateRow, Certified, Departure, Differs, nearest, prove, proved_in_words,
+};
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
 pub use motion::{MOTION, MotionRow, Sampling};

@@ -1,6 +1,6 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
 use crate::motion::{MotionRow, Sampling};
-use crate::{OutcomeRow, TrustRow, Trusted};
+use crate::{CertificateRow, Certified, OutcomeRow, TrustRow, Trusted};
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use snapload::analysis::{OnProgress, Progress};
@@ -14,6 +14,8 @@ pub struct Report<'a> {
     end: EndRow,
     outcome: OutcomeRow,
     trust: TrustRow<'a>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<CertificateRow<'a>>,
     impacts: ImpactRows<'a>,
     modes: Rows<'a, ModeInterval, ModeRow>,
     norms: NormsRow,
@@ -37,6 +39,7 @@ impl<'a> Report<'a> {
             end: EndRow::new(end),
             outcome: OutcomeRow::new(trusted),
             trust: TrustRow::new(trusted),
+            certificate: None,
             impacts: ImpactRows(trusted),
             modes: Rows(trajectory.modes(), ModeRow::new),
             norms: NormsRow::new(trajectory.norms()),
@@ -45,6 +48,14 @@ impl<'a> Report<'a> {
                 sampling,
                 on_progress,
             }),
+        }
+    }
+
+    /// The same with what is proved of the run.
+    pub fn with_certificate(self, certified: Option<&'a Certified>) -> Self {
+        Self {
+            certificate: certified.map(Certified::row),
+            ..self
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A run in a few lines, for a person.
-use crate::{Trusted, outcome_in_words, trust_in_words};
+use crate::digits::digits;
+use crate::{Certified, Trusted, outcome_in_words, trust_in_words};
 use snapload::analysis::{NormErrors, digits_within};
 use snapload::{Impact, Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
@@ -8,14 +9,16 @@ use std::path::PathBuf;
 /// More intervals than this are summed up only.
 const FEW_MODES: usize = 6;
 
-/// The summary of a run of the case of this name, with the files that were written.
+/// The summary of a run of the case of this name, with its proof if there is one and the files that
+/// were written.
 pub fn summary(
     name: &str,
     parameters: &Parameters,
     trusted: &Trusted,
+    certified: Option<&Certified>,
     written: &[PathBuf],
 ) -> String {
-    let mut lines = summary_lines(name, parameters, trusted);
+    let mut lines = summary_lines(name, parameters, trusted, certified);
     for (i, path) in written.iter().enumerate() {
         let label = if i == 0 { "Written" } else { "" };
         lines.push((label, path.display().to_string()));
@@ -32,6 +35,7 @@ pub fn summary_lines(
     name: &str,
     parameters: &Parameters,
     trusted: &Trusted,
+    certified: Option<&Certified>,
 ) -> Vec<(&'static str, String)> {
     let run = &trusted.run;
     let mut lines = vec![
@@ -44,6 +48,7 @@ pub fn summary_lines(
     }
     lines.push(("Outcome", outcome_in_words(trusted)));
     lines.push(("Trust", trust_in_words(trusted)));
+    lines.extend(certified.map(|certified| ("Proved", certified.in_words())));
     lines.push(("Impacts", impacts(run.impacts())));
     lines.extend(hardest(trusted).map(|hardest| ("Hardest", hardest)));
     let (norms, errors) = (run.norms(), NormErrors::of(run, &trusted.trust));
@@ -224,22 +229,4 @@ fn interval(interval: &ModeInterval) -> String {
         interval.taut.mode().name(),
         taut.join(", ")
     )
-}
-
-/// Five significant digits.
-fn digits(number: f64) -> String {
-    if number == 0.0 || !number.is_finite() {
-        return format!("{number}");
-    }
-    let size = number.abs().log10().floor();
-    if !(-4.0..7.0).contains(&size) {
-        return format!("{number:.4e}");
-    }
-    let decimals = (4.0 - size).max(0.0) as usize;
-    let text = format!("{number:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
 }

@@ -1,0 +1,135 @@
+//! What is said of a run beside its proof, held against the run with many digits of `snapload
+//! verify`, which proves by other code.
+
+use crate::common::{directory, listing, snapload};
+use serde_json::Value;
+use std::fs;
+
+fn told(args: &[&str]) -> String {
+    let d = directory();
+    let out = snapload(d.path()).args(args).assert().success();
+    String::from_utf8(out.get_output().stdout.clone()).unwrap()
+}
+
+fn json(args: &[&str]) -> Value {
+    serde_json::from_str(&told(&[args, &["--json", "-"]].concat())).unwrap()
+}
+
+/// Five significant digits.
+fn five(number: f64) -> String {
+    format!("{number:.4e}")
+}
+
+#[test]
+fn the_standard_case_is_proved_and_the_run_leaves_it_where_many_digits_do() {
+    let args = ["run", "--certify", "--ensemble", "0"];
+    let run = json(&args);
+    let exact = json(&["verify"]);
+    let impacts = |run: &Value, key: &str| run[key].as_array().unwrap().clone();
+    let (ours, true_ones) = (impacts(&run, "impacts"), impacts(&exact, "exact"));
+    let decimal = |impact: &Value, key: &str| -> f64 {
+        let text = impact[key].as_str().unwrap();
+        text.parse().unwrap()
+    };
+    let differs = ours.iter().zip(&true_ones).position(|(ours, exact)| {
+        ours["cable"] != exact["cable"]
+            || ["t", "v_n"]
+                .iter()
+                .any(|key| five(ours[*key].as_f64().unwrap()) != five(decimal(exact, key)))
+    });
+    let first = differs.expect("the standard case is chaotic") + 1;
+
+    let certificate = &run["certificate"];
+    assert_eq!(certificate["proved"], true);
+    assert_eq!(certificate["reason"], "settled");
+    assert!(certificate["undecided"].is_null());
+    assert_eq!(
+        certificate["impacts"].as_u64().unwrap(),
+        true_ones.len() as u64
+    );
+    assert_eq!(
+        certificate["departure"]["impact"].as_u64().unwrap(),
+        first as u64
+    );
+    let end: f64 = certificate["t"].as_str().unwrap().parse().unwrap();
+    assert_eq!(end, exact["t"].as_f64().unwrap());
+
+    let text = told(&args);
+    let (count, t) = (true_ones.len(), certificate["t"].as_str().unwrap());
+    let proved = format!("\nProved    {count} impacts, settled at t = {t} (256 bits)\n");
+    assert!(text.contains(&proved), "{text}");
+    let left = format!("\n          the run leaves it at impact {first}, which ");
+    assert!(text.contains(&left), "{text}");
+}
+
+#[test]
+fn a_run_that_is_known_to_its_end_has_what_is_proved() {
+    let args = ["run", "--set", "f_o=0.31", "--certify"];
+    let text = told(&args);
+    assert!(
+        text.contains("\n          the run has the same in five digits\n"),
+        "{text}"
+    );
+    let run = json(&args);
+    assert!(run["certificate"]["departure"].is_null());
+    let end: f64 = run["certificate"]["t"].as_str().unwrap().parse().unwrap();
+    assert!((end - run["end"]["t"].as_f64().unwrap()).abs() < 1e-13);
+}
+
+#[test]
+fn where_a_cable_sticks_the_proof_goes_on() {
+    let keys = "e=0.5 omega=0 stop_when_settled=false t_end=0.88";
+    let mut args = vec!["run", "--certify"];
+    for key in keys.split(' ') {
+        args.extend(["--set", key]);
+    }
+    let run = json(&args);
+    // The motion slides at the end, as that of the ordinary run does.
+    assert_eq!(run["modes"][1]["mode"], "sliding");
+    let certificate = &run["certificate"];
+    assert_eq!(certificate["proved"], true);
+    assert_eq!(certificate["reason"], "end_time");
+    assert!(certificate["departure"].is_null());
+}
+
+#[test]
+fn what_is_not_proved_is_said() {
+    // Its own mirror image: both cables snap at one instant.
+    let text = told(&["run", "--certify", "--set", "f_o=0", "--ensemble", "0"]);
+    assert!(
+        text.contains("\nProved    0 impacts, up to t = 0 "),
+        "{text}"
+    );
+    assert!(
+        text.contains("\n          no further: whether the length of cable "),
+        "{text}"
+    );
+    assert!(!text.contains("the same in five digits"), "{text}");
+}
+
+#[test]
+fn the_certificate_of_a_run_can_be_checked() {
+    let d = directory();
+    let mut command = snapload(d.path());
+    let args = ["run", "--case", "1510001000-359", "--certify", "--out", "r"];
+    command.args(args).assert().success();
+    let mut command = snapload(d.path());
+    command
+        .args(["certify", "--check", "r/run.cert"])
+        .assert()
+        .success();
+    let inside: Value =
+        serde_json::from_str(&fs::read_to_string(d.path().join("r/run.json")).unwrap()).unwrap();
+    assert_eq!(inside["certificate"]["proved"], true);
+
+    // Nothing is said of a proof that was not asked for.
+    let d = directory();
+    let mut command = snapload(d.path());
+    command.args(["run", "--out", "r"]).assert().success();
+    assert!(!listing(&d.path().join("r")).contains(&"run.cert".to_owned()));
+    assert!(
+        json(&["run", "--ensemble", "0"])
+            .get("certificate")
+            .is_none()
+    );
+}

@@ -1,0 +1,233 @@
+//! A run beside its proof: what the proof says, and where the doubles of the run leave it.
+use crate::digits::digits;
+use serde::Serialize;
+use snapload::analysis::{OnProgress, Progress, digits_within};
+use snapload::{Impact, Trajectory};
+use snapload_certificate::{
+    Cancelled, Certification, Ended, ExactCase, PrintedImpact, Reason, certify,
+};
+
+/// A proof, and a run of doubles held against it.
+pub struct Certified {
+    /// What is proved.
+    pub proof: Certification,
+    /// Of each impact of the run, how many digits of its time the proof confirms; none where no such
+    /// impact is proved, from the first one of another cable on, and for impulses that pass into a taut
+    /// cable.
+    pub confirmed: Vec<Option<f64>>,
+    /// Where the run leaves what is proved, if it does.
+    pub departure: Option<Departure>,
+}
+
+/// The first impact of a run that is not the proved one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Departure {
+    /// By number from 1; one more than there are impacts where only the end is another.
+    pub impact: usize,
+    /// What is another.
+    pub differs: Differs,
+}
+
+/// What of a run is not what is proved.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Differs {
+    /// The cable of an impact.
+    Cable,
+    /// Its time in the five digits of a summary.
+    Time,
+    /// Its normal velocity in five digits.
+    Speed,
+    /// The run has fewer impacts than are proved.
+    Missing,
+    /// The run has more impacts than the motion.
+    Extra,
+    /// The reason of the end, or its time in five digits.
+    End,
+}
+
+impl Differs {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Cable => "is of the other cable",
+            Self::Time => "has another time in five digits",
+            Self::Speed => "has another v_n in five digits",
+            Self::Missing => "is missing",
+            Self::Extra => "does not exist",
+            Self::End => "does not come, as the end is another",
+        }
+    }
+}
+
+/// `"certificate"` in the JSON of a run.
+#[derive(Serialize)]
+pub struct CertificateRow<'a> {
+    proved: bool,
+    impacts: usize,
+    t: &'a str,
+    reason: Option<&'static str>,
+    undecided: Option<&'a str>,
+    bits: usize,
+    departure: Option<Departure>,
+}
+
+/// Proves the run of a case to its end, on with taut cables where they stay so.
+///
+/// # Errors
+/// A case without a motion, in words; or [`Cancelled`].
+pub fn prove(
+    case: &ExactCase,
+    t_end: f64,
+    on_progress: OnProgress,
+) -> Result<Result<Certification, String>, Cancelled> {
+    certify(case, true, &mut |t| {
+        on_progress(Progress::new("proving", t, t_end))
+    })
+}
+
+impl Certified {
+    /// A run held against its proof.
+    pub fn new(proof: Certification, run: &Trajectory) -> Self {
+        let mut proved = proof.proved_impacts();
+        let (mut departure, mut astray) = (None, false);
+        let mut confirmed = Vec::new();
+        let mut number = 0;
+        for impact in run.impacts() {
+            // An impulse that passes into a taut cable is no impact.
+            if impact.v_n <= 0.0 {
+                confirmed.push(None);
+                continue;
+            }
+            number += 1;
+            let exact = proved.next();
+            astray |= exact.is_some_and(|exact| exact.cable != impact.cable);
+            let close = exact.filter(|_| !astray);
+            confirmed.push(close.map(|exact| confirmed_digits(impact.t, nearest(exact.t))));
+            let differs = match exact {
+                Some(exact) => difference(impact, &exact),
+                None => ended(&proof).map(|_| Differs::Extra),
+            };
+            let of = |differs| Departure {
+                impact: number,
+                differs,
+            };
+            departure = departure.or(differs.map(of));
+        }
+        let rest = match proved.next() {
+            Some(_) => Some(Differs::Missing),
+            None => ended(&proof)
+                .is_some_and(|reason| ends_otherwise(run, reason, &proof.t))
+                .then_some(Differs::End),
+        };
+        departure = departure.or(rest.map(|differs| Departure {
+            impact: number + 1,
+            differs,
+        }));
+        drop(proved);
+        Self {
+            proof,
+            confirmed,
+            departure,
+        }
+    }
+
+    /// For JSON.
+    pub fn row(&self) -> CertificateRow<'_> {
+        let (reason, undecided) = match &self.proof.end {
+            Ended::Proved(reason) => (Some(reason.name()), None),
+            Ended::Undecided { what, .. } => (None, Some(what.as_str())),
+        };
+        CertificateRow {
+            proved: undecided.is_none(),
+            impacts: self.proof.impacts,
+            t: &self.proof.t,
+            reason,
+            undecided,
+            bits: self.proof.bits,
+            departure: self.departure,
+        }
+    }
+
+    /// What is proved, and on a line of its own where the run leaves it.
+    pub fn in_words(&self) -> String {
+        let proved = proved_in_words(&self.proof);
+        match self.comparison() {
+            Some(comparison) => format!("{proved}\n{comparison}"),
+            None => proved,
+        }
+    }
+
+    /// Where the run leaves what is proved; none where there is nothing to compare.
+    pub fn comparison(&self) -> Option<String> {
+        let to_the_end = ended(&self.proof).is_some();
+        Some(match self.departure {
+            None if to_the_end => "the run has the same in five digits".to_owned(),
+            None if self.proof.impacts == 0 => return None,
+            None => "up to there the run has the same in five digits".to_owned(),
+            Some(Departure {
+                impact,
+                differs: Differs::End,
+            }) => format!(
+                "the run has the same {}, and another end",
+                impacts(impact - 1)
+            ),
+            Some(Departure { impact, differs }) => format!(
+                "the run leaves it at impact {impact}, which {}",
+                differs.words()
+            ),
+        })
+    }
+}
+
+/// How much is proved, how it ends, or why no more is.
+pub fn proved_in_words(proof: &Certification) -> String {
+    let (count, t, bits) = (impacts(proof.impacts), &proof.t, proof.bits);
+    match &proof.end {
+        Ended::Proved(reason) => {
+            let reason = reason.name().replace('_', " ");
+            format!("{count}, {reason} at t = {t} ({bits} bits)")
+        }
+        Ended::Undecided { what, .. } => {
+            format!("{count}, up to t = {t} ({bits} bits)\nno further: {what}")
+        }
+    }
+}
+
+fn impacts(count: usize) -> String {
+    let s = if count == 1 { "" } else { "s" };
+    format!("{count} impact{s}")
+}
+
+fn ended(proof: &Certification) -> Option<Reason> {
+    match proof.end {
+        Ended::Proved(reason) => Some(reason),
+        Ended::Undecided { .. } => None,
+    }
+}
+
+/// The double next to a decimal of a certificate.
+pub fn nearest(decimal: &str) -> f64 {
+    decimal.parse().unwrap_or(f64::NAN)
+}
+
+fn confirmed_digits(t: f64, exact: f64) -> f64 {
+    digits_within((t - exact).abs() / exact.abs().max(1.0))
+}
+
+fn difference(impact: &Impact, exact: &PrintedImpact) -> Option<Differs> {
+    let same = |number: f64, decimal| digits(number) == digits(nearest(decimal));
+    if impact.cable != exact.cable {
+        Some(Differs::Cable)
+    } else if !same(impact.t, exact.t) {
+        Some(Differs::Time)
+    } else if !same(impact.v_n, exact.v_n) {
+        Some(Differs::Speed)
+    } else {
+        None
+    }
+}
+
+fn ends_otherwise(run: &Trajectory, reason: Reason, t: &str) -> bool {
+    let end = run.end();
+    reason != Reason::Stop(end.reason) || digits(end.t) != digits(nearest(t))
+}

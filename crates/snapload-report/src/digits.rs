@@ -1,0 +1,19 @@
+//! Numbers as a summary prints them.
+
+/// Five significant digits.
+pub(crate) fn digits(number: f64) -> String {
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    let size = number.abs().log10().floor();
+    if !(-4.0..7.0).contains(&size) {
+        return format!("{number:.4e}");
+    }
+    let decimals = (4.0 - size).max(0.0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
