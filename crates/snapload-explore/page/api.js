@@ -66,6 +66,15 @@ export class Runner {
   }
 }
 
+/** What of a run is proved. */
+export async function fetchProof(question, signal) {
+  try {
+    return await (await post("api/proof", question, signal)).json();
+  } catch (error) {
+    throw error.name === "AbortError" ? error : inWords(error);
+  }
+}
+
 /** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
 function inWords(error) {
   return error instanceof Refused

@@ -10,6 +10,7 @@ import { Controls } from "./controls.js";
 import { Link } from "./link.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
+import { Proof } from "./proof.js";
 import { Run } from "./run.js";
 import { Stage } from "./stage.js";
 import { State } from "./state.js";
@@ -74,6 +75,7 @@ class Page {
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
     });
+    this.proof = new Proof();
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
       onAnswer: (answer, since, question) => this.take(answer, since, question),
@@ -115,6 +117,7 @@ class Page {
     }
     this.stage.take(this.run);
     this.transport.take(this.run);
+    this.proof.take(question.values);
     if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();

@@ -6,7 +6,7 @@ import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
 import { sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
-import { modeName, number, plain, prose } from "./words.js";
+import { modeName, number, plain, prose, sentence } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
@@ -119,9 +119,4 @@ export class Stage {
     $("ghost").checked = ghost !== null;
     if (ghost !== null) $("ghost-size").value = plain(ghost);
   }
-}
-
-function sentence(text) {
-  const begun = text.charAt(0).toUpperCase() + text.slice(1);
-  return begun.endsWith(".") ? begun : `${begun}.`;
 }

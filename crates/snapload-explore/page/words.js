@@ -55,3 +55,9 @@ export function modeName(taut) {
 
 /** What the answers call a reason, in words. */
 export const reasonText = (reason) => reason.replaceAll("_", " ");
+
+/** Words that begin large and end with a point. */
+export function sentence(text) {
+  const begun = text.charAt(0).toUpperCase() + text.slice(1);
+  return begun.endsWith(".") ? begun : `${begun}.`;
+}

@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::request::{Body, LARGEST_BODY};
 use crate::schema::{Start, schema};
 use crate::work::compute;
-use crate::{export, map, page, run};
+use crate::{export, map, page, proof, run};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -19,12 +19,15 @@ use tokio::sync::Semaphore;
 const WORKERS: usize = 4;
 /// Maps at one time, each of which takes all processors.
 const MAPPERS: usize = 2;
+/// Proofs at one time.
+const PROVERS: usize = 2;
 
 /// What the answers are made from.
 struct Shared {
     start: Start,
     workers: Arc<Semaphore>,
     mappers: Arc<Semaphore>,
+    provers: Arc<Semaphore>,
 }
 
 /// Which path is answered by what, on a server at this port that begins with this case.
@@ -33,11 +36,13 @@ pub(crate) fn router(start: Start, port: u16) -> Router {
         start,
         workers: Arc::new(Semaphore::new(WORKERS)),
         mappers: Arc::new(Semaphore::new(MAPPERS)),
+        provers: Arc::new(Semaphore::new(PROVERS)),
     };
     Router::new()
         .route("/api/schema", get(answer_schema))
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
+        .route("/api/proof", post(answer_proof))
         .route("/api/export/{name}", post(answer_export))
         .fallback_service(get(page::file).fallback(wrong_method))
         .method_not_allowed_fallback(wrong_method)
@@ -61,6 +66,17 @@ async fn answer_run(
 ) -> Result<impl IntoResponse, Refusal> {
     let answer = compute(&shared.workers, move |allowance| {
         run::answer(request, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_proof(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<proof::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    let answer = compute(&shared.provers, move |allowance| {
+        proof::answer(request, allowance)
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))

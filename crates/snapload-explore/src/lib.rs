@@ -1,8 +1,8 @@
 //! The page of `snapload explore`, and the server that computes for it.
 //!
 //! A browser on the same machine shows the page and asks over a few paths: `/api/schema` says which
-//! keys there are, `/api/run` runs a case, `/api/map` runs the cases of a map, `/api/export/NAME`
-//! gives the files that the command `snapload run --out` writes. All numbers are the library's;
+//! keys there are, `/api/run` runs a case, `/api/map` runs the cases of a map, `/api/proof` proves a
+//! run, `/api/export/NAME` gives the files that the command `snapload run --out` writes. All numbers are the library's;
 //! nothing is computed by the page.
 //!
 //! Nobody else is served: the server listens on the loopback address alone, answers only to its own
@@ -15,6 +15,7 @@ mod guard;
 mod map;
 mod order;
 mod page;
+mod proof;
 mod refusal;
 mod request;
 mod run;

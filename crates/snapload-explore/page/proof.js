@@ -1,0 +1,72 @@
+// The seal of a run: what of it is proved. It belongs to the run that is shown, and goes with it.
+
+import { fetchProof } from "./api.js";
+import { number, prose, sentence } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+/** A tick where the proof reaches the end, a bar where it does not. */
+const SIGNS = { whole: "M4.6 8.3 7 10.7 11.5 5.6", part: "M4.8 8h6.4" };
+
+export class Proof {
+  constructor() {
+    Object.assign(this, { values: null, asking: null });
+    $("prove").addEventListener("click", () => (this.asking ? this.#stop() : this.#ask()));
+  }
+
+  /** The values of the run that is shown now. */
+  take(values) {
+    const same = JSON.stringify(values) === JSON.stringify(this.values);
+    this.values = values;
+    if (same) return;
+    this.#stop();
+    $("seal").hidden = true;
+    $("seal").open = false;
+    $("prove").hidden = false;
+    if (this.file) URL.revokeObjectURL(this.file);
+    this.file = null;
+  }
+
+  #stop() {
+    this.asking?.abort();
+    this.asking = null;
+    this.#say("", "Prove");
+  }
+
+  async #ask() {
+    const asking = (this.asking = new AbortController());
+    this.#say("Proving …", "Stop");
+    let said = "";
+    try {
+      const proof = await fetchProof({ values: this.values }, asking.signal);
+      if (this.asking === asking) this.#seal(proof);
+    } catch (error) {
+      said = `Not proved: ${error.message}`;
+    }
+    // Whoever has stopped it does not wait for its words.
+    if (this.asking !== asking) return;
+    this.asking = null;
+    this.#say(said, "Prove");
+  }
+
+  #say(said, button) {
+    $("prove-said").textContent = said;
+    $("prove").textContent = button;
+  }
+
+  #seal({ proved, t, words, further, certificate }) {
+    const title = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
+    $("seal").classList.toggle("whole", proved);
+    $("seal-sign").setAttribute("d", proved ? SIGNS.whole : SIGNS.part);
+    $("seal-title").textContent = title;
+    $("seal-words").textContent = prose(words).split("\n").map(sentence).join("\n");
+    $("seal-further").hidden = !further;
+    $("seal-further").querySelector("code").textContent = further ?? "";
+    this.file = URL.createObjectURL(new Blob([certificate], { type: "application/json" }));
+    $("seal-file").href = this.file;
+    // Whoever has pressed the button by the keyboard goes on from the seal.
+    const focused = document.activeElement === $("prove");
+    $("prove").hidden = true;
+    $("seal").hidden = false;
+    if (focused) $("seal").querySelector("summary").focus();
+  }
+}

@@ -1,0 +1,82 @@
+//! `/api/proof`: what of a run is a theorem, in words, and its certificate.
+use crate::refusal::Refusal;
+use crate::request::{Values, case};
+use crate::run::follow;
+use crate::work::Allowance;
+use serde::{Deserialize, Serialize};
+use snapload::Case;
+use snapload::analysis::Progress;
+use snapload_certificate::{Cancelled, Ended, ExactCase, Reason, certify};
+use snapload_report::{Certified, proved_in_words, shell_line};
+use std::time::Duration;
+
+/// What a proof may take.
+const BUDGET: Duration = Duration::from_secs(20);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    #[serde(default)]
+    values: Values,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    /// Whether the proof reaches the end of the run.
+    proved: bool,
+    /// As far as it reaches.
+    t: String,
+    impacts: usize,
+    /// What is proved, how it ends, and where the run of doubles leaves it.
+    words: String,
+    /// The command that proves further, where there is one.
+    further: Option<String>,
+    /// The certificate, as the command writes it.
+    certificate: String,
+}
+
+/// The answer, as JSON. Only slack flight is proved here, which takes a moment; motion with a taut
+/// cable takes as long as it does, and is left to the command.
+pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
+    let case = case(request.values)?;
+    let run = follow(&case, allowance)?.run;
+    let exact = ExactCase::of(case.parameters(), |_| None).map_err(Refusal::values)?;
+    let allowance = allowance.within(BUDGET);
+    let t_end = case.parameters().t_end;
+    let proof = certify(&exact, false, &mut |t| {
+        allowance.go_on(Progress::new("proving", t, t_end))
+    });
+    let proof = proof
+        .map_err(|Cancelled| too_long(&case))?
+        .map_err(Refusal::values)?;
+    let sticks = proof.end == Ended::Proved(Reason::Sticks);
+    let certificate = proof.text() + "\n";
+    let certified = Certified::new(proof, &run);
+    let proof = &certified.proof;
+    let answer = Answer {
+        proved: matches!(proof.end, Ended::Proved(_)) && !sticks,
+        t: proof.t.clone(),
+        impacts: proof.impacts,
+        words: match sticks {
+            // The run goes on, so that all there is to compare is what comes before.
+            true => proved_in_words(proof),
+            false => certified.in_words(),
+        },
+        further: sticks.then(|| proving(&case)),
+        certificate,
+    };
+    serde_json::to_vec(&answer).map_err(Refusal::failed)
+}
+
+/// The command that proves the run of a case, on where a cable stays taut.
+fn proving(case: &Case) -> String {
+    shell_line(case.parameters()) + " --certify"
+}
+
+fn too_long(case: &Case) -> Refusal {
+    Refusal::values(format!(
+        "the proof takes more than {} s\nhint: {}",
+        BUDGET.as_secs(),
+        proving(case)
+    ))
+}
