@@ -18,6 +18,7 @@ from typing import get_type_hints
 
 from ._axes import evenly
 from ._case import Case, cases
+from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._neighbours import Ensemble, Share, ensemble
@@ -30,6 +31,7 @@ from ._verify import Verification, verify
 
 __all__ = [
     "Case",
+    "Certificate",
     "CriticalForce",
     "End",
     "Ensemble",

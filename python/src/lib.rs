@@ -2,6 +2,7 @@
 //! crates. What makes it pleasant to use is the typed Python around it, in `python/snapload`.
 
 mod case;
+mod certify;
 mod command;
 mod critical;
 mod errors;
@@ -21,6 +22,8 @@ mod _engine {
 
     #[pymodule_export]
     use super::case::Case;
+    #[pymodule_export]
+    use super::certify::certify;
     #[pymodule_export]
     use super::command::{command, reproduce};
     #[pymodule_export]

@@ -67,6 +67,18 @@ struct Head<'a> {
     norms: NormsRow,
 }
 
+impl Run {
+    /// The case that was run.
+    pub(crate) fn case(&self) -> &Case {
+        &self.case
+    }
+
+    /// The run itself.
+    pub(crate) fn trajectory(&self) -> &Trajectory {
+        self.known.run()
+    }
+}
+
 #[pymethods]
 impl Run {
     /// How it ended, norms, outcome and trust, as JSON.

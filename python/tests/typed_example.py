@@ -20,3 +20,5 @@ copied: snapload.Case = snapload.Case(**case.keys())
 if critical is not None:
     print(critical + 0.01)
 print(snapload.verify(case).differences.max(), snapload.ensemble(case).ends["settled"].part)
+proof: snapload.Certificate = run.certify()
+confirmed: NDArray[np.float64] = proof.digits
