@@ -7,6 +7,7 @@
 mod claims;
 mod figures;
 mod page;
+mod proved;
 mod source;
 mod story;
 mod study;

@@ -24,6 +24,16 @@ impl Number {
         }
     }
 
+    /// A decimal as words, shown with so many decimals.
+    pub(crate) fn decimal(text: &str, places: usize, command: &str, key: &str) -> Self {
+        Self {
+            shown: text
+                .parse()
+                .map_or(text.to_owned(), |value| decimals(value, places)),
+            ..Self::word(text, command, key)
+        }
+    }
+
     /// A word, or a whole number.
     pub(crate) fn word(text: impl ToString, command: &str, key: impl Into<String>) -> Self {
         Self {
@@ -46,6 +56,14 @@ impl Number {
 /// The command that prints the run of a built-in case as JSON.
 pub(crate) fn run(code: &str, reading: Reading) -> String {
     format!("snapload run --case {code}{} --json -", reading.option())
+}
+
+/// The command that proves it.
+pub(crate) fn proof(code: &str, reading: Reading) -> String {
+    format!(
+        "snapload certify --case {code}{} --json -",
+        reading.option()
+    )
 }
 
 /// The command that prints the critical force of a row of Table 6.2 as JSON.

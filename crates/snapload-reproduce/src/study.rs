@@ -1,5 +1,6 @@
 //! Every run that the report needs, each computed once.
 
+use crate::proved::Proved;
 use snapload::analysis::{
     CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, Uncertainty, Unfinished,
     in_parallel, unwatched,
@@ -68,12 +69,13 @@ impl<T> Both<T> {
     }
 }
 
-/// A built-in case and its runs.
+/// A built-in case, its runs, and what is proved of them.
 #[derive(Clone, Debug)]
 pub(crate) struct CaseRuns {
     pub(crate) code: &'static str,
     pub(crate) parameters: Parameters,
     pub(crate) runs: Both<Trajectory>,
+    pub(crate) proved: Both<Option<Proved>>,
 }
 
 /// A row of Table 6.2.
@@ -269,9 +271,25 @@ fn cases() -> Result<Vec<CaseRuns>, Unfinished> {
             code,
             parameters,
             runs: Both::try_new(|reading| Ok(Case::new(reading.apply(parameters))?.run()))?,
+            proved: proved(parameters),
         })
     };
     in_parallel(codes.len(), |k| case(codes[k]))
+}
+
+/// What is proved in both readings.
+fn proved(parameters: Parameters) -> Both<Option<Proved>> {
+    let of = |reading: Reading| Proved::of(&reading.apply(parameters));
+    let chapter = of(Reading::Chapter);
+    // A run that ends before it slides is one in both readings.
+    let sliding_on = match &chapter {
+        Some(proved) if proved.reason != Stop::SlidingStart => chapter.clone(),
+        _ => of(Reading::SlidingOn),
+    };
+    Both {
+        chapter,
+        sliding_on,
+    }
 }
 
 fn critical_row(

@@ -273,6 +273,19 @@ fn value(json: &Value, key: &str, shown: &str) -> String {
         };
         return exceeding().iter().map(range).collect::<Vec<_>>().join(", ");
     }
+    if let Some((path, then)) = key.split_once(" | ") {
+        let place = &json[path.split('.').nth(1).unwrap()];
+        return match then {
+            "length" => place.as_array().unwrap().len().to_string(),
+            // A time that is proved, of which the page shows the first decimals, rounded.
+            _ => {
+                let text = place["t"].as_str().unwrap();
+                let places = shown.split_once('.').unwrap().1.len();
+                assert!(text.split_once('.').unwrap().1.len() > places, "{text}");
+                format!("{:.places$}", text.parse::<f64>().unwrap())
+            }
+        };
+    }
     let (path, less) = key.split_once(" - ").unwrap_or((key, "0"));
     let pointer = path.replace(['.', '['], "/").replace(']', "");
     match json.pointer(&pointer).unwrap_or_else(|| panic!("no {key}")) {
