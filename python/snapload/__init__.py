@@ -23,10 +23,11 @@ from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._neighbours import Ensemble, Share, ensemble
 from ._reproduce import reproduce
-from ._run import End, Norms, Outcome, Run, Trust
+from ._run import Run
 from ._sensitivities import sensitivities
 from ._sweep import merge, open_study, sweep
 from ._table import Table
+from ._told import End, Norms, Outcome, Trust
 from ._verify import Verification, verify
 
 __all__ = [

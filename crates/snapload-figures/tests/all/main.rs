@@ -4,3 +4,4 @@
 mod maps;
 mod paper;
 mod pictures;
+mod pixels;

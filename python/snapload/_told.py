@@ -1,0 +1,133 @@
+"""What is told of a finished run: its end, its norms, and how far to trust it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from ._neighbours import Ensemble
+from ._result import Result
+
+#: Why a run ends.
+Reason = Literal["settled", "rotation_limit", "upper_bound", "sliding_start", "end_time", "impact_limit"]
+
+
+@dataclass(frozen=True)
+class End:
+    """How a run ended.
+
+    Attributes
+    ----------
+    reason : str
+        ``settled``, ``rotation_limit``, ``upper_bound``, ``sliding_start``, ``end_time`` or ``impact_limit``.
+    t : float
+        When [T].
+    t_limit : float or None
+        Where the impacts that end the run converge, if they do [T].
+    state : tuple of float
+        The last x, y, theta, vx, vy, vtheta [L, rad, L/T, rad/T].
+    """
+
+    reason: Reason
+    t: float
+    t_limit: float | None
+    state: tuple[float, float, float, float, float, float]
+
+    @property
+    def exceeds(self) -> bool:
+        """Whether the run left the range of the mooring: it reached the rotation limit or the upper bound."""
+        return self.reason in ("rotation_limit", "upper_bound")
+
+
+@dataclass(frozen=True)
+class Norms:
+    """Norms of a run, after eqs 6.2 to 6.4 of the thesis.
+
+    Attributes
+    ----------
+    rho1 : float
+        Largest normal velocity of a snap [L/T].
+    rho2 : float
+        Sum of the normal velocities up to t = 10 [L/T].
+    rho3 : float
+        Sum of all normal velocities [L/T].
+    y_max : float
+        Highest y of the centre [L].
+    theta_max : float
+        Largest rotation, either way [rad].
+    """
+
+    rho1: float
+    rho2: float
+    rho3: float
+    y_max: float
+    theta_max: float
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Trust(Result):
+    """How far a run can be trusted, and why no further.
+
+    Attributes
+    ----------
+    t : float or None
+        The horizon: where trust ends [T]; None if nowhere.
+    impact : int or None
+        The number of the impact there, from 1.
+    because : str or None
+        ``tolerance``, ``graze``, ``near_miss``, ``sticking``, ``simultaneous``, ``start`` or
+        ``stop_rule``.
+    tolerance : float
+        Error of time or state, two standard deviations, above which a result counts as not known.
+    uncertainty : dict of str to float
+        What was taken to be in doubt, beside rounding.
+    end_error : float or None
+        Error of the time of the end [T], two standard deviations; 0 at the end time; None past the horizon.
+    norm_errors : dict of str to float or None
+        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T]; None where impacts past the horizon enter the norm.
+    exponents : tuple of float or None
+        Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
+    grazes : tuple of dict
+        Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
+    sensitivity : tuple of dict
+        Derivatives of ``t``, ``v_n`` and ``impulse`` of the first impacts by every key.
+    """
+
+    t: float | None
+    impact: int | None
+    because: str | None
+    tolerance: float
+    uncertainty: dict[str, float]
+    end_error: float | None
+    norm_errors: dict[str, float | None]
+    exponents: tuple[float | None, ...]
+    grazes: tuple[dict[str, Any], ...]
+    sensitivity: tuple[dict[str, Any], ...]
+
+    _shown = ("t", "impact", "because", "tolerance", "uncertainty", "end_error")
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Whether the end of a run is certain, and how its neighbours end where it is not.
+
+    Attributes
+    ----------
+    certain : bool
+        Whether every neighbour within the doubt ends alike.
+    ensemble : Ensemble or None
+        How the neighbours end, as :func:`snapload.ensemble` tells it; None where the end is certain.
+
+    See Also
+    --------
+    snapload.ensemble
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.Case(f_o=0.31).run().outcome
+    Outcome(certain=True, ensemble=None)
+    """
+
+    certain: bool
+    ensemble: Ensemble | None
