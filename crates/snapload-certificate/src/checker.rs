@@ -117,6 +117,9 @@ fn compare(certificate: &Written, case: &ExactCase) -> Verdict {
         let mut seen = 0;
         let taut = certificate.format == TAUT_FORMAT;
         let proved = prove(case, limbs, taut, &mut |proved| {
+            if matches!(proved, Proved::Step(_)) {
+                return ControlFlow::Continue(());
+            }
             seen += 1;
             let enough = is_partial && seen == claims.len();
             match (agrees(&proved, seen, claims.get(seen - 1)), enough) {

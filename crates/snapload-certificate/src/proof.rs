@@ -127,7 +127,7 @@ fn hang(
             laws: &now.laws,
             zeros: &now.zeros,
         };
-        let end = hold(run.fine, &begin);
+        let end = hold(run.fine, &begin, &mut |t| tell(Proved::Step(t.clone())));
         let end = end.map_err(|trouble| trouble.at(from.to_f64()))?;
         let (state, t) = hull_of(&end.instants);
         tell(Proved::Stretch(ProvedStretch {

@@ -36,6 +36,8 @@ impl ProvedStretch {
 pub(crate) enum Proved {
     Impact(ProvedImpact),
     Stretch(ProvedStretch),
+    /// A step of taut motion to this time, of a stretch that goes on.
+    Step(Ball),
 }
 
 impl Proved {
@@ -44,6 +46,7 @@ impl Proved {
         match self {
             Self::Impact(impact) => &impact.t,
             Self::Stretch(stretch) => &stretch.until,
+            Self::Step(t) => t,
         }
     }
 }

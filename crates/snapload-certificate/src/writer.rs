@@ -94,21 +94,22 @@ type Lines = Vec<Line>;
 /// The reason, time and state of an end as they are to be written.
 type PrintedEnd = (Reason, String, [String; 6]);
 
-/// Proves the run of a case; `on_impact` is told the time of each impact and may end the work. Where a
-/// cable stays taut and no rule stops the run, the proof ends as `sticks`, or goes on if `taut`.
+/// Proves the run of a case; `on_progress` is told the time of each impact and of each step of taut
+/// motion, and may end the work. Where a cable stays taut and no rule stops the run, the proof ends as
+/// `sticks`, or goes on if `taut`.
 ///
 /// # Errors
 /// A case without a motion, in words; or [`Cancelled`].
 pub fn certify(
     case: &ExactCase,
     taut: bool,
-    on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Result<Certification, String>, Cancelled> {
     // Of all attempts the longest.
     let (mut best, mut bits) = (Lines::new(), 0);
     let found = with_more_bits(FIRST_LIMBS, |limbs| {
         let mut impacts = Lines::new();
-        let end = attempt(case, limbs, taut, &mut impacts, on_impact);
+        let end = attempt(case, limbs, taut, &mut impacts, on_progress);
         if impacts.len() >= best.len() {
             (best, bits) = (impacts, 64 * limbs);
         }
@@ -164,11 +165,14 @@ fn attempt(
     limbs: usize,
     taut: bool,
     impacts: &mut Lines,
-    on_impact: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    on_progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<PrintedEnd, Trouble> {
     let end = prove(case, limbs, taut, &mut |proved| {
-        if on_impact(proved.time().to_f64()).is_break() {
+        if on_progress(proved.time().to_f64()).is_break() {
             return ControlFlow::Break(Trouble::Cancelled);
+        }
+        if matches!(proved, Proved::Step(_)) {
+            return ControlFlow::Continue(());
         }
         match written(&proved) {
             Some(line) => {
@@ -187,6 +191,7 @@ fn attempt(
 fn written(proved: &Proved) -> Option<Line> {
     let t = fixed(proved.time(), PLACES)?;
     Some(match proved {
+        Proved::Step(_) => return None,
         Proved::Impact(impact) => {
             let v_n = significant(&impact.v_n, DIGITS)?;
             Line::Impact(impact.cable as u8 + 1, t, v_n)

@@ -47,12 +47,18 @@ pub(crate) struct Begin<'a> {
 
 /// The motion from an instant at which some cables are taut with positive tensions and without
 /// normal velocities.
-pub(crate) fn hold(model: &Model, begin: &Begin<'_>) -> Result<TautEnd, Trouble> {
+///
+/// `on_step` is told the time of each step, and may end the work.
+pub(crate) fn hold(
+    model: &Model,
+    begin: &Begin<'_>,
+    on_step: &mut dyn FnMut(&Ball) -> Result<(), Trouble>,
+) -> Result<TautEnd, Trouble> {
     match begin.taut {
-        [cable] => follow(model, &Sliding(*cable), begin),
+        [cable] => follow(model, &Sliding(*cable), begin, on_step),
         _ => {
             let (state, _) = hull_of(begin.instants);
-            follow(model, &Rocking::at(model, &state)?, begin)
+            follow(model, &Rocking::at(model, &state)?, begin, on_step)
         }
     }
 }
@@ -61,6 +67,7 @@ fn follow<const N: usize>(
     model: &Model,
     chart: &impl Chart<N>,
     start: &Begin<'_>,
+    on_step: &mut dyn FnMut(&Ball) -> Result<(), Trouble>,
 ) -> Result<TautEnd, Trouble> {
     let equations = Equations::of(chart, model);
     let place = Place::of(chart.place(model));
@@ -98,6 +105,7 @@ fn follow<const N: usize>(
         if let Some(end) = ending(&step, &now, &place)? {
             return Ok(end);
         }
+        on_step(&t)?;
         set = step.end(&set)?;
         let next = &t + &step.length;
         if !next.radius().is_zero() {

@@ -106,7 +106,7 @@ fn taut_motion_is_the_references() {
             laws: &[],
             zeros: &Vec::new(),
         };
-        let end = hold(&model, &begin);
+        let end = hold(&model, &begin, &mut |_| Ok(()));
         let end = end.unwrap_or_else(|why| panic!("{}: {why:?}", case["id"]));
         let (state, t) = hull_of(&end.instants);
         if end.event == Event::Stop(Stop::UpperBound) {
