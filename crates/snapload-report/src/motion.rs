@@ -51,11 +51,12 @@ impl Sampling {
         ))
     }
 
-    /// A thousand equal steps.
+    /// A thousand equal steps, at the times of [`Self::every`] with such a step.
     pub fn thousand(end: f64) -> Self {
+        let dt = end / 1000.0;
         Self {
-            dt: end / 1000.0,
-            decimal: None,
+            dt,
+            decimal: decimal(dt),
             most: 1000,
             end,
         }
