@@ -58,6 +58,9 @@ pub(crate) fn begin<const N: usize>(
     let before = &when.centre() - &Ball::bound(when.radius().plus(last)).twice();
     let before = before.centre().with_limbs(model.limbs - 1).centre();
     let t = before.with_limbs(model.limbs);
+    if !t.is_below(&when) {
+        return Err(lost());
+    }
     let (centre, centre_when) = parts(instants.centre().clone());
     let centre = after(laws, model, &centre).ok_or_else(lost)?;
     let centre = chart.coordinates(model, &centre)?;

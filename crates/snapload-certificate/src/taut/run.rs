@@ -135,6 +135,9 @@ fn ending<const N: usize>(
 ) -> Result<Option<TautEnd>, Trouble> {
     let (limit, left) = (&step.length, now.left);
     let begun = &now.from.1;
+    if !begun.is_below(limit) {
+        return Err(Trouble::undecided("a begin that lasts longer than a step"));
+    }
     let found = first_crossing(step, now.from, now.zeros, limit)?;
     let roots = match &found {
         Some(crossing) => Some(roots(step, crossing)?),
