@@ -1,0 +1,407 @@
+//! Capytaine's datasets: time goes as e^{−iωt}, the incident wave is η = Re e^{i(kx cos β − ωt)}.
+//!
+//! Source: the documentation of Capytaine, sections "Conventions" and "Export".
+
+use super::dataset::Dataset;
+use super::table::{Row, Table};
+use super::{Given, agreed, agreed_water};
+use crate::coefficients::{Hydrodynamics, Hydrostatics};
+use crate::error::HydroError;
+use nalgebra::{Complex, Matrix3, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// How near a wave direction has to be to 0 or π \[rad\].
+const IN_PLANE: f64 = 1e-6;
+/// The names of the frequency's dimension in versions of Capytaine.
+const FREQUENCIES: [&str; 5] = ["omega", "freq", "period", "wavenumber", "wavelength"];
+const ROW: &str = "influenced_dof";
+const COLUMN: &str = "radiating_dof";
+
+/// The plane that the body moves in: x–z with surge, heave and pitch, or y–z with sway, heave and
+/// −roll, which is taken for x–z.
+#[derive(Clone, Copy, PartialEq)]
+enum Plane {
+    X,
+    Y,
+}
+
+impl Plane {
+    fn freedoms(self) -> [&'static str; 3] {
+        match self {
+            Self::X => ["Surge", "Heave", "Pitch"],
+            Self::Y => ["Sway", "Heave", "Roll"],
+        }
+    }
+
+    /// The sign of each freedom: roll turns y to z, where pitch turns z to x.
+    fn signs(self) -> [f64; 3] {
+        match self {
+            Self::X => [1.0; 3],
+            Self::Y => [1.0, 1.0, -1.0],
+        }
+    }
+
+    fn axis(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+        }
+    }
+
+    /// +1 or −1 if a wave of direction β travels in the plane.
+    fn direction(self, beta: f64) -> Option<f64> {
+        let turn = match self {
+            Self::X => beta,
+            Self::Y => beta - FRAC_PI_2,
+        };
+        let from_zero = turn.rem_euclid(2.0 * PI);
+        if from_zero.min(2.0 * PI - from_zero) < IN_PLANE {
+            Some(1.0)
+        } else if (from_zero - PI).abs() < IN_PLANE {
+            Some(-1.0)
+        } else {
+            None
+        }
+    }
+}
+
+/// The coefficients of a dataset as Capytaine's `assemble_dataset` makes it, with complex values
+/// apart (`export_dataset`, `separate_complex_values`).
+///
+/// # Errors
+/// A [`HydroError`] if something is missing, has another layout, or is no number.
+pub fn from_dataset(dataset: &Dataset, given: &Given) -> Result<Hydrodynamics, HydroError> {
+    refuse_speed(dataset)?;
+    let (plane, rows) = freedoms(dataset, ROW, given)?;
+    let (_, columns) = freedoms(dataset, COLUMN, given)?;
+    let dim = frequency_dimension(dataset)?;
+    let omega = frequencies(dataset, &dim)?;
+    let numbers = ["rho", "g", "water_depth"].map(|name| dataset.scalar(name));
+    let [density, gravity, depth] = numbers;
+    let water = agreed_water([density?, gravity?, depth?], given)?;
+    let matrices = |name: &str| -> Result<Vec<Matrix3<f64>>, HydroError> {
+        let values = dataset.arranged(name, &[&dim, ROW, COLUMN])?;
+        let (n, m) = (names(dataset, ROW)?, names(dataset, COLUMN)?);
+        if values.len() != omega.len() * n * m {
+            let found = format!("{} values", values.len());
+            let wanted = "one for each frequency, force and motion is wanted";
+            return Err(HydroError::layout(name, found, wanted));
+        }
+        let of = |block: &[f64]| picked(block, m, &rows, &columns, plane);
+        Ok(values.chunks_exact(n * m).map(of).collect())
+    };
+    let added_mass = matrices("added_mass")?;
+    let damping = matrices("radiation_damping")?;
+    let (directions, forces) = excitation(dataset, &dim, omega.len(), plane, &rows)?;
+    let row = |(index, omega): (usize, &f64)| Row {
+        omega: *omega,
+        added_mass: added_mass[index],
+        damping: damping[index],
+        excitation: forces.iter().map(|force| force[index]).collect(),
+    };
+    let hydrostatics = hydrostatics(dataset, given, plane, &rows, &columns)?;
+    let reference_m = point(dataset, "rotation_center", plane)?;
+    let table = Table {
+        rows: omega.iter().enumerate().map(row).collect(),
+        directions,
+        water,
+        reference_m: reference(reference_m, given)?,
+        hydrostatics,
+    };
+    table.into_hydrodynamics()
+}
+
+fn refuse_speed(dataset: &Dataset) -> Result<(), HydroError> {
+    match dataset.scalar("forward_speed")? {
+        Some(speed) if speed != 0.0 => Err(HydroError::value(
+            "forward_speed",
+            speed,
+            "only bodies without forward speed can be simulated",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The reference point of the file and of the case, to a millimetre the same.
+fn reference(file: Option<[f64; 2]>, given: &Given) -> Result<[f64; 2], HydroError> {
+    match (file, given.reference_m) {
+        (Some(file), Some(case)) => {
+            for (axis, what) in ["the reference point's x", "the reference point's z"]
+                .into_iter()
+                .enumerate()
+            {
+                if (file[axis] - case[axis]).abs() > 1e-3 {
+                    let (file, case) = (file[axis], case[axis]);
+                    return Err(HydroError::Disagreement { what, file, case });
+                }
+            }
+            Ok(file)
+        }
+        (Some(point), None) | (None, Some(point)) => Ok(point),
+        (None, None) => Err(HydroError::missing(
+            "the reference point (rotation_center)",
+            "the file does not say about which point its pitch turns; give the reference point",
+        )),
+    }
+}
+
+fn names(dataset: &Dataset, dim: &str) -> Result<usize, HydroError> {
+    Ok(dataset.words(dim)?.len())
+}
+
+/// Which of the file's freedoms are surge, heave and pitch, or sway, heave and roll.
+fn freedoms(
+    dataset: &Dataset,
+    dim: &str,
+    given: &Given,
+) -> Result<(Plane, [usize; 3]), HydroError> {
+    let words = dataset.words(dim)?;
+    let body = chosen_body(words, given)?;
+    let place = |freedom: &str| {
+        words
+            .iter()
+            .position(|word| match (word.split_once("__"), &body) {
+                (Some((name, of)), Some(body)) => name == body && of == freedom,
+                (None, None) => word == freedom,
+                _ => false,
+            })
+    };
+    for plane in [Plane::X, Plane::Y] {
+        if let [Some(a), Some(b), Some(c)] = plane.freedoms().map(place) {
+            return Ok((plane, [a, b, c]));
+        }
+    }
+    let lacks: Vec<&str> = Plane::X
+        .freedoms()
+        .into_iter()
+        .filter(|freedom| place(freedom).is_none())
+        .collect();
+    let advice = format!(
+        "{dim} has {}; Surge, Heave and Pitch are wanted, or Sway, Heave and Roll",
+        words.join(", ")
+    );
+    Err(HydroError::missing(
+        format!("the freedom {}", lacks.join(", ")),
+        advice,
+    ))
+}
+
+/// Freedoms of several bodies are called `name__Heave`.
+fn chosen_body(words: &[String], given: &Given) -> Result<Option<String>, HydroError> {
+    let mut bodies: Vec<&str> = words
+        .iter()
+        .filter_map(|word| Some(word.split_once("__")?.0))
+        .collect();
+    bodies.dedup();
+    match (bodies.as_slice(), &given.body) {
+        ([], _) => Ok(None),
+        (bodies, Some(wanted)) if bodies.contains(&wanted.as_str()) => Ok(Some(wanted.clone())),
+        ([one], None) => Ok(Some((*one).to_owned())),
+        (bodies, wanted) => {
+            let what = match wanted {
+                Some(body) => format!("the body {body}"),
+                None => "the choice of a body".to_owned(),
+            };
+            let advice = format!("the file has {}; name one of them", bodies.join(", "));
+            Err(HydroError::missing(what, advice))
+        }
+    }
+}
+
+/// The dimension that the frequencies are along.
+fn frequency_dimension(dataset: &Dataset) -> Result<String, HydroError> {
+    let variable = dataset.variable("added_mass")?;
+    let found = variable
+        .dims
+        .iter()
+        .find(|dim| FREQUENCIES.contains(&dim.as_str()));
+    found.cloned().ok_or_else(|| {
+        let found = format!("its dimensions are {}", variable.dims.join(", "));
+        let wanted = format!("one of {} is wanted", FREQUENCIES.join(", "));
+        HydroError::layout("added_mass", found, wanted)
+    })
+}
+
+/// ω along that dimension, which may be called something else.
+fn frequencies(dataset: &Dataset, dim: &str) -> Result<Vec<f64>, HydroError> {
+    type Known = (&'static str, fn(f64) -> f64);
+    let known: [Known; 3] = [
+        ("omega", |omega| omega),
+        ("period", |period| 2.0 * PI / period),
+        ("freq", |frequency| 2.0 * PI * frequency),
+    ];
+    for (name, omega) in known {
+        if dataset.has(name) {
+            let values = dataset.arranged(name, &[dim])?;
+            return Ok(values.into_iter().map(omega).collect());
+        }
+    }
+    Err(HydroError::missing(
+        "omega",
+        format!("neither omega nor period nor freq is given along {dim}"),
+    ))
+}
+
+/// Three rows and columns of a block with `width` columns.
+fn picked(
+    block: &[f64],
+    width: usize,
+    rows: &[usize; 3],
+    columns: &[usize; 3],
+    plane: Plane,
+) -> Matrix3<f64> {
+    let sign = plane.signs();
+    Matrix3::from_fn(|i, j| sign[i] * sign[j] * block[rows[i] * width + columns[j]])
+}
+
+type Forces = Vec<Vec<Vector3<Complex<f64>>>>;
+
+/// The directions in the plane, and the forces of each over the frequencies.
+fn excitation(
+    dataset: &Dataset,
+    dim: &str,
+    count: usize,
+    plane: Plane,
+    rows: &[usize; 3],
+) -> Result<(Vec<f64>, Forces), HydroError> {
+    let betas = dataset.arranged("wave_direction", &["wave_direction"])?;
+    if let Some(beta) = betas.iter().find(|beta| beta.abs() > 2.0 * PI + IN_PLANE) {
+        let wanted = "radians are wanted, at most 2π; is it degrees?";
+        return Err(HydroError::value("wave_direction", *beta, wanted));
+    }
+    let parts: Vec<&str> = match dataset.has("diffraction_force") {
+        true => vec!["diffraction_force", "Froude_Krylov_force"],
+        false => vec!["excitation_force"],
+    };
+    let mut sum: Vec<Complex<f64>> = Vec::new();
+    for name in parts {
+        let values = complex(dataset, name, dim)?;
+        match sum.is_empty() {
+            true => sum = values,
+            false => sum
+                .iter_mut()
+                .zip(values)
+                .for_each(|(sum, value)| *sum += value),
+        }
+    }
+    let freedoms = names(dataset, ROW)?;
+    if sum.len() != count * betas.len() * freedoms {
+        let found = format!("{} values", sum.len());
+        let wanted = "one for each frequency, direction and freedom is wanted";
+        return Err(HydroError::layout("the wave force", found, wanted));
+    }
+    let sign = plane.signs();
+    let (mut directions, mut forces): (Vec<f64>, Forces) = (Vec::new(), Vec::new());
+    for (index, beta) in betas.iter().enumerate() {
+        let Some(direction) = plane.direction(*beta) else {
+            continue;
+        };
+        if directions.contains(&direction) {
+            continue;
+        }
+        let force = |step: usize| {
+            let from = (step * betas.len() + index) * freedoms;
+            Vector3::from_fn(|i, _| sum[from + rows[i]] * sign[i])
+        };
+        directions.push(direction);
+        forces.push((0..count).map(force).collect());
+    }
+    if directions.is_empty() {
+        let wanted = match plane {
+            Plane::X => "0 or π",
+            Plane::Y => "π/2 or −π/2",
+        };
+        let found = format!("{betas:?} rad");
+        let wanted = format!("waves in the plane of motion are wanted, {wanted} to 1e-6");
+        return Err(HydroError::layout("wave_direction", found, wanted));
+    }
+    Ok((directions, forces))
+}
+
+/// A complex variable, whose dimension `complex` has the labels re and im.
+fn complex(dataset: &Dataset, name: &str, dim: &str) -> Result<Vec<Complex<f64>>, HydroError> {
+    let advice = "a dimension `complex` with the labels re and im is wanted, as Capytaine's \
+                  separate_complex_values makes it";
+    let variable = dataset.variable(name)?;
+    if !variable.dims.iter().any(|name| name == "complex") && !variable.is_other() {
+        let found = format!("its dimensions are {}", variable.dims.join(", "));
+        return Err(HydroError::layout(name, found, advice));
+    }
+    let order = ["complex", dim, "wave_direction", ROW];
+    let values = dataset.arranged(name, &order)?;
+    let labels = dataset.words("complex")?;
+    let place = |label: &str| {
+        let found = labels.iter().position(|word| word == label);
+        found.ok_or_else(|| {
+            let found = format!("its labels are {}", labels.join(", "));
+            HydroError::layout("complex", found, "re and im are wanted")
+        })
+    };
+    let (re, im) = (place("re")?, place("im")?);
+    if labels.len() != 2 || values.len() % 2 != 0 {
+        let found = format!("{} labels", labels.len());
+        return Err(HydroError::layout("complex", found, "re and im are wanted"));
+    }
+    let half = values.len() / 2;
+    let of = |k: usize| Complex::new(values[re * half + k], values[im * half + k]);
+    Ok((0..half).map(of).collect())
+}
+
+/// A place (x, z) or (y, z), if the file has it and it is a number.
+fn point(dataset: &Dataset, name: &str, plane: Plane) -> Result<Option<[f64; 2]>, HydroError> {
+    if !dataset.has(name) {
+        return Ok(None);
+    }
+    let values = dataset.arranged(name, &["space_coordinate"])?;
+    let labels = match dataset.has("space_coordinate") {
+        true => dataset.words("space_coordinate")?.to_vec(),
+        false => ["x", "y", "z"].map(str::to_owned).to_vec(),
+    };
+    let of = |label: &str| {
+        let at = labels.iter().position(|word| word == label)?;
+        values.get(at).copied().filter(|value| value.is_finite())
+    };
+    let wanted = [["x", "y"][plane.axis()], "z"];
+    Ok(match wanted.map(of) {
+        [Some(x), Some(z)] => Some([x, z]),
+        _ => None,
+    })
+}
+
+fn hydrostatics(
+    dataset: &Dataset,
+    given: &Given,
+    plane: Plane,
+    rows: &[usize; 3],
+    columns: &[usize; 3],
+) -> Result<Hydrostatics, HydroError> {
+    let matrix = |name: &str| -> Result<Option<Matrix3<f64>>, HydroError> {
+        if !dataset.has(name) {
+            return Ok(None);
+        }
+        let values = dataset.arranged(name, &[ROW, COLUMN])?;
+        let width = names(dataset, COLUMN)?;
+        if values.len() != width * names(dataset, ROW)? {
+            let found = format!("{} values", values.len());
+            return Err(HydroError::layout(
+                name,
+                found,
+                "one for each pair of freedoms is wanted",
+            ));
+        }
+        let matrix = picked(&values, width, rows, columns, plane);
+        Ok(matrix
+            .iter()
+            .all(|value| value.is_finite())
+            .then_some(matrix))
+    };
+    let displaced = dataset.scalar("disp_mass")?.filter(|mass| mass.is_finite());
+    let what = "the displaced mass in kg";
+    Ok(Hydrostatics {
+        stiffness: matrix("hydrostatic_stiffness")?,
+        displaced_mass_kg: agreed(what, displaced, given.displaced_mass_kg, 1e-3)?,
+        centre_of_mass_m: point(dataset, "center_of_mass", plane)?.or(given.centre_of_gravity_m),
+        centre_of_buoyancy_m: point(dataset, "center_of_buoyancy", plane)?,
+        inertia: matrix("inertia_matrix")?,
+    })
+}

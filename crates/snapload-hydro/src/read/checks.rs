@@ -1,0 +1,212 @@
+//! Whether coefficients keep to the conventions of signs, phases and units, and how good they are.
+
+use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
+use crate::error::{HydroError, Warning};
+
+/// Asymmetry of A above which the file is doubtful, and above which rows and columns are mixed up.
+const ASYMMETRY: [f64; 2] = [0.01, 0.2];
+/// The wave number times the length of the waterplane below which a wave is long enough for the
+/// limit of low frequency.
+const LONG_WAVE: f64 = 0.5;
+
+/// Refuses coefficients that break a convention, and lists what is doubtful.
+pub(super) fn check(hydro: &Hydrodynamics) -> Result<Vec<Warning>, HydroError> {
+    let mut warnings = Vec::new();
+    symmetry(hydro, &mut warnings)?;
+    damping(hydro, &mut warnings)?;
+    stiffness(hydro, &mut warnings)?;
+    for excitation in &hydro.excitation {
+        low_frequency(hydro, excitation, &mut warnings)?;
+    }
+    coverage(hydro, &mut warnings);
+    Ok(warnings)
+}
+
+fn symmetry(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), HydroError> {
+    let percent = 100.0 * hydro.asymmetry;
+    let [doubtful, wrong] = ASYMMETRY;
+    if hydro.asymmetry > wrong {
+        let words = format!(
+            "A_ij and A_ji differ by {percent:.0} % of sqrt(A_ii A_jj); added mass is symmetric. \
+             Are the freedoms mixed up, or do they turn about different points?"
+        );
+        return Err(HydroError::convention("symmetry", words));
+    }
+    if hydro.asymmetry > doubtful {
+        let words = format!(
+            "A_ij and A_ji differ by {percent:.1} % of sqrt(A_ii A_jj); their mean is taken. A \
+             finer mesh makes them equal"
+        );
+        warnings.push(Warning::new("symmetry", words));
+    }
+    Ok(())
+}
+
+fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), HydroError> {
+    for (i, freedom) in FREEDOMS.iter().enumerate() {
+        let values = hydro.damping_entry(i, i);
+        let largest = values.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
+        let area: f64 = values.iter().sum();
+        if area < 0.0 {
+            let words = format!(
+                "the damping of {freedom} is negative; waves carry energy away, so B_ii ≥ 0. Is it \
+                 given with the other sign?"
+            );
+            return Err(HydroError::convention("positive damping", words));
+        }
+        let below = values.iter().zip(&hydro.omega_rad_s);
+        let below: Vec<String> = below
+            .filter(|(b, _)| **b < -0.01 * largest)
+            .map(|(_, omega)| format!("{omega:.3}"))
+            .collect();
+        if !below.is_empty() {
+            let words = format!(
+                "the damping of {freedom} is below −1 % of its largest at ω = {} rad/s: irregular \
+                 frequencies, or a mesh that is too coarse",
+                shortened(&below)
+            );
+            warnings.push(Warning::new("negative damping", words));
+        }
+        let last = values.last().copied().unwrap_or(0.0);
+        if last.abs() > 0.05 * largest {
+            let words = format!(
+                "the damping of {freedom} at the last frequency is {:.0} % of its largest; the \
+                 memory's first moments rest on a power law beyond. Compute higher frequencies",
+                100.0 * last.abs() / largest
+            );
+            warnings.push(Warning::new("high frequencies", words));
+        }
+    }
+    Ok(())
+}
+
+fn shortened(list: &[String]) -> String {
+    match list.len() {
+        0..=8 => list.join(", "),
+        more => format!("{}, … ({more} in all)", list[..8].join(", ")),
+    }
+}
+
+fn stiffness(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), HydroError> {
+    let Some(c) = hydro.hydrostatics.stiffness else {
+        return Ok(());
+    };
+    let scale = |i: usize, j: usize| (c[(i, i)] * c[(j, j)]).abs().sqrt();
+    for (i, j) in UPPER {
+        let difference = (c[(i, j)] - c[(j, i)]).abs();
+        let wrong = difference > 0.01 * scale(i, j) && i != j && scale(i, j) > 0.0;
+        if wrong {
+            let words = format!(
+                "C of {} by {} is {} one way and {} the other",
+                FREEDOMS[i],
+                FREEDOMS[j],
+                c[(i, j)],
+                c[(j, i)]
+            );
+            return Err(HydroError::convention("symmetry", words));
+        }
+    }
+    for i in [1, 2] {
+        if c[(i, i)] <= 0.0 {
+            let words = format!(
+                "C of {} is {:.3e}: the body does not right itself and has to be held by its lines",
+                FREEDOMS[i],
+                c[(i, i)]
+            );
+            warnings.push(Warning::new("stiffness", words));
+        }
+    }
+    Ok(())
+}
+
+/// The limits of low frequency prove units and the sign of time:
+///
+/// ```text
+/// X3 → +C33,    X1 → −i |X1| for a wave to +x, +i |X1| for one to −x       (e^{−iωt})
+/// ```
+///
+/// for the pressure falls towards +x a quarter of a period before a crest arrives.
+fn low_frequency(
+    hydro: &Hydrodynamics,
+    excitation: &Excitation,
+    warnings: &mut Vec<Warning>,
+) -> Result<(), HydroError> {
+    let water = &hydro.water;
+    let omega = hydro.omega_rad_s[0];
+    let force = excitation.force[0];
+    let c33 = hydro.hydrostatics.stiffness.map(|c| c[(1, 1)]);
+    let c33 = c33.filter(|c| *c > 0.0);
+    let waterplane = c33.unwrap_or(force[1].norm()) / (water.density_kg_m3 * water.gravity_m_s2);
+    let k = wave_number(omega, water.depth_m, water.gravity_m_s2);
+    let long = k * waterplane.sqrt() < LONG_WAVE;
+    if !long {
+        let words = format!(
+            "the lowest frequency, {omega:.3} rad/s, is too high for a proof of phases and units \
+             by the limit of long waves; compute lower ones"
+        );
+        warnings.push(Warning::new("low frequencies", words));
+        return Ok(());
+    }
+    if let Some(c33) = c33 {
+        let ratio = force[1].norm() / c33;
+        if !(0.5..=2.0).contains(&ratio) {
+            let words = format!(
+                "at ω = {omega:.3} rad/s the wave force on heave is {ratio:.3e} times the hydrostatic \
+                 stiffness of heave; it has to tend to 1. Are they in different units, or was the \
+                 stiffness given for another body?"
+            );
+            return Err(HydroError::convention("low-frequency limit of X3", words));
+        }
+    }
+    if force[1].re < 0.5 * force[1].norm() {
+        let words = format!(
+            "at ω = {omega:.3} rad/s the wave force on heave has the phase {:.0}°; it has to tend to 0, a \
+             force upwards under a crest",
+            force[1].arg().to_degrees()
+        );
+        return Err(HydroError::convention("phase of X3", words));
+    }
+    let expected = -excitation.direction;
+    if force[0].im * expected < 0.5 * force[0].norm() && force[0].norm() > 0.0 {
+        let (beta, to, wanted) = match excitation.direction > 0.0 {
+            true => ("0", "+x", "−"),
+            false => ("π", "−x", "+"),
+        };
+        let words = format!(
+            "for β = {beta}, a wave to {to}, the wave force on surge at ω = {omega:.3} rad/s has the phase \
+             {:.0}°; with e^{{−iωt}} it has to tend to {wanted}90°. Either the file is conjugate \
+             (e^{{+iωt}}), or β says where waves come from",
+            force[0].arg().to_degrees()
+        );
+        return Err(HydroError::convention("phase of X1", words));
+    }
+    Ok(())
+}
+
+fn coverage(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
+    let count = hydro.omega_rad_s.len();
+    if count < 20 {
+        let words = format!("{count} frequencies; twenty and more are wanted for a memory");
+        warnings.push(Warning::new("few frequencies", words));
+    }
+}
+
+/// k with ω² = g k tanh kd; infinite depth is allowed.
+pub(crate) fn wave_number(omega: f64, depth: f64, gravity: f64) -> f64 {
+    let deep = omega * omega / gravity;
+    if !depth.is_finite() {
+        return deep;
+    }
+    // Newton's method on q tanh q = c from the larger limit of shallow and deep water.
+    let c = deep * depth;
+    let mut q = c.sqrt().max(c);
+    for _ in 0..40 {
+        let tanh = q.tanh();
+        let slope = tanh + q * (1.0 - tanh * tanh);
+        if slope <= 0.0 {
+            break;
+        }
+        q -= (q * tanh - c) / slope;
+    }
+    q / depth
+}

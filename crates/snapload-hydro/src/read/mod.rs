@@ -1,0 +1,202 @@
+//! Files of panel codes, all into one [`Hydrodynamics`].
+
+mod capytaine;
+mod checks;
+mod dataset;
+mod nemoh;
+mod netcdf;
+mod table;
+mod wamit;
+
+pub use capytaine::from_dataset;
+pub use dataset::{Dataset, Values, Variable};
+pub use nemoh::from_nemoh;
+pub use wamit::{FirstColumn, WamitText, from_wamit};
+
+use crate::coefficients::{Hydrodynamics, Water};
+use crate::error::{HydroError, Warning};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// The programs whose files are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// netCDF.
+    Capytaine,
+    /// `.1`, `.3` or `.2`, and `.hst`.
+    Wamit,
+    /// `RadiationCoefficients.tec` and `ExcitationForce.tec`.
+    Nemoh,
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Capytaine => "Capytaine",
+            Self::Wamit => "WAMIT",
+            Self::Nemoh => "Nemoh",
+        })
+    }
+}
+
+/// What a reader is told beside the file. What the file says too has to agree.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Given {
+    /// ρ \[kg/m³\].
+    pub density_kg_m3: Option<f64>,
+    /// g \[m/s²\].
+    pub gravity_m_s2: Option<f64>,
+    /// Depth of the water \[m\]; infinite for deep water.
+    pub depth_m: Option<f64>,
+    /// The reference point O \[m\].
+    pub reference_m: Option<[f64; 2]>,
+    /// The centre of gravity that the file's stiffness was made with \[m\].
+    pub centre_of_gravity_m: Option<[f64; 2]>,
+    /// ρV \[kg\].
+    pub displaced_mass_kg: Option<f64>,
+    /// WAMIT's ULEN \[m\].
+    pub unit_length_m: Option<f64>,
+    /// What the first column of WAMIT's files holds.
+    pub first_column: FirstColumn,
+    /// Which body, where the file has several.
+    pub body: Option<String>,
+}
+
+/// Coefficients that passed the checks, with what should be known of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// Whose file it was.
+    pub format: Format,
+    /// The coefficients.
+    pub hydro: Hydrodynamics,
+    /// What to know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Reading {
+    /// Checks coefficients against the conventions of their format.
+    ///
+    /// # Errors
+    /// A [`HydroError`] that says which is broken.
+    pub fn new(format: Format, hydro: Hydrodynamics) -> Result<Self, HydroError> {
+        let warnings = checks::check(&hydro)?;
+        Ok(Self {
+            format,
+            hydro,
+            warnings,
+        })
+    }
+}
+
+/// Reads the file of a panel code, whose format is known by its name: Capytaine's `.nc`; one of
+/// WAMIT's `.1`, `.3`, `.2` and `.hst`, with the others of the same name beside it; Nemoh's
+/// `RadiationCoefficients.tec` or the folder that holds it.
+///
+/// # Errors
+/// A [`HydroError`] if it can not be read or breaks a convention.
+pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
+    let extension = path.extension().and_then(|end| end.to_str());
+    let extension = extension.map(str::to_ascii_lowercase);
+    match extension.as_deref() {
+        Some("nc" | "nc4" | "netcdf" | "h5") => {
+            let dataset = Dataset::from_netcdf(&bytes(path)?)?;
+            Reading::new(Format::Capytaine, from_dataset(&dataset, given)?)
+        }
+        Some("1" | "2" | "3" | "hst") => {
+            let files = WamitText {
+                radiation: text(&path.with_extension("1"))?,
+                excitation: match path.with_extension("3") {
+                    third if third.exists() => text(&third)?,
+                    _ => text(&path.with_extension("2"))?,
+                },
+                hydrostatics: match path.with_extension("hst") {
+                    hst if hst.exists() => Some(text(&hst)?),
+                    _ => None,
+                },
+            };
+            Reading::new(Format::Wamit, from_wamit(&files, given)?)
+        }
+        _ if path.is_dir() || extension.as_deref() == Some("tec") => {
+            let folder = if path.is_dir() {
+                nemoh_folder(path)
+            } else {
+                path.parent().unwrap_or(Path::new("")).to_owned()
+            };
+            let [radiation, excitation] = ["RadiationCoefficients.tec", "ExcitationForce.tec"]
+                .map(|name| text(&folder.join(name)));
+            let hydro = from_nemoh(&radiation?, &excitation?, given)?;
+            Reading::new(Format::Nemoh, hydro)
+        }
+        _ => Err(HydroError::Unreadable(format!(
+            "{} is none of: Capytaine's .nc; WAMIT's .1, .3, .2, .hst; Nemoh's .tec or its folder",
+            path.display()
+        ))),
+    }
+}
+
+/// Nemoh puts its answers into a folder `results` or `Results`.
+fn nemoh_folder(path: &Path) -> PathBuf {
+    let below = ["results", "Results"].map(|name| path.join(name));
+    let found = below.into_iter().find(|folder| folder.is_dir());
+    found.unwrap_or_else(|| path.to_owned())
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, HydroError> {
+    std::fs::read(path)
+        .map_err(|error| HydroError::Unreadable(format!("{}: {error}", path.display())))
+}
+
+fn text(path: &Path) -> Result<String, HydroError> {
+    String::from_utf8(bytes(path)?)
+        .map_err(|_| HydroError::Unreadable(format!("{}: it is not text", path.display())))
+}
+
+/// The value of the file or of the case, where only one of them has it; where both do they have to
+/// agree to a part.
+fn agreed(
+    what: &'static str,
+    file: Option<f64>,
+    case: Option<f64>,
+    part: f64,
+) -> Result<Option<f64>, HydroError> {
+    if let (Some(file), Some(case)) = (file, case) {
+        let near = (file - case).abs() <= part * case.abs();
+        if file != case && !near {
+            return Err(HydroError::Disagreement { what, file, case });
+        }
+    }
+    Ok(file.or(case))
+}
+
+/// The water of the file and of the case, checked.
+fn agreed_water(file: [Option<f64>; 3], given: &Given) -> Result<Water, HydroError> {
+    let [density, gravity, depth] = file;
+    let need = |what: &'static str, value: Option<f64>| {
+        let advice = "the file does not say; give it";
+        value.ok_or_else(|| HydroError::missing(what, advice))
+    };
+    let what = "the density of the water in kg/m³";
+    let density = agreed(what, density, given.density_kg_m3, 1e-3)?;
+    let density_kg_m3 = within(what, need(what, density)?, 500.0..=2000.0)?;
+    let what = "gravity in m/s²";
+    let gravity = agreed(what, gravity, given.gravity_m_s2, 1e-3)?;
+    let gravity_m_s2 = within(what, need(what, gravity)?, 0.1..=100.0)?;
+    let what = "the depth of the water in m";
+    let depth = agreed(what, depth, given.depth_m, 1e-2)?;
+    let depth_m = within(what, need(what, depth)?, 1e-3..=f64::INFINITY)?;
+    Ok(Water {
+        density_kg_m3,
+        gravity_m_s2,
+        depth_m,
+    })
+}
+
+/// The value, if it lies in a range.
+fn within(what: &str, value: f64, range: std::ops::RangeInclusive<f64>) -> Result<f64, HydroError> {
+    if range.contains(&value) {
+        return Ok(value);
+    }
+    let (low, high) = (range.start(), range.end());
+    let wanted = format!("{low} to {high} is allowed; is it in other units?");
+    Err(HydroError::value(what, value, wanted))
+}

@@ -1,0 +1,167 @@
+//! Nemoh's text files, as its post-processor writes them and as Capytaine exports them.
+//!
+//! ```text
+//! RadiationCoefficients.tec    a zone for each motion; its rows are ω, and A and B of each force
+//! ExcitationForce.tec          a zone for each β in degrees; its rows are ω, and |F| and arg F of each force
+//! ```
+//!
+//! The phase is that of e^{−iωt}: at low frequency arg F1 → −π/2 for β = 0, and arg F3 → 0. Source:
+//! Nemoh v2, `Solver/Main.f90`, which writes these files, and the files that come with it.
+
+use super::table::{Row, Table};
+use super::{Given, agreed_water};
+use crate::coefficients::{Hydrodynamics, Hydrostatics};
+use crate::error::HydroError;
+use nalgebra::{Complex, Matrix3, Vector3};
+
+/// The freedoms of one body, all six of which the files have.
+const SIX: usize = 6;
+/// Those that are surge, heave and pitch.
+const PLACES: [usize; 3] = [0, 2, 4];
+
+/// A part of a file: its heading, and its rows of numbers.
+struct Zone<'a> {
+    heading: &'a str,
+    rows: Vec<Vec<f64>>,
+}
+
+/// The coefficients of Nemoh's files, which have neither the water nor the reference point nor the
+/// hydrostatics.
+///
+/// # Errors
+/// A [`HydroError`] if they can not be read, something is missing, or a value was not given.
+pub fn from_nemoh(
+    radiation: &str,
+    excitation: &str,
+    given: &Given,
+) -> Result<Hydrodynamics, HydroError> {
+    let water = agreed_water([None; 3], given)?;
+    let reference_m = given.reference_m.ok_or_else(|| {
+        let advice = "Nemoh's results do not say about which point pitch turns; give it as x,z";
+        HydroError::missing("the reference point", advice)
+    })?;
+    let name = "RadiationCoefficients.tec";
+    let motions = zones(name, radiation, 1 + 2 * SIX)?;
+    if motions.len() != SIX {
+        let found = format!("it has {} zones", motions.len());
+        let wanted = "one body with its six freedoms is wanted, one zone a motion";
+        return Err(HydroError::layout(name, found, wanted));
+    }
+    let name = "ExcitationForce.tec";
+    let waves = zones(name, excitation, 1 + 2 * SIX)?;
+    let (directions, headed) = along_x(name, &waves)?;
+    let count = motions[0].rows.len();
+    for zone in motions.iter().chain(headed.iter().copied()) {
+        if zone.rows.len() != count {
+            let found = format!("{} has {} rows", zone.heading.trim(), zone.rows.len());
+            return Err(HydroError::layout(
+                name,
+                found,
+                format!("{count} are wanted"),
+            ));
+        }
+    }
+    let table = Table {
+        rows: (0..count)
+            .map(|step| row(&motions, &headed, step))
+            .collect(),
+        directions,
+        water,
+        reference_m,
+        hydrostatics: Hydrostatics {
+            displaced_mass_kg: given.displaced_mass_kg,
+            centre_of_mass_m: given.centre_of_gravity_m,
+            ..Hydrostatics::default()
+        },
+    };
+    table.into_hydrodynamics()
+}
+
+/// The zones of the waves to +x and −x.
+fn along_x<'a, 'b>(
+    name: &str,
+    waves: &'b [Zone<'a>],
+) -> Result<(Vec<f64>, Vec<&'b Zone<'a>>), HydroError> {
+    let (mut directions, mut headed) = (Vec::new(), Vec::new());
+    for wave in waves {
+        if let Some(direction) = direction(wave.heading)
+            && !directions.contains(&direction)
+        {
+            directions.push(direction);
+            headed.push(wave);
+        }
+    }
+    if directions.is_empty() {
+        let headings: Vec<&str> = waves.iter().map(|wave| wave.heading).collect();
+        let advice = format!("{name} has {headings:?}; beta = 0 or 180 is wanted");
+        let what = "the excitation of waves along x";
+        return Err(HydroError::missing(what, advice));
+    }
+    Ok((directions, headed))
+}
+
+/// What the zones say at one frequency.
+fn row(motions: &[Zone], waves: &[&Zone], step: usize) -> Row {
+    let entry =
+        |i: usize, j: usize, part: usize| motions[PLACES[j]].rows[step][1 + 2 * PLACES[i] + part];
+    let force = |wave: &&Zone| {
+        let row = &wave.rows[step];
+        Vector3::from_fn(|i, _| {
+            let at = 1 + 2 * PLACES[i];
+            Complex::from_polar(row[at], row[at + 1])
+        })
+    };
+    Row {
+        omega: motions[0].rows[step][0],
+        added_mass: Matrix3::from_fn(|i, j| entry(i, j, 0)),
+        damping: Matrix3::from_fn(|i, j| entry(i, j, 1)),
+        excitation: waves.iter().map(force).collect(),
+    }
+}
+
+/// The zones of a file. Lines before the first, which name the columns, are skipped.
+fn zones<'a>(name: &'static str, text: &'a str, width: usize) -> Result<Vec<Zone<'a>>, HydroError> {
+    let mut zones: Vec<Zone<'a>> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        if line.trim().is_empty() {
+            continue;
+        }
+        if line.trim_start().to_ascii_lowercase().starts_with("zone") {
+            zones.push(Zone {
+                heading: line,
+                rows: Vec::new(),
+            });
+            continue;
+        }
+        let Some(zone) = zones.last_mut() else {
+            continue;
+        };
+        let numbers: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse::<f64>).collect();
+        match numbers {
+            Ok(numbers) if numbers.len() == width => zone.rows.push(numbers),
+            _ => {
+                let start: String = line.trim().chars().take(60).collect();
+                let found = format!("line {} is {start:?}", index + 1);
+                let wanted = format!("{width} numbers are wanted, for one body's six freedoms");
+                return Err(HydroError::layout(name, found, wanted));
+            }
+        }
+    }
+    Ok(zones)
+}
+
+/// +1 or −1, if the zone's heading says `beta = 0` or 180 degrees.
+fn direction(heading: &str) -> Option<f64> {
+    let (_, rest) = heading.split_once("beta")?;
+    let number = rest.trim_start_matches([' ', '=']);
+    let end = number.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c)));
+    let degrees: f64 = number[..end.unwrap_or(number.len())].parse().ok()?;
+    let turn = degrees.rem_euclid(360.0);
+    if turn.min(360.0 - turn) < 1e-3 {
+        Some(1.0)
+    } else if (turn - 180.0).abs() < 1e-3 {
+        Some(-1.0)
+    } else {
+        None
+    }
+}

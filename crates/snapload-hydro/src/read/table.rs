@@ -1,0 +1,141 @@
+//! Coefficients that come in any order, put in the order of their frequencies.
+
+use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, Hydrostatics, Water};
+use crate::error::HydroError;
+use nalgebra::{Complex, Matrix3, Vector3};
+
+/// What is known at one frequency.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// ω \[rad/s\], 0 and infinity included.
+    pub omega: f64,
+    /// A, not symmetric yet: row force, column motion.
+    pub added_mass: Matrix3<f64>,
+    /// B; at 0 and at infinity it says nothing.
+    pub damping: Matrix3<f64>,
+    /// X of each direction, in the order of [`Table::directions`].
+    pub excitation: Vec<Vector3<Complex<f64>>>,
+}
+
+/// All that a file says.
+pub(super) struct Table {
+    pub rows: Vec<Row>,
+    /// +1 for waves to +x, −1 to −x.
+    pub directions: Vec<f64>,
+    pub water: Water,
+    pub reference_m: [f64; 2],
+    pub hydrostatics: Hydrostatics,
+}
+
+impl Table {
+    /// Sorted by frequency, with symmetric matrices.
+    pub fn into_hydrodynamics(mut self) -> Result<Hydrodynamics, HydroError> {
+        if let Some(row) = self
+            .rows
+            .iter()
+            .find(|row| row.omega.is_nan() || row.omega < 0.0)
+        {
+            let wanted = "frequencies are numbers from 0 on";
+            return Err(HydroError::value("ω", row.omega, wanted));
+        }
+        self.rows.sort_by(|a, b| a.omega.total_cmp(&b.omega));
+        if let Some(pair) = self
+            .rows
+            .windows(2)
+            .find(|pair| pair[0].omega == pair[1].omega)
+        {
+            let wanted = "each frequency is wanted once";
+            return Err(HydroError::value("ω", pair[0].omega, wanted));
+        }
+        let (mut zero, mut inf) = (None, None);
+        let mut finite: Vec<Row> = Vec::new();
+        let mut asymmetry: f64 = 0.0;
+        for mut row in self.rows {
+            // Two files that were printed to a few digits have the same zero entries.
+            asymmetry = asymmetry.max(part_asymmetric(&row.added_mass));
+            row.added_mass = symmetric(&row.added_mass);
+            let whole = row.added_mass.iter().all(|value| value.is_finite());
+            match row.omega {
+                0.0 => zero = whole.then_some(row.added_mass),
+                f64::INFINITY => inf = whole.then_some(row.added_mass),
+                _ => finite.push(row),
+            }
+        }
+        if finite.len() < 4 {
+            let found = format!("{} frequencies above 0 and below infinity", finite.len());
+            let wanted = "four are the least, twenty and more are wanted";
+            return Err(HydroError::layout("the file", found, wanted));
+        }
+        finite.iter().try_for_each(Row::check)?;
+        let excitation = self.directions.iter().enumerate();
+        let excitation = excitation.map(|(index, direction)| Excitation {
+            direction: *direction,
+            force: finite.iter().map(|row| row.excitation[index]).collect(),
+        });
+        Ok(Hydrodynamics {
+            excitation: excitation.collect(),
+            omega_rad_s: finite.iter().map(|row| row.omega).collect(),
+            added_mass: finite.iter().map(|row| row.added_mass).collect(),
+            damping: finite.iter().map(|row| symmetric(&row.damping)).collect(),
+            added_mass_zero: zero,
+            added_mass_inf: inf,
+            asymmetry,
+            water: self.water,
+            reference_m: self.reference_m,
+            hydrostatics: self.hydrostatics,
+        })
+    }
+}
+
+impl Row {
+    /// No number is missing.
+    fn check(&self) -> Result<(), HydroError> {
+        let matrices = [("added mass", &self.added_mass), ("damping", &self.damping)];
+        for (name, matrix) in matrices {
+            for i in 0..3 {
+                for j in 0..3 {
+                    let what = format!("{name} of {} by {}", FREEDOMS[i], FREEDOMS[j]);
+                    self.finite(&what, matrix[(i, j)])?;
+                }
+            }
+        }
+        for force in &self.excitation {
+            for (i, value) in force.iter().enumerate() {
+                let what = format!("wave force on {}", FREEDOMS[i]);
+                self.finite(&what, value.re)?;
+                self.finite(&what, value.im)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn finite(&self, what: &str, value: f64) -> Result<(), HydroError> {
+        if value.is_finite() && value.abs() < 1e30 {
+            return Ok(());
+        }
+        let what = format!("the {what} at ω = {} rad/s", self.omega);
+        let wanted = "a number is wanted; take this frequency out of the file, or compute it again";
+        Err(HydroError::value(what, value, wanted))
+    }
+}
+
+fn symmetric(matrix: &Matrix3<f64>) -> Matrix3<f64> {
+    (matrix + matrix.transpose()) * 0.5
+}
+
+/// The largest |M_ij − M_ji| over sqrt(|M_ii M_jj|).
+fn part_asymmetric(matrix: &Matrix3<f64>) -> f64 {
+    let part = |(i, j): (usize, usize)| {
+        let scale = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
+        let difference = (matrix[(i, j)] - matrix[(j, i)]).abs();
+        if difference > 0.0 && scale > 0.0 {
+            difference / scale
+        } else {
+            0.0
+        }
+    };
+    [(0, 1), (0, 2), (1, 2)]
+        .map(part)
+        .into_iter()
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,323 @@
+//! WAMIT's text files: time goes as e^{+iωt}, so that X = conj(RE + i IM).
+//!
+//! ```text
+//! .1    PER I J Ā [B̄]                    A = ρ L^k Ā, B = ρ L^k ω B̄, k = 3, 4, 5 for no, one, two rotations
+//! .3 .2 PER BETA I MOD PHA RE IM         X = ρ g L^m conj(RE + i IM), m = 2 for I = 1-3, 3 for 4-6
+//! .hst  I J C̄                            C = ρ g L^k C̄, k = 2 for (3,3), 3 for one rotation, 4 for two
+//! ```
+//!
+//! BETA and PHA are degrees. PER < 0 stands for zero frequency, PER = 0 for infinite frequency,
+//! where the first column holds periods. Source: WAMIT user manual, chapter "Output files".
+
+use super::table::{Row, Table};
+use super::{Given, agreed_water, within};
+use crate::coefficients::{Hydrodynamics, Hydrostatics, Water};
+use crate::error::HydroError;
+use nalgebra::{Complex, Matrix3, Vector3};
+use std::f64::consts::PI;
+
+/// What the first column of a file holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FirstColumn {
+    /// T \[s\].
+    #[default]
+    Period,
+    /// ω \[rad/s\]; 0 and below 0 stand for zero and infinite frequency.
+    Frequency,
+    /// k \[1/m\], of the water's depth; 0 and below 0 likewise.
+    WaveNumber,
+}
+
+/// The text of the files.
+#[derive(Clone, Debug, Default)]
+pub struct WamitText {
+    /// `.1`.
+    pub radiation: String,
+    /// `.3`, or `.2`.
+    pub excitation: String,
+    /// `.hst`, if there is one.
+    pub hydrostatics: Option<String>,
+}
+
+/// WAMIT's modes that are surge, heave and pitch.
+const MODES: [usize; 3] = [1, 3, 5];
+
+/// The coefficients of WAMIT's files. ρ, g, the depth and the reference point are not in them.
+///
+/// # Errors
+/// A [`HydroError`] if a line can not be read, something is missing, or a value was not given.
+pub fn from_wamit(files: &WamitText, given: &Given) -> Result<Hydrodynamics, HydroError> {
+    let water = agreed_water([None; 3], given)?;
+    let length = given.unit_length_m.ok_or_else(|| {
+        let advice = "WAMIT's files are in multiples of it; give it, 1 if the model is in metres";
+        HydroError::missing("the unit of length (ULEN)", advice)
+    })?;
+    let units = Units {
+        water,
+        length: within("the unit of length", length, 1e-6..=1e6)?,
+        first: given.first_column,
+    };
+    let reference_m = given.reference_m.ok_or_else(|| {
+        let advice = "WAMIT's files do not say where the body's origin is; give it as x,z";
+        HydroError::missing("the reference point", advice)
+    })?;
+    let mut rows = radiation(&files.radiation, &units)?;
+    let directions = excitation(&files.excitation, &units, &mut rows)?;
+    let stiffness = match &files.hydrostatics {
+        Some(text) => Some(stiffness(text, &units)?),
+        None => None,
+    };
+    let table = Table {
+        rows,
+        directions,
+        water,
+        reference_m,
+        hydrostatics: Hydrostatics {
+            stiffness,
+            displaced_mass_kg: given.displaced_mass_kg,
+            centre_of_mass_m: given.centre_of_gravity_m,
+            ..Hydrostatics::default()
+        },
+    };
+    table.into_hydrodynamics()
+}
+
+struct Units {
+    water: Water,
+    length: f64,
+    first: FirstColumn,
+}
+
+impl Units {
+    /// ω of a first column.
+    fn omega(&self, first: f64) -> f64 {
+        let g = self.water.gravity_m_s2;
+        match self.first {
+            FirstColumn::Period if first < 0.0 => 0.0,
+            FirstColumn::Period if first == 0.0 => f64::INFINITY,
+            FirstColumn::Period => 2.0 * PI / first,
+            _ if first < 0.0 => f64::INFINITY,
+            FirstColumn::Frequency => first,
+            FirstColumn::WaveNumber => {
+                let shallow = (first * self.water.depth_m).tanh();
+                let shallow = if first == 0.0 { 0.0 } else { shallow };
+                (g * first * shallow).sqrt()
+            }
+        }
+    }
+
+    fn power(&self, exponent: usize) -> f64 {
+        self.length.powi(exponent as i32)
+    }
+}
+
+/// The numbers of each line, with its number from 1 on. One header line is skipped.
+fn lines<'a>(
+    name: &'static str,
+    text: &'a str,
+    counts: std::ops::RangeInclusive<usize>,
+) -> impl Iterator<Item = Result<Vec<f64>, HydroError>> + 'a {
+    let lines = text.lines().enumerate();
+    let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+    lines.filter_map(move |(index, line)| {
+        let words = line.split_whitespace();
+        // Fortran writes exponents with D, too.
+        let numbers: Result<Vec<f64>, _> = words
+            .map(|word| word.replace(['d', 'D'], "e").parse::<f64>())
+            .collect();
+        match numbers {
+            Ok(numbers) if counts.contains(&numbers.len()) => Some(Ok(numbers)),
+            Err(_) if index == 0 => None,
+            Ok(numbers) => {
+                let found = format!("line {} has {} numbers", index + 1, numbers.len());
+                let wanted = format!("{} to {} are wanted", counts.start(), counts.end());
+                Some(Err(HydroError::layout(name, found, wanted)))
+            }
+            Err(_) => {
+                let found = format!("line {} is {:?}", index + 1, shortened(line));
+                Some(Err(HydroError::layout(name, found, "numbers are wanted")))
+            }
+        }
+    })
+}
+
+fn shortened(line: &str) -> String {
+    line.trim().chars().take(60).collect()
+}
+
+/// A mode, 1 to 6; those of further bodies are refused.
+fn mode(name: &'static str, value: f64) -> Result<usize, HydroError> {
+    let whole = value.fract() == 0.0 && (1.0..=6.0).contains(&value);
+    if whole {
+        return Ok(value as usize);
+    }
+    let wanted = "modes of one body are wanted, 1 to 6";
+    Err(HydroError::value(
+        format!("a mode of {name}"),
+        value,
+        wanted,
+    ))
+}
+
+fn place(mode: usize) -> Option<usize> {
+    MODES.iter().position(|known| *known == mode)
+}
+
+/// Whether a mode is a rotation, as a number to count.
+fn rotation(mode: usize) -> usize {
+    usize::from(mode > 3)
+}
+
+fn radiation(text: &str, units: &Units) -> Result<Vec<Row>, HydroError> {
+    let name = "the .1 file";
+    let mut rows: Vec<Row> = Vec::new();
+    let mut seen = [false; 3];
+    for line in lines(name, text, 4..=5) {
+        let line = line?;
+        let (force, motion) = (mode(name, line[1])?, mode(name, line[2])?);
+        let omega = units.omega(line[0]);
+        let (Some(i), Some(j)) = (place(force), place(motion)) else {
+            continue;
+        };
+        seen[i] |= i == j;
+        let row = row_at(&mut rows, omega);
+        let scale = units.water.density_kg_m3 * units.power(3 + rotation(force) + rotation(motion));
+        row.added_mass[(i, j)] = scale * line[3];
+        match line.get(4) {
+            Some(damping) => row.damping[(i, j)] = scale * omega * damping,
+            None if omega == 0.0 || omega.is_infinite() => {}
+            None => {
+                let found = format!("no damping at {}", line[0]);
+                let wanted = "PER I J A B is wanted; does the first column hold periods?";
+                return Err(HydroError::layout(name, found, wanted));
+            }
+        }
+    }
+    if let Some(lacking) = seen.iter().position(|seen| !seen) {
+        let what = format!("the mode {0},{0}", MODES[lacking]);
+        let advice = "the .1 file has to have 1,1, 3,3 and 5,5 (surge, heave, pitch)";
+        return Err(HydroError::missing(what, advice));
+    }
+    Ok(rows)
+}
+
+/// The row of a frequency, found or made; nothing is known in it but what is written.
+fn row_at(rows: &mut Vec<Row>, omega: f64) -> &mut Row {
+    // Files go through the frequencies one after the other, so the last row is nearly always it.
+    let at = rows.iter().rposition(|row| row.omega == omega);
+    let at = at.unwrap_or_else(|| {
+        rows.push(Row {
+            omega,
+            added_mass: Matrix3::zeros(),
+            damping: Matrix3::zeros(),
+            excitation: Vec::new(),
+        });
+        rows.len() - 1
+    });
+    &mut rows[at]
+}
+
+/// Puts the forces into the rows, and says which directions there are.
+fn excitation(text: &str, units: &Units, rows: &mut [Row]) -> Result<Vec<f64>, HydroError> {
+    let name = "the .3 file";
+    let unknown = Vector3::from_element(Complex::new(f64::NAN, f64::NAN));
+    let mut directions: Vec<f64> = Vec::new();
+    let mut headings: Vec<f64> = Vec::new();
+    for line in lines(name, text, 7..=7) {
+        let line = line?;
+        let mode = mode(name, line[2])?;
+        if !headings.contains(&line[1]) {
+            headings.push(line[1]);
+        }
+        let (Some(i), Some(direction)) = (place(mode), direction(line[1])) else {
+            continue;
+        };
+        let force = Complex::new(line[5], -line[6]);
+        agree(&line)?;
+        let at = directions.iter().position(|known| *known == direction);
+        let at = at.unwrap_or_else(|| {
+            directions.push(direction);
+            directions.len() - 1
+        });
+        let omega = units.omega(line[0]);
+        let Some(row) = rows.iter_mut().find(|row| row.omega == omega) else {
+            let wanted = "the frequencies of the .1 and the .3 file have to be the same";
+            let what = format!("the first column of {name}");
+            return Err(HydroError::value(what, line[0], wanted));
+        };
+        if row.excitation.len() <= at {
+            row.excitation.resize(at + 1, unknown);
+        }
+        let water = units.water;
+        let scale = water.density_kg_m3 * water.gravity_m_s2 * units.power(2 + rotation(mode));
+        row.excitation[at][i] = force * scale;
+    }
+    if directions.is_empty() {
+        let advice = format!("the .3 file has the headings {headings:?}; 0 or 180 is wanted");
+        return Err(HydroError::missing(
+            "the excitation of waves along x",
+            advice,
+        ));
+    }
+    for row in rows.iter_mut() {
+        row.excitation.resize(directions.len(), unknown);
+    }
+    Ok(directions)
+}
+
+/// MOD and PHA say the same as RE and IM, to the digits that are printed.
+fn agree(line: &[f64]) -> Result<(), HydroError> {
+    let (modulus, phase) = (line[3], line[4] * PI / 180.0);
+    let polar = Complex::from_polar(modulus, phase);
+    let plain = Complex::new(line[5], line[6]);
+    // NaN is left to the check of all numbers.
+    if (polar - plain).norm() > 1e-2 * modulus.abs() + 1e-12 {
+        let found = format!(
+            "MOD {modulus}, PHA {} beside RE {}, IM {}",
+            line[4], line[5], line[6]
+        );
+        let wanted = "columns PER BETA I MOD PHA RE IM are wanted, PHA in degrees";
+        return Err(HydroError::layout("the .3 file", found, wanted));
+    }
+    Ok(())
+}
+
+fn direction(degrees: f64) -> Option<f64> {
+    let turn = degrees.rem_euclid(360.0);
+    if turn.min(360.0 - turn) < 1e-4 {
+        Some(1.0)
+    } else if (turn - 180.0).abs() < 1e-4 {
+        Some(-1.0)
+    } else {
+        None
+    }
+}
+
+fn stiffness(text: &str, units: &Units) -> Result<Matrix3<f64>, HydroError> {
+    let name = "the .hst file";
+    let mut stiffness = Matrix3::zeros();
+    let mut heave = false;
+    for line in lines(name, text, 3..=3) {
+        let line = line?;
+        let (force, motion) = (mode(name, line[0])?, mode(name, line[1])?);
+        let (Some(i), Some(j)) = (place(force), place(motion)) else {
+            continue;
+        };
+        heave |= i == 1 && j == 1;
+        let water = units.water;
+        let rho_g = water.density_kg_m3 * water.gravity_m_s2;
+        let scale = rho_g * units.power(2 + rotation(force) + rotation(motion));
+        stiffness[(i, j)] = scale * line[2];
+    }
+    if !heave {
+        let advice = "the .hst file has to have the line 3 3 C";
+        return Err(HydroError::missing("the mode 3,3", advice));
+    }
+    // Some files have only the upper triangle.
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        if stiffness[(j, i)] == 0.0 {
+            stiffness[(j, i)] = stiffness[(i, j)];
+        }
+    }
+    Ok(stiffness)
+}

@@ -1,0 +1,366 @@
+//! Every bad file is refused with words that name what is wrong, and none brings the program down.
+
+use crate::common::{Spoilt, bytes, dataset, path};
+use snapload_hydro::{
+    Dataset, Format, Given, Reading, Values, WamitText, from_dataset, from_wamit, read,
+};
+
+fn refusal(spoilt: Spoilt) -> String {
+    refusal_given(spoilt, &Given::default())
+}
+
+fn refusal_given(spoilt: Spoilt, given: &Given) -> String {
+    let hydro = from_dataset(&spoilt.0, given);
+    let read = hydro.and_then(|hydro| Reading::new(Format::Capytaine, hydro));
+    read.map(|reading| reading.warnings)
+        .expect_err("a refusal")
+        .to_string()
+}
+
+fn says(words: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(words.contains(part), "no {part:?} in {words:?}");
+    }
+}
+
+fn pontoon() -> Spoilt {
+    dataset("pontoon-deep.nc")
+}
+
+#[test]
+fn what_is_missing_is_named() {
+    says(
+        &refusal(pontoon().without(&["added_mass"])),
+        &["added_mass is missing", "omega"],
+    );
+    says(
+        &refusal(pontoon().without(&["omega", "period", "freq"])),
+        &["omega is missing"],
+    );
+    says(
+        &refusal(pontoon().without(&["rho"])),
+        &["density", "missing", "give it"],
+    );
+    says(
+        &refusal(pontoon().without(&["rotation_center"])),
+        &["rotation_center", "reference point"],
+    );
+    let no_force = pontoon().without(&["diffraction_force", "excitation_force"]);
+    says(&refusal(no_force), &["excitation_force is missing"]);
+    let mut spoilt = pontoon();
+    for name in ["influenced_dof", "radiating_dof"] {
+        spoilt = spoilt.with(name, |v| {
+            v.values = Values::Words(["Surge", "Heave", "Yaw"].map(str::to_owned).to_vec());
+        });
+    }
+    says(
+        &refusal(spoilt),
+        &["freedom Pitch is missing", "Surge, Heave, Yaw"],
+    );
+    let spoilt = pontoon().numbers("wave_direction", |_, beta| beta + 0.5);
+    says(&refusal(spoilt), &["wave_direction", "0 or π"]);
+    let spoilt = pontoon().numbers("wave_direction", |_, beta| beta.to_degrees());
+    says(&refusal(spoilt), &["wave_direction", "degrees"]);
+}
+
+/// Of several bodies one has to be named.
+#[test]
+fn several_bodies_are_asked_for() {
+    let mut spoilt = pontoon();
+    for name in ["influenced_dof", "radiating_dof"] {
+        spoilt = spoilt.with(name, |v| {
+            let names = ["left__Surge", "left__Heave", "left__Pitch"];
+            v.values = Values::Words(names.map(str::to_owned).to_vec());
+        });
+    }
+    // One body alone is that body; another one's name is refused.
+    let hydro = from_dataset(&spoilt.0, &Given::default()).expect("coefficients");
+    assert_eq!(hydro.omega_rad_s.len(), 58);
+    let given = Given {
+        body: Some("right".to_owned()),
+        ..Given::default()
+    };
+    says(
+        &refusal_given(spoilt, &given),
+        &["the body right is missing", "left"],
+    );
+}
+
+#[test]
+fn numbers_that_can_not_be_are_named() {
+    let nan = |at: usize, value: f64| if at == 200 { f64::NAN } else { value };
+    says(
+        &refusal(pontoon().numbers("added_mass", nan)),
+        &["added mass of", "ω = ", "NaN"],
+    );
+    says(
+        &refusal(pontoon().numbers("radiation_damping", nan)),
+        &["damping of", "NaN"],
+    );
+    says(
+        &refusal(pontoon().numbers("Froude_Krylov_force", nan)),
+        &["wave force on", "NaN"],
+    );
+    let spoilt = pontoon().numbers("omega", |at, w| if at == 5 { 0.08 } else { w });
+    says(&refusal(spoilt), &["ω = 0.08", "once"]);
+    let spoilt = pontoon().numbers("omega", |at, w| if at == 5 { -1.0 } else { w });
+    says(&refusal(spoilt), &["ω = -1"]);
+    // Tonnes for kilograms, feet for metres.
+    says(
+        &refusal(pontoon().numbers("rho", |_, _| 1.025)),
+        &["density", "1.025", "units"],
+    );
+    let spoilt = pontoon().numbers("hydrostatic_stiffness", |_, c| c / 1000.0);
+    says(&refusal(spoilt), &["low-frequency limit of X3", "units"]);
+    says(
+        &refusal(pontoon().numbers("forward_speed", |_, _| 2.0)),
+        &["forward_speed = 2"],
+    );
+}
+
+/// Signs that are wrong are found by the physics.
+#[test]
+fn broken_conventions_are_named() {
+    let spoilt = pontoon().numbers("radiation_damping", |_, b| -b);
+    says(&refusal(spoilt), &["positive damping", "other sign"]);
+    // The second half of a complex variable is its imaginary part.
+    let mut conjugate = pontoon();
+    for name in ["diffraction_force", "Froude_Krylov_force"] {
+        conjugate = conjugate.numbers(name, |at, x| if at >= 60 * 2 * 3 { -x } else { x });
+    }
+    says(&refusal(conjugate), &["phase of X1", "conjugate", "β"]);
+    let mut from = pontoon();
+    from = from.numbers("wave_direction", |_, beta| {
+        if beta == 0.0 {
+            std::f64::consts::PI
+        } else {
+            0.0
+        }
+    });
+    says(&refusal(from), &["phase of X1", "conjugate", "come from"]);
+    let mut upside_down = pontoon();
+    for name in ["diffraction_force", "Froude_Krylov_force"] {
+        upside_down = upside_down.numbers(name, |_, x| -x);
+    }
+    says(&refusal(upside_down), &["phase of X3"]);
+    let mixed = pontoon().numbers("added_mass", |at, a| if at % 9 == 1 { a + 5e4 } else { a });
+    says(&refusal(mixed), &["symmetry", "mixed up"]);
+}
+
+#[test]
+fn other_layouts_are_named() {
+    let spoilt = pontoon().with("complex", |v| {
+        v.values = Values::Words(["real", "imag"].map(str::to_owned).to_vec());
+    });
+    says(&refusal(spoilt), &["complex", "real, imag", "re and im"]);
+    // Complex numbers as pairs in one variable, as newer libraries write them.
+    let pairs = |v: &mut snapload_hydro::Variable| {
+        v.values = Values::Other("Compound of r and i".to_owned());
+        v.dims.remove(0);
+        v.shape.remove(0);
+    };
+    let spoilt = pontoon().with("diffraction_force", pairs);
+    says(
+        &refusal(spoilt),
+        &[
+            "diffraction_force",
+            "Compound of r and i",
+            "separate_complex_values",
+        ],
+    );
+    let spoilt = pontoon().with("added_mass", |v| "frequency".clone_into(&mut v.dims[0]));
+    says(
+        &refusal(spoilt),
+        &["added_mass", "frequency, influenced_dof"],
+    );
+    // Two depths in one file.
+    let spoilt = pontoon().with("water_depth", |v| {
+        v.dims = vec!["water_depth".to_owned()];
+        v.shape = vec![2];
+        v.values = Values::Numbers(vec![10.0, 20.0]);
+    });
+    says(
+        &refusal(spoilt),
+        &["water_depth", "2 values", "one is wanted"],
+    );
+}
+
+/// What file and case both say has to agree.
+#[test]
+fn the_case_has_to_agree() {
+    let with = |density, depth, reference| Given {
+        density_kg_m3: density,
+        depth_m: depth,
+        reference_m: reference,
+        ..Given::default()
+    };
+    let words = refusal_given(pontoon(), &with(Some(1000.0), None, None));
+    says(&words, &["density", "1025", "1000", "agree"]);
+    let words = refusal_given(pontoon(), &with(None, Some(10.0), None));
+    says(&words, &["depth", "inf", "10"]);
+    let words = refusal_given(pontoon(), &with(None, None, Some([0.0, -0.5])));
+    says(&words, &["reference point's z", "-0.5"]);
+    let same = with(Some(1025.5), Some(f64::INFINITY), Some([0.0, 0.0]));
+    assert!(from_dataset(&pontoon().0, &same).is_ok());
+}
+
+fn wamit() -> (WamitText, Given) {
+    let text = |name: &str| String::from_utf8(bytes(name)).expect(name);
+    let files = WamitText {
+        radiation: text("pontoon-deep.1"),
+        excitation: text("pontoon-deep.3"),
+        hydrostatics: Some(text("pontoon-deep.hst")),
+    };
+    let given = Given {
+        density_kg_m3: Some(1025.0),
+        gravity_m_s2: Some(9.81),
+        depth_m: Some(f64::INFINITY),
+        reference_m: Some([0.0, 0.0]),
+        unit_length_m: Some(1.0),
+        ..Given::default()
+    };
+    (files, given)
+}
+
+fn wamit_refusal(files: &WamitText, given: &Given) -> String {
+    let hydro = from_wamit(files, given);
+    let read = hydro.and_then(|hydro| Reading::new(Format::Wamit, hydro));
+    read.map(|reading| reading.warnings)
+        .expect_err("a refusal")
+        .to_string()
+}
+
+#[test]
+fn bad_files_of_wamit_are_named() {
+    let (files, given) = wamit();
+    let no_length = Given {
+        unit_length_m: None,
+        ..given.clone()
+    };
+    says(&wamit_refusal(&files, &no_length), &["ULEN", "missing"]);
+    let no_density = Given {
+        density_kg_m3: None,
+        ..given.clone()
+    };
+    says(&wamit_refusal(&files, &no_density), &["density", "missing"]);
+    // e^{−iωt} where e^{+iωt} belongs.
+    let mut conjugate = files.clone();
+    conjugate.excitation = files
+        .excitation
+        .lines()
+        .map(|line| {
+            let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+            for at in [4, 6] {
+                let value: f64 = words[at].parse().expect("a number");
+                words[at] = (-value).to_string();
+            }
+            words.join(" ") + "\n"
+        })
+        .collect();
+    says(
+        &wamit_refusal(&conjugate, &given),
+        &["phase of X1", "conjugate"],
+    );
+    let mut no_heave = files.clone();
+    let keep = |line: &&str| line.split_whitespace().nth(1) != Some("3");
+    no_heave.radiation = files
+        .radiation
+        .lines()
+        .filter(keep)
+        .map(|l| l.to_owned() + "\n")
+        .collect();
+    says(&wamit_refusal(&no_heave, &given), &["3,3", "missing"]);
+    let mut words = files.clone();
+    words.radiation += "and so on\n";
+    says(
+        &wamit_refusal(&words, &given),
+        &[".1 file", "line", "and so on"],
+    );
+    let mut columns = files.clone();
+    columns.excitation = "1.0 0.0 1 2.0 90.0 2.0 0.0\n".to_owned();
+    says(&wamit_refusal(&columns, &given), &["PHA", "degrees"]);
+    let mut nan = files.clone();
+    nan.radiation = files.radiation.replace("2.674251e+02", "NaN");
+    assert!(
+        from_wamit(&nan, &given).is_ok(),
+        "A(0) that is no number is left out"
+    );
+    let mut other = files.clone();
+    other.excitation = other.excitation.replace("1.354135e+00", "1.354000e+00");
+    says(
+        &wamit_refusal(&other, &given),
+        &["frequencies of the .1 and the .3 file"],
+    );
+    // A header line is skipped.
+    let mut header = files;
+    header.radiation = "PER I J A B\n".to_owned() + &header.radiation;
+    assert!(from_wamit(&header, &given).is_ok());
+}
+
+#[test]
+fn files_of_other_sorts_are_refused() {
+    let refused = |name: &str| {
+        let reading = read(&path(name), &Given::default());
+        reading
+            .map(|reading| reading.warnings)
+            .expect_err("a refusal")
+            .to_string()
+    };
+    says(&refused("nothing.nc"), &["can not be read", "nothing.nc"]);
+    says(&refused("pontoon.xyz"), &["Capytaine", "WAMIT", "Nemoh"]);
+    let error = Dataset::from_netcdf(b"not a netCDF file at all").expect_err("a refusal");
+    says(&error.to_string(), &["can not be read", "netCDF"]);
+    assert!(Dataset::from_netcdf(b"").is_err());
+}
+
+/// A small generator of random numbers (Marsaglia's xorshift).
+fn next(state: &mut u64) -> u64 {
+    *state ^= *state << 13;
+    *state ^= *state >> 7;
+    *state ^= *state << 17;
+    *state
+}
+
+/// Flipped bits, overwritten bytes and files that are cut off: an answer or an error, never a
+/// panic, and where there is an answer, its numbers are finite.
+#[test]
+fn damaged_files_do_no_harm() {
+    let whole = bytes("pontoon-deep.nc");
+    let mut state = 0x9e37_79b9_7f4a_7c15;
+    let mut refused = 0;
+    for round in 0..1500 {
+        let mut bytes = whole.clone();
+        match round % 3 {
+            0 => bytes.truncate(next(&mut state) as usize % whole.len()),
+            1 => {
+                for _ in 0..1 + next(&mut state) % 4 {
+                    let at = next(&mut state) as usize % whole.len();
+                    bytes[at] ^= 1 << (next(&mut state) % 8);
+                }
+            }
+            _ => {
+                let at = next(&mut state) as usize % whole.len();
+                let end = (at + 1 + next(&mut state) as usize % 64).min(whole.len());
+                let value = next(&mut state) as u8;
+                bytes[at..end].fill(value);
+            }
+        }
+        let hydro =
+            Dataset::from_netcdf(&bytes).and_then(|set| from_dataset(&set, &Given::default()));
+        match hydro.and_then(|hydro| Reading::new(Format::Capytaine, hydro)) {
+            Ok(reading) => assert!(
+                reading
+                    .hydro
+                    .added_mass
+                    .iter()
+                    .all(|a| a.amax().is_finite())
+            ),
+            Err(error) => {
+                assert!(!error.to_string().is_empty());
+                refused += 1;
+            }
+        }
+    }
+    // Most damage to names, sizes and addresses is found; bits of single numbers can not be.
+    assert!(refused > 600, "{refused}");
+}

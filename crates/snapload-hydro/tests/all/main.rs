@@ -1,0 +1,4 @@
+//! Coefficients, memory and linear answers against files of panel codes and independent results.
+mod bad_files;
+mod common;
+mod readers;
