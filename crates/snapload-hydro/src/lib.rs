@@ -8,6 +8,7 @@
 
 mod coefficients;
 mod error;
+mod memory;
 mod read;
 mod spline;
 
@@ -16,6 +17,10 @@ pub use coefficients::{
     transport,
 };
 pub use error::{HydroError, Warning};
+pub use memory::{
+    BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, Memory, Term, TermRow,
+    added_mass_at_infinity, fit, given,
+};
 pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,

@@ -1,4 +1,5 @@
 //! Coefficients, memory and linear answers against files of panel codes and independent results.
 mod bad_files;
 mod common;
+mod memory;
 mod readers;

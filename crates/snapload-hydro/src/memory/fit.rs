@@ -1,0 +1,424 @@
+//! A memory for the coefficients of a file.
+
+use super::block::{Block, residues};
+use super::curve::{DampingCurve, added_mass_at_infinity};
+use super::irregular::irregular;
+use super::passivity::Nearest;
+use super::poles::Poles;
+use super::quality::{BlockQuality, EntryQuality, Kernel, entry};
+use super::{Memory, Term, TermRow};
+use crate::coefficients::{FREEDOMS, Hydrodynamics, UPPER};
+use crate::error::{HydroError, Warning};
+use nalgebra::{Complex, DVector, Matrix3};
+
+/// Numbers of pairs that are tried in turn, and the error of the fit and of K at which the first is
+/// taken.
+const PAIRS: [usize; 5] = [4, 6, 8, 10, 12];
+const GOOD: f64 = 0.01;
+/// A fit that is worse than this is told of.
+const POOR: f64 = 0.02;
+/// What passivity may cost.
+const PRICE: f64 = 0.02;
+/// Couplings below this part of the freedoms' own are those of a body that is its own mirror image.
+const COUPLED: f64 = 1e-3;
+
+/// What may be chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FitOptions {
+    /// Pairs of poles for each block; without it as many as are needed for 1 % of K.
+    pub pairs: Option<usize>,
+}
+
+/// A memory with what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fit {
+    /// The memory.
+    pub memory: Memory,
+    /// A∞ that belongs to it, from the damping and not the file's.
+    pub added_mass_inf: Matrix3<f64>,
+    /// Damping that was added where the memory could not be made passive; zero else.
+    pub damping: Matrix3<f64>,
+    /// The fit of each block.
+    pub blocks: Vec<BlockQuality>,
+    /// The fit of each entry that is not zero.
+    pub entries: Vec<EntryQuality>,
+    /// What to know.
+    pub warnings: Vec<Warning>,
+}
+
+/// The coupled freedoms that make waves.
+fn blocks(hydro: &Hydrodynamics) -> Vec<Vec<usize>> {
+    let largest = |i: usize, j: usize| {
+        let values = hydro.damping_entry(i, j).into_iter().enumerate();
+        let (at, value) = values
+            .map(|(k, b)| (k, b.abs()))
+            .fold(
+                (0, 0.0),
+                |most, next| if next.1 > most.1 { next } else { most },
+            );
+        (value, hydro.omega_rad_s[at])
+    };
+    let (force, omega) = [largest(0, 0), largest(1, 1)]
+        .into_iter()
+        .fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
+    // A circle that turns about its centre makes no waves; what the file has is noise.
+    let length = hydro.water.gravity_m_s2 / (omega * omega);
+    let makes_waves = |i: usize| {
+        let unit = if i == 2 { length * length } else { 1.0 };
+        largest(i, i).0 > 1e-6 * force * unit
+    };
+    let coupled =
+        |i: usize, j: usize| largest(i, j).0 > COUPLED * (largest(i, i).0 * largest(j, j).0).sqrt();
+    let present: Vec<usize> = (0..3).filter(|i| makes_waves(*i)).collect();
+    if present.contains(&1) && (coupled(0, 1) || coupled(1, 2)) {
+        return vec![present];
+    }
+    let heave: Vec<usize> = present.iter().copied().filter(|i| *i == 1).collect();
+    let others: Vec<usize> = present.into_iter().filter(|i| *i != 1).collect();
+    [heave, others]
+        .into_iter()
+        .filter(|block| !block.is_empty())
+        .collect()
+}
+
+/// A fit of one block.
+struct Candidate {
+    poles: Poles,
+    coefficients: Vec<DVector<f64>>,
+    quality: BlockQuality,
+    /// The worst root mean square of K over the entries.
+    kernel_rms: f64,
+    /// The largest eigenvalue times the violation, where damping has to be added.
+    violation: f64,
+}
+
+impl Block {
+    fn candidate(&self, pairs: usize) -> Option<Candidate> {
+        let poles = self.poles(pairs)?;
+        let residues = residues(self, &poles)?;
+        let free = self.coefficients(&residues, &residues.best);
+        let rms_before = self.rms(&poles, &free);
+        let scale: Vec<f64> = self.samples.scale.iter().map(|s| s.recip()).collect();
+        let passive = Nearest {
+            poles: &poles,
+            omega_max: self.omega_max(),
+            size: self.freedoms.len(),
+            entries: &self.entries,
+            basis: &residues.basis,
+            scale: &scale,
+            targets: &residues.best,
+            unit: &self.unit,
+        }
+        .passive();
+        let bound = self.coefficients(&residues, &passive.z);
+        let rms = self.rms(&poles, &bound);
+        let damped = rms > rms_before + PRICE || passive.least < -1e-8;
+        let (coefficients, rms, least) = match damped {
+            true => (free, rms_before, passive.least_before),
+            false => (bound, rms, passive.least),
+        };
+        let mut candidate = Candidate {
+            poles,
+            coefficients,
+            quality: BlockQuality {
+                freedoms: self.freedoms.clone(),
+                pairs,
+                rms_before,
+                rms,
+                least_before: passive.least_before,
+                least,
+                damped,
+                left_out_rad_s: Vec::new(),
+            },
+            kernel_rms: 0.0,
+            violation: (-least).max(0.0) * passive.largest,
+        };
+        candidate.kernel_rms = self.kernel_rms(&candidate.memory(self));
+        Some(candidate)
+    }
+
+    fn kernel_rms(&self, memory: &Memory) -> f64 {
+        let mut sums = vec![[0.0; 2]; self.entries.len()];
+        for k in 0..self.kernels[0].t.len() {
+            let fit = memory.kernel(self.kernels[0].t[k]);
+            for (e, (a, b)) in self.entries.iter().enumerate() {
+                let value = self.kernels[e].value[k];
+                let difference = fit[(self.freedoms[*a], self.freedoms[*b])] - value;
+                sums[e][0] += difference * difference;
+                sums[e][1] += value * value;
+            }
+        }
+        let part = |[error, size]: [f64; 2]| {
+            if size > 0.0 {
+                (error / size).sqrt()
+            } else {
+                0.0
+            }
+        };
+        sums.into_iter().map(part).fold(0.0, f64::max)
+    }
+
+    /// The first candidate that is good, or else the best.
+    fn chosen(&self, options: FitOptions) -> Option<Candidate> {
+        let numbers = match options.pairs {
+            Some(pairs) => vec![pairs],
+            None => PAIRS.to_vec(),
+        };
+        let mut best: Option<Candidate> = None;
+        for pairs in numbers {
+            let Some(candidate) = self.candidate(pairs) else {
+                continue;
+            };
+            let error = |c: &Candidate| c.quality.rms.max(c.kernel_rms);
+            let good = error(&candidate) <= GOOD && !candidate.quality.damped;
+            // More poles have to be worth it.
+            let better = |best: &Candidate| error(&candidate) < 0.9 * error(best);
+            if good || best.as_ref().is_none_or(better) {
+                best = Some(candidate);
+            }
+            if good {
+                break;
+            }
+        }
+        best
+    }
+}
+
+impl Candidate {
+    /// The terms: the coefficients x, y of a pair stand for the residue 2(x + iy) of the pole above
+    /// the axis, whose conjugate the real part brings along.
+    fn memory(&self, block: &Block) -> Memory {
+        let mut terms = Vec::new();
+        let mut at = 0;
+        for pole in &self.poles {
+            let mut residue = Matrix3::zeros();
+            for (e, (a, b)) in block.entries.iter().enumerate() {
+                let x = &self.coefficients[e];
+                let value = match pole.im == 0.0 {
+                    true => Complex::new(x[at], 0.0),
+                    false => Complex::new(2.0 * x[at], 2.0 * x[at + 1]),
+                };
+                let (i, j) = (block.freedoms[*a], block.freedoms[*b]);
+                residue[(i, j)] = value;
+                residue[(j, i)] = value;
+            }
+            at += if pole.im == 0.0 { 1 } else { 2 };
+            terms.push(Term {
+                pole: *pole,
+                residue,
+            });
+        }
+        Memory { terms }
+    }
+}
+
+/// The fit of one block. Where it is poor, frequencies that stand apart from the others are left
+/// out, and A∞ and the fit are made again.
+fn chosen(
+    hydro: &Hydrodynamics,
+    inf: &mut Matrix3<f64>,
+    freedoms: Vec<usize>,
+    options: FitOptions,
+) -> Result<(Hydrodynamics, Block, Candidate), HydroError> {
+    let best = |block: &Block| {
+        block.chosen(options).ok_or_else(|| {
+            let words = "no exponentials were found that fit the damping; look at it for jumps";
+            HydroError::Impossible(words.to_owned())
+        })
+    };
+    let block = Block::new(hydro, inf, freedoms.clone());
+    let first = best(&block)?;
+    let apart = match first.quality.rms > POOR {
+        true => irregular(&block),
+        false => Vec::new(),
+    };
+    if apart.is_empty() {
+        return Ok((hydro.clone(), block, first));
+    }
+    let kept = hydro.without(&apart);
+    let new = added_mass_at_infinity(&kept);
+    for i in &freedoms {
+        for j in &freedoms {
+            inf[(*i, *j)] = new[(*i, *j)];
+        }
+    }
+    let block = Block::new(&kept, inf, freedoms);
+    let mut second = best(&block)?;
+    let omega = apart.iter().map(|at| hydro.omega_rad_s[*at]);
+    second.quality.left_out_rad_s = omega.collect();
+    Ok((kept, block, second))
+}
+
+/// The memory of a file's coefficients, by vector fitting of B + iω(A − A∞) with common poles for
+/// coupled freedoms, no damping at constant speed, and no energy out of nothing.
+///
+/// # Errors
+/// A [`HydroError`] if there is nothing to fit, or no fit is found.
+pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError> {
+    if let Some(pairs) = options.pairs
+        && !(1..=20).contains(&pairs)
+    {
+        let wanted = "1 to 20 pairs of poles are allowed";
+        return Err(HydroError::value("pairs", pairs as f64, wanted));
+    }
+    let mut added_mass_inf = added_mass_at_infinity(hydro);
+    let mut memory = Memory::default();
+    let mut damping = Matrix3::zeros();
+    let (mut qualities, mut entries) = (Vec::new(), Vec::new());
+    for freedoms in blocks(hydro) {
+        let (fitted, block, chosen) = chosen(hydro, &mut added_mass_inf, freedoms, options)?;
+        let part = chosen.memory(&block);
+        for (a, i) in block.freedoms.iter().enumerate() {
+            if chosen.quality.damped {
+                damping[(*i, *i)] += chosen.violation / (block.unit[a] * block.unit[a]);
+            }
+        }
+        for (e, (a, b)) in block.entries.iter().enumerate() {
+            let place = (block.freedoms[*a], block.freedoms[*b]);
+            entries.push(entry(
+                &fitted,
+                &added_mass_inf,
+                &part,
+                &block.kernels[e],
+                place,
+            ));
+        }
+        memory.terms.extend(part.terms);
+        qualities.push(chosen.quality);
+    }
+    let mut fit = Fit {
+        memory,
+        added_mass_inf,
+        damping,
+        blocks: qualities,
+        entries,
+        warnings: Vec::new(),
+    };
+    fit.warnings = warnings(hydro, &fit);
+    Ok(fit)
+}
+
+fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if let Some(file) = hydro.added_mass_inf {
+        for (i, freedom) in FREEDOMS.iter().enumerate() {
+            let own = fit.added_mass_inf[(i, i)];
+            let off = file[(i, i)] / own - 1.0;
+            if own != 0.0 && off.abs() > 0.01 {
+                let words = format!(
+                    "the file's A(∞) of {freedom} differs by {:.1} % from the one that belongs to \
+                     its damping, which is used",
+                    100.0 * off
+                );
+                warnings.push(Warning::new("added mass at infinity", words));
+            }
+        }
+    }
+    for block in &fit.blocks {
+        of_block(block, &mut warnings);
+    }
+    let own = fit
+        .entries
+        .iter()
+        .filter(|entry| entry.force == entry.motion);
+    for entry in own.filter(|entry| !entry.outliers_rad_s.is_empty()) {
+        let words = format!(
+            "the damping of {} is off the fit by more than 5 % of its largest at ω = {} rad/s",
+            FREEDOMS[entry.force],
+            list(&entry.outliers_rad_s)
+        );
+        warnings.push(Warning::new("off the fit", words));
+    }
+    warnings
+}
+
+fn of_block(block: &BlockQuality, warnings: &mut Vec<Warning>) {
+    let names = block.freedoms.iter().map(|i| FREEDOMS[*i]);
+    let names = names.collect::<Vec<_>>().join(" and ");
+    if block.rms > POOR {
+        let words = format!(
+            "the memory of {names} fits the file to {:.1} % only; results are no better",
+            100.0 * block.rms
+        );
+        warnings.push(Warning::new("fit", words));
+    }
+    if !block.left_out_rad_s.is_empty() {
+        let words = format!(
+            "the coefficients of {names} at ω = {} rad/s stand apart from the others and were left \
+             out of the memory: irregular frequencies, most likely. Compute the file again with a \
+             lid",
+            list(&block.left_out_rad_s)
+        );
+        warnings.push(Warning::new("irregular frequencies", words));
+    }
+    if block.damped {
+        let words = format!(
+            "the memory of {names} could not be made passive for less than {:.0} % of fit; it is \
+             kept as it is, and linear damping of {:.2} % of the largest is added",
+            100.0 * PRICE,
+            -100.0 * block.least
+        );
+        warnings.push(Warning::new("passivity", words));
+    }
+}
+
+/// The first few frequencies.
+fn list(omega: &[f64]) -> String {
+    let shown: Vec<String> = omega
+        .iter()
+        .take(12)
+        .map(|omega| format!("{omega:.3}"))
+        .collect();
+    shown.join(", ")
+}
+
+/// A memory that is given, with its quality beside a file's coefficients.
+///
+/// # Errors
+/// A [`HydroError`] as [`Memory::check`] gives it, or if A∞ can not be.
+pub fn given(
+    hydro: &Hydrodynamics,
+    added_mass_inf: [[f64; 3]; 3],
+    rows: &[TermRow],
+) -> Result<Fit, HydroError> {
+    let memory = Memory::from_rows(rows)?;
+    let added_mass_inf = Matrix3::from_fn(|i, j| added_mass_inf[i][j]);
+    let asymmetric = (added_mass_inf - added_mass_inf.transpose()).amax();
+    let symmetric = asymmetric <= 1e-6 * added_mass_inf.amax();
+    if !symmetric {
+        let words = "added_mass_inf differs from its transpose, or is no number";
+        return Err(HydroError::convention("symmetry", words));
+    }
+    let omega_max = hydro.range_rad_s()[1];
+    let mut entries = Vec::new();
+    for (i, j) in UPPER {
+        let acts = memory
+            .terms
+            .iter()
+            .any(|term| term.residue[(i, j)].norm() > 0.0);
+        if acts {
+            let curve = DampingCurve::new(&hydro.omega_rad_s, &hydro.damping_entry(i, j));
+            let kernel = Kernel::new(&curve, omega_max);
+            entries.push(entry(hydro, &added_mass_inf, &memory, &kernel, (i, j)));
+        }
+    }
+    let mut fit = Fit {
+        damping: Matrix3::zeros(),
+        blocks: Vec::new(),
+        entries,
+        warnings: Vec::new(),
+        memory,
+        added_mass_inf,
+    };
+    fit.warnings = warnings(hydro, &fit);
+    let least = fit.memory.least_eigenvalue(omega_max);
+    if least < -1e-6 {
+        let words = format!(
+            "the given memory is not passive: its damping falls to {:.2} % of its largest, and it can \
+             feed energy into the motion",
+            100.0 * least
+        );
+        fit.warnings.push(Warning::new("passivity", words));
+    }
+    Ok(fit)
+}

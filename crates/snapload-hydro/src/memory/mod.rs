@@ -1,0 +1,158 @@
+//! The memory of the waves that a body has made, as a sum of exponentials.
+
+mod block;
+mod curve;
+mod fit;
+mod irregular;
+mod least_squares;
+mod passivity;
+mod poles;
+mod quality;
+
+pub use curve::{DampingCurve, added_mass_at_infinity};
+pub use fit::{Fit, FitOptions, fit, given};
+pub use quality::{BlockQuality, EntryQuality};
+
+use crate::error::HydroError;
+use nalgebra::{Complex, Matrix3};
+use serde::{Deserialize, Serialize};
+
+/// One exponential, R e^{pt}.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// p \[1/s\], Re p < 0.
+    pub pole: Complex<f64>,
+    /// R, symmetric; real where p is.
+    pub residue: Matrix3<Complex<f64>>,
+}
+
+/// K(t) = Re Σ R_k e^{p_k t}, the retardation of a body in waves of its own making:
+///
+/// ```text
+/// F_mem(t) = ∫ K(t−τ) q̇(τ) dτ = Re Σ R_k z_k,    ż_k = p_k z_k + q̇,    z_k(0) = 0
+/// ```
+///
+/// Source: W. E. Cummins, *Schiffstechnik* 9 (1962) 101, for K; the exponentials give it back by
+/// linear differential equations.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// The exponentials.
+    pub terms: Vec<Term>,
+}
+
+impl Memory {
+    /// K(t) \[N/m …\].
+    pub fn kernel(&self, t_s: f64) -> Matrix3<f64> {
+        let terms = self.terms.iter();
+        terms.fold(Matrix3::zeros(), |sum, term| {
+            let factor = (term.pole * t_s).exp();
+            sum + term.residue.map(|entry| (entry * factor).re)
+        })
+    }
+
+    /// K̂(iω) = ∫ K e^{−iωt} dt = B(ω) + iω (A(ω) − A∞):
+    ///
+    /// ```text
+    /// K̂(iω) = Σ ½ [R_k/(iω − p_k) + R̄_k/(iω − p̄_k)]
+    /// ```
+    pub fn transform(&self, omega_rad_s: f64) -> Matrix3<Complex<f64>> {
+        let s = Complex::new(0.0, omega_rad_s);
+        let terms = self.terms.iter();
+        terms.fold(Matrix3::zeros(), |sum, term| {
+            let one = Complex::new(0.5, 0.0) / (s - term.pole);
+            let other = Complex::new(0.5, 0.0) / (s - term.pole.conj());
+            sum + term.residue.map(|entry| entry * one + entry.conj() * other)
+        })
+    }
+
+    /// How many real states the motion carries along: for each pole and each motion that it acts
+    /// on, one if the pole is real and two if it is not.
+    pub fn states(&self) -> usize {
+        let of = |term: &Term| {
+            let columns = (0..3).filter(|j| term.residue.column(*j).iter().any(|r| r.norm() > 0.0));
+            columns.count() * if term.pole.im == 0.0 { 1 } else { 2 }
+        };
+        self.terms.iter().map(of).sum()
+    }
+
+    /// The least eigenvalue of Re K̂(iω), as a part of the largest over ω, over frequencies from
+    /// 1e-4 to 1000 times the given one. The memory is passive, and can not feed energy into the
+    /// motion, where it is not below zero. Each entry is taken in units of the damping of its own
+    /// freedom.
+    pub fn least_eigenvalue(&self, omega_max_rad_s: f64) -> f64 {
+        passivity::least(self, omega_max_rad_s)
+    }
+
+    /// Checks exponentials that were given and not fitted.
+    ///
+    /// # Errors
+    /// A [`HydroError`] if a pole does not decay, a residue is not symmetric, or a number is not
+    /// finite.
+    pub fn check(&self) -> Result<(), HydroError> {
+        for (index, term) in self.terms.iter().enumerate() {
+            let name = format!("memory[{index}]");
+            let Complex { re, im } = term.pole;
+            if !(re < 0.0 && re.is_finite() && im.is_finite()) {
+                let wanted = "the real part of a pole is below zero, so that the memory fades";
+                return Err(HydroError::value(format!("{name}.pole[0]"), re, wanted));
+            }
+            let size = term.residue.iter().map(|r| r.norm()).fold(0.0, f64::max);
+            if !size.is_finite() || term.residue.iter().any(|r| !r.re.is_finite()) {
+                let what = format!("{name}.residue");
+                return Err(HydroError::value(what, size, "numbers are wanted"));
+            }
+            let asymmetric = (term.residue - term.residue.transpose())
+                .iter()
+                .any(|difference| difference.norm() > 1e-6 * size);
+            if asymmetric {
+                let words = format!("{name}.residue differs from its transpose");
+                return Err(HydroError::convention("symmetry", words));
+            }
+            let complex = term.residue.iter().any(|r| r.im.abs() > 1e-12 * size);
+            if im == 0.0 && complex {
+                let words = format!("{name} has a real pole and a residue that is not real");
+                return Err(HydroError::convention("real memory", words));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A memory as JSON: `[{"pole": [re, im], "residue": [[[re, im], …], …]}, …]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TermRow {
+    /// p.
+    pub pole: [f64; 2],
+    /// R by rows.
+    pub residue: [[[f64; 2]; 3]; 3],
+}
+
+impl Memory {
+    /// As rows of numbers.
+    pub fn rows(&self) -> Vec<TermRow> {
+        let row = |term: &Term| TermRow {
+            pole: [term.pole.re, term.pole.im],
+            residue: std::array::from_fn(|i| {
+                std::array::from_fn(|j| [term.residue[(i, j)].re, term.residue[(i, j)].im])
+            }),
+        };
+        self.terms.iter().map(row).collect()
+    }
+
+    /// Out of rows of numbers.
+    ///
+    /// # Errors
+    /// A [`HydroError`] as [`Memory::check`] gives it.
+    pub fn from_rows(rows: &[TermRow]) -> Result<Self, HydroError> {
+        let complex = |[re, im]: [f64; 2]| Complex::new(re, im);
+        let terms = rows.iter().map(|row| Term {
+            pole: complex(row.pole),
+            residue: Matrix3::from_fn(|i, j| complex(row.residue[i][j])),
+        });
+        let memory = Self {
+            terms: terms.collect(),
+        };
+        memory.check()?;
+        Ok(memory)
+    }
+}

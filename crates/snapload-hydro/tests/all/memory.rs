@@ -1,0 +1,224 @@
+//! Memories fitted to files, against independent fits and against what a memory must be.
+
+use crate::common::{hydro, reference};
+use nalgebra::{Complex, Matrix3, Vector3};
+use proptest::prelude::*;
+use snapload_hydro::{Fit, FitOptions, Memory, TermRow, fit};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock};
+
+/// The fit of a file, made once.
+fn fitted(name: &'static str) -> Fit {
+    static FITS: Mutex<BTreeMap<&str, Fit>> = Mutex::new(BTreeMap::new());
+    let mut fits = FITS.lock().expect("the fits");
+    let new = || fit(&hydro(name), FitOptions::default()).expect(name);
+    fits.entry(name).or_insert_with(new).clone()
+}
+
+/// The good files: within 1 % of B + iω(A − A∞) and of K, passive, without damping at rest.
+#[test]
+fn good_files_are_fitted_within_one_percent() {
+    for name in ["pontoon-deep.nc", "sphere.nc", "cylinder.nc"] {
+        let fit = fitted(name);
+        for entry in &fit.entries {
+            assert!(
+                entry.rms < 0.01 && entry.kernel_rms < 0.01,
+                "{name}: {entry:?}"
+            );
+            assert!(entry.outliers_rad_s.is_empty(), "{name}: {entry:?}");
+        }
+        let last = hydro(name).range_rad_s()[1];
+        assert!(fit.memory.least_eigenvalue(last) > -2e-9, "{name}");
+        assert!(fit.blocks.iter().all(|block| !block.damped));
+        assert_eq!(fit.damping, Matrix3::zeros());
+        let size = fit.memory.transform(0.5 * last).map(|k| k.norm()).max();
+        assert!(fit.memory.transform(0.0).map(|k| k.norm()).max() < 1e-9 * size);
+        // Heave alone, surge with pitch; nothing between them.
+        for (i, j) in [(0, 1), (1, 2)] {
+            assert_eq!(fit.memory.kernel(0.3)[(i, j)], 0.0);
+        }
+        fit.memory.check().expect("a memory");
+    }
+}
+
+/// Another program's fit of the same files, made by least squares of its own, is the same memory to
+/// what each of them is off by.
+#[test]
+fn fits_agree_with_another_programs() {
+    for (name, file) in [
+        ("pontoon", "pontoon-deep.nc"),
+        ("cylinder", "cylinder.nc"),
+        ("sphere", "sphere.nc"),
+    ] {
+        let rows: Vec<TermRow> =
+            serde_json::from_value(reference("fits.json")[name]["memory"].clone()).expect("rows");
+        let theirs = Memory::from_rows(&rows).expect("a memory");
+        let ours = fitted(file).memory;
+        for i in 0..3 {
+            let k0 = theirs.kernel(0.0)[(i, i)];
+            let mut worst: f64 = 0.0;
+            for step in 4..200 {
+                let t = 0.1 * f64::from(step);
+                let difference = (ours.kernel(t) - theirs.kernel(t))[(i, i)];
+                worst = worst.max(difference.abs() / k0);
+            }
+            assert!(worst < 0.02, "{name} {i}: {worst}");
+        }
+    }
+}
+
+/// A∞ from the damping: the value that the other program found, and the sphere's exact one
+/// (A33 = 130,900 kg for this sphere; P. McIver and C. M. Linton).
+#[test]
+fn added_mass_at_infinity_follows_from_the_damping() {
+    for (name, file) in [
+        ("pontoon", "pontoon-deep.nc"),
+        ("cylinder", "cylinder.nc"),
+        ("sphere", "sphere.nc"),
+    ] {
+        let rows: [[f64; 3]; 3] =
+            serde_json::from_value(reference("fits.json")[name]["added_mass_inf"].clone())
+                .expect("a matrix");
+        let theirs = Matrix3::from_fn(|i, j| rows[i][j]);
+        let ours = snapload_hydro::added_mass_at_infinity(&hydro(file));
+        let off = (ours - theirs).component_div(&theirs.map(|a| a.abs().max(1.0)));
+        for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 2)] {
+            assert!(off[(i, j)].abs() < 3e-4, "{name} {i}{j}: {ours}{theirs}");
+        }
+    }
+    let sphere = snapload_hydro::added_mass_at_infinity(&hydro("sphere.nc"));
+    assert!((sphere[(1, 1)] / 130_900.0 - 1.0).abs() < 5e-4);
+}
+
+/// Poor files are told of, with the frequencies that are off.
+#[test]
+fn poor_files_are_warned_of() {
+    let poor = fitted("pontoon-poor.nc");
+    let about = |what: &str| {
+        let warnings = poor.warnings.iter().filter(|warning| warning.what == what);
+        warnings
+            .map(|warning| warning.words.as_str())
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    assert!(about("fit").contains("heave"), "{:?}", poor.warnings);
+    let irregular = about("irregular frequencies");
+    for omega in ["heave", "5.000", "5.100", "5.200", "5.300", "5.900"] {
+        assert!(irregular.contains(omega), "{irregular}");
+    }
+    assert!(
+        about("added mass at infinity").contains("heave"),
+        "{:?}",
+        poor.warnings
+    );
+    assert!(!about("passivity").is_empty());
+    // With the damping that is added the whole is passive.
+    let mut least = f64::INFINITY;
+    for step in 1..4000 {
+        let omega = 0.005 * f64::from(step);
+        let b = poor.memory.transform(omega).map(|k| k.re) + poor.damping;
+        least = least.min(b.symmetric_eigenvalues().min());
+    }
+    assert!(
+        least > -1e-6 * poor.damping.amax(),
+        "{least} {}",
+        poor.damping
+    );
+}
+
+/// The transform is the integral of the memory.
+#[test]
+fn the_transform_is_that_of_the_kernel() {
+    let memory = fitted("sphere.nc").memory;
+    for omega in [0.3, 1.1, 2.4] {
+        let steps = 40_000;
+        let dt = 60.0 / f64::from(steps);
+        let mut sum = Matrix3::zeros();
+        for step in 0..=steps {
+            let t = dt * f64::from(step);
+            let ends = if step == 0 || step == steps { 0.5 } else { 1.0 };
+            let turn = Complex::from_polar(ends * dt, -omega * t);
+            sum += memory.kernel(t).map(|k| turn * k);
+        }
+        let transform = memory.transform(omega);
+        let size = transform.map(|k| k.norm()).max();
+        assert!((sum - transform).map(|k| k.norm()).max() < 1e-4 * size);
+    }
+}
+
+/// A memory written as JSON and read again is the same to the last digit; bad ones are refused.
+#[test]
+fn memories_are_printed_and_read() {
+    let memory = fitted("cylinder.nc").memory;
+    let text = serde_json::to_string(&memory.rows()).expect("text");
+    let rows: Vec<TermRow> = serde_json::from_str(&text).expect("rows");
+    let again = Memory::from_rows(&rows).expect("a memory");
+    for (a, b) in again.terms.iter().zip(&memory.terms) {
+        assert!((a.pole - b.pole).norm() <= 1e-15 * b.pole.norm());
+        let difference = (a.residue - b.residue).map(|r| r.norm()).max();
+        assert!(difference <= 1e-15 * b.residue.map(|r| r.norm()).max());
+    }
+    let refused = |change: fn(&mut TermRow)| {
+        let mut rows = rows.clone();
+        change(&mut rows[0]);
+        Memory::from_rows(&rows).expect_err("a refusal").to_string()
+    };
+    assert!(refused(|row| row.pole[0] = 0.1).contains("memory[0].pole[0] = 0.1"));
+    assert!(refused(|row| row.residue[0][1][0] += 1e6).contains("transpose"));
+    assert!(refused(|row| row.pole[1] = 0.0).contains("real pole"));
+    assert!(refused(|row| row.residue[1][1][0] = f64::NAN).contains("residue"));
+}
+
+/// The number of pairs can be chosen.
+#[test]
+fn the_number_of_poles_can_be_chosen() {
+    let hydro = hydro("sphere.nc");
+    let few = fit(&hydro, FitOptions { pairs: Some(4) }).expect("a fit");
+    assert!(few.blocks.iter().all(|block| block.pairs == 4));
+    // Four pairs act on heave, four on surge and on pitch.
+    assert_eq!(few.memory.states(), 8 + 2 * 8);
+    assert!(fit(&hydro, FitOptions { pairs: Some(0) }).is_err());
+    assert!(fit(&hydro, FitOptions { pairs: Some(1000) }).is_err());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    /// A passive memory takes energy out of every motion from rest: ∫ q̇ᵀ F_mem dt ≥ 0 at all times.
+    #[test]
+    fn memories_feed_no_energy(
+        a in prop::array::uniform3(-1.0..1.0_f64),
+        b in prop::array::uniform3(-1.0..1.0_f64),
+        omega in 0.1..5.0_f64,
+        jump in 0.0..8.0_f64,
+    ) {
+        let memory = sphere_memory();
+        let dt = 0.01;
+        let mut z: Vec<Vector3<Complex<f64>>> = vec![Vector3::zeros(); memory.terms.len()];
+        let (mut work, mut size): (f64, f64) = (0.0, 0.0);
+        for step in 0..1500 {
+            let t = dt * (f64::from(step) + 0.5);
+            // A motion with a snap: its velocity jumps.
+            let v = Vector3::from(a) * (omega * t).sin()
+                + if t > jump { Vector3::from(b) } else { Vector3::zeros() };
+            let v = Vector3::new(v[0], v[1], 0.2 * v[2]);
+            let mut force = Vector3::zeros();
+            for (z, term) in z.iter_mut().zip(&memory.terms) {
+                // Exact for a velocity that is constant within the step; the force at its middle.
+                let (p, one) = (term.pole, Complex::new(1.0, 0.0));
+                let v = v.map(|v| Complex::new(v, 0.0));
+                let half = *z * (p * 0.5 * dt).exp() + v * (((p * 0.5 * dt).exp() - one) / p);
+                force += (term.residue * half).map(|f| f.re);
+                *z = *z * (p * dt).exp() + v * (((p * dt).exp() - one) / p);
+            }
+            work += v.dot(&force) * dt;
+            size = size.max(work.abs());
+            prop_assert!(work > -1e-4 * size, "{work} of {size} at {t}");
+        }
+    }
+}
+
+fn sphere_memory() -> &'static Memory {
+    static MEMORY: OnceLock<Memory> = OnceLock::new();
+    MEMORY.get_or_init(|| fitted("sphere.nc").memory)
+}
