@@ -8,8 +8,10 @@
 
 mod coefficients;
 mod error;
+mod linear;
 mod memory;
 mod read;
+mod sections;
 mod spline;
 
 pub use coefficients::{
@@ -17,6 +19,11 @@ pub use coefficients::{
     transport,
 };
 pub use error::{HydroError, Warning};
+pub use linear::{
+    Body, Decay, Line, Mode, Natural, Response, Rest, Swing, Weight, decay, decay_of_the_damping,
+    eigenvalues, natural_of_the_file, natural_of_the_memory, response_of_the_file,
+    response_of_the_memory, rest, significant, swings,
+};
 pub use memory::{
     BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, Memory, Term, TermRow,
     added_mass_at_infinity, fit, given,
@@ -25,4 +32,5 @@ pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,
 };
+pub use sections::{Place, Shape, added_mass_of_section};
 pub use spline::Spline;

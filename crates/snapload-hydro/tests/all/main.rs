@@ -1,5 +1,7 @@
 //! Coefficients, memory and linear answers against files of panel codes and independent results.
 mod bad_files;
 mod common;
+mod linear;
 mod memory;
 mod readers;
+mod sections;

@@ -1,0 +1,161 @@
+//! The rigid body: its mass matrix, its hydrostatic stiffness, and the forces that do not change.
+
+use crate::coefficients::Hydrodynamics;
+use crate::error::HydroError;
+use nalgebra::{Matrix3, Vector3};
+
+/// The body's weight. What is not given is that of the file: the mass that it displaces, and the
+/// centre of gravity and inertia that it was computed with.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Weight {
+    /// m \[kg\].
+    pub mass_kg: Option<f64>,
+    /// The centre of gravity (x, z) \[m\].
+    pub centre_m: Option<[f64; 2]>,
+    /// The moment of inertia about the centre of gravity \[kg m²\].
+    pub inertia_kg_m2: Option<f64>,
+}
+
+/// A floating body about its reference point, ready for linear answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// m \[kg\].
+    pub mass_kg: f64,
+    /// The centre of gravity \[m\].
+    pub centre_m: [f64; 2],
+    /// M of the rigid body.
+    pub mass: Matrix3<f64>,
+    /// C.
+    pub stiffness: Matrix3<f64>,
+    /// Linear damping beside that of waves.
+    pub damping: Matrix3<f64>,
+    /// Weight and buoyancy at the mean place, and what else does not change.
+    pub constant_force: Vector3<f64>,
+}
+
+impl Body {
+    /// The body of a file with a weight.
+    ///
+    /// # Errors
+    /// [`HydroError::Missing`] if neither the file nor the weight say something that is needed, or
+    /// [`HydroError::Value`] if a number can not be.
+    pub fn new(hydro: &Hydrodynamics, weight: &Weight) -> Result<Self, HydroError> {
+        let statics = &hydro.hydrostatics;
+        let need = |what: &str, value: Option<f64>| {
+            let advice = "neither the file nor the case has it; give it";
+            value.ok_or_else(|| HydroError::missing(what, advice))
+        };
+        let mass_kg = need("the mass", weight.mass_kg.or(statics.displaced_mass_kg))?;
+        positive("the mass in kg", mass_kg)?;
+        let centre = weight.centre_m.or(statics.centre_of_mass_m);
+        let centre_m = [0, 1].map(|axis| centre.map(|centre| centre[axis]));
+        let what = "the centre of gravity";
+        let centre_m = [need(what, centre_m[0])?, need(what, centre_m[1])?];
+        let [x, z] = [0, 1].map(|axis| centre_m[axis] - hydro.reference_m[axis]);
+        let about_o = match (weight.inertia_kg_m2, statics.inertia) {
+            (Some(inertia), _) => {
+                positive("the moment of inertia in kg m²", inertia)?;
+                inertia + mass_kg * (x * x + z * z)
+            }
+            (None, Some(file)) => file[(2, 2)],
+            (None, None) => need("the moment of inertia", None)?,
+        };
+        Ok(Self {
+            mass_kg,
+            centre_m,
+            mass: mass_matrix(mass_kg, [x, z], about_o),
+            stiffness: stiffness(hydro, mass_kg, centre_m)?,
+            damping: Matrix3::zeros(),
+            constant_force: weight_and_buoyancy(hydro, mass_kg, x),
+        })
+    }
+
+    /// 𝓜 = M + A.
+    ///
+    /// # Errors
+    /// [`HydroError::Impossible`] if it is not positive definite.
+    pub fn with_added_mass(&self, added: &Matrix3<f64>) -> Result<Matrix3<f64>, HydroError> {
+        let sum = self.mass + added;
+        match sum.cholesky() {
+            Some(_) => Ok(sum),
+            None => Err(HydroError::Impossible(format!(
+                "mass and added mass together are not positive definite: {:.4e} in surge, {:.4e} in \
+                 heave, {:.4e} in pitch; mass, centre of gravity or moment of inertia can not be",
+                sum[(0, 0)],
+                sum[(1, 1)],
+                sum[(2, 2)]
+            ))),
+        }
+    }
+}
+
+fn positive(what: &str, value: f64) -> Result<(), HydroError> {
+    match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(HydroError::value(what, value, "it has to be above 0")),
+    }
+}
+
+/// M = [[m, 0, m z_G], [0, m, −m x_G], [m z_G, −m x_G, I_O]], (x_G, z_G) from the reference point.
+fn mass_matrix(m: f64, [x, z]: [f64; 2], inertia: f64) -> Matrix3<f64> {
+    Matrix3::new(m, 0.0, m * z, 0.0, m, -m * x, m * z, -m * x, inertia)
+}
+
+/// C for this weight. The file's holds m g z_G of a body that weighs what it displaces; surge has
+/// none.
+///
+/// ```text
+/// C55 = C55(file) + (ρV z_G(file) − m z_G) g,    z_G from the reference point
+/// ```
+fn stiffness(
+    hydro: &Hydrodynamics,
+    mass_kg: f64,
+    centre_m: [f64; 2],
+) -> Result<Matrix3<f64>, HydroError> {
+    let statics = &hydro.hydrostatics;
+    let Some(file) = statics.stiffness else {
+        let advice =
+            "the file does not have it (hydrostatic_stiffness, or a .hst file); compute it";
+        return Err(HydroError::missing("the hydrostatic stiffness", advice));
+    };
+    let mut stiffness = Matrix3::zeros();
+    for (i, j) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
+        stiffness[(i, j)] = 0.5 * (file[(i, j)] + file[(j, i)]);
+    }
+    let other = statics.displaced_mass_kg.is_none_or(|mass| mass != mass_kg)
+        || statics
+            .centre_of_mass_m
+            .is_none_or(|centre| centre != centre_m);
+    if other {
+        let advice = "the file's stiffness of pitch was made with its own centre of gravity and the \
+                      displaced mass; give both";
+        let missing = |what: &str| HydroError::missing(what, advice);
+        let displaced = statics.displaced_mass_kg;
+        let displaced = displaced.ok_or_else(|| missing("the displaced mass"))?;
+        let made = statics.centre_of_mass_m;
+        let made = made.ok_or_else(|| missing("the file's centre of gravity"))?;
+        let level = hydro.reference_m[1];
+        let moment = displaced * (made[1] - level) - mass_kg * (centre_m[1] - level);
+        stiffness[(2, 2)] += moment * hydro.water.gravity_m_s2;
+    }
+    Ok(stiffness)
+}
+
+/// F_c = (0, (ρV − m) g, m g x_G − ρgV x_B); a body whose file has no volume floats in balance.
+fn weight_and_buoyancy(hydro: &Hydrodynamics, mass_kg: f64, x: f64) -> Vector3<f64> {
+    let statics = &hydro.hydrostatics;
+    let g = hydro.water.gravity_m_s2;
+    let Some(displaced) = statics.displaced_mass_kg else {
+        return Vector3::zeros();
+    };
+    let buoyancy = statics
+        .centre_of_buoyancy_m
+        .map(|b| b[0] - hydro.reference_m[0]);
+    // Without a centre of buoyancy the body floats upright with the file's centre of gravity.
+    let made = statics
+        .centre_of_mass_m
+        .map(|c| c[0] - hydro.reference_m[0]);
+    let x_b = buoyancy.or(made).unwrap_or(0.0);
+    let lift = (displaced - mass_kg) * g;
+    Vector3::new(0.0, lift, g * (mass_kg * x - displaced * x_b))
+}

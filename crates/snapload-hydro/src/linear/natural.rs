@@ -1,0 +1,276 @@
+//! Natural frequencies, without lines or with taut ones that hold the body.
+
+use super::body::Body;
+use crate::coefficients::{Hydrodynamics, MatrixCurve};
+use crate::error::HydroError;
+use crate::memory::{Memory, Term};
+use nalgebra::{Complex, DMatrix, DVector, Matrix3, Schur};
+use std::f64::consts::PI;
+
+/// An eigenvalue of stiffness over mass below this part of the largest is that of a freedom without
+/// stiffness, such as surge without lines.
+const SOFT: f64 = 1e-9;
+/// Points of the search for a frequency at which mass and stiffness are in balance.
+const SEARCH: usize = 400;
+
+/// A natural motion without damping: det(C − ω²(M + A(ω))) = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Natural {
+    /// ω \[rad/s\].
+    pub omega_rad_s: f64,
+    /// 2π/ω \[s\].
+    pub period_s: f64,
+    /// The freedom that moves most, each weighed by its own mass.
+    pub freedom: usize,
+    /// Whether ω lies outside the file's frequencies, where A is that at the nearest.
+    pub outside: bool,
+}
+
+/// A natural motion with the memory's damping, λ the eigenvalue with Im λ > 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ \[1/s\].
+    pub eigenvalue: Complex<f64>,
+    /// 2π/Im λ \[s\].
+    pub period_s: f64,
+    /// −Re λ/|λ|.
+    pub damping_ratio: f64,
+}
+
+/// A basis of the motions that are left: all three, or the null space of taut lines.
+fn all() -> DMatrix<f64> {
+    DMatrix::identity(3, 3)
+}
+
+/// NᵀMN.
+pub(super) fn reduced(matrix: &Matrix3<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+    let matrix = DMatrix::from_fn(3, 3, |i, j| matrix[(i, j)]);
+    basis.transpose() * matrix * basis
+}
+
+/// Natural motions with A(ω) of the file, the slowest first; freedoms without stiffness have none.
+///
+/// # Errors
+/// [`HydroError::Impossible`] if M + A is not positive definite.
+pub fn natural_of_the_file(hydro: &Hydrodynamics, body: &Body) -> Result<Vec<Natural>, HydroError> {
+    natural(hydro, &body.mass, &body.stiffness, &all())
+}
+
+/// The same in the motions that taut lines leave, with their stiffness.
+pub(super) fn natural(
+    hydro: &Hydrodynamics,
+    mass: &Matrix3<f64>,
+    stiffness: &Matrix3<f64>,
+    basis: &DMatrix<f64>,
+) -> Result<Vec<Natural>, HydroError> {
+    let curve = hydro.added_mass_curve();
+    let problem = Problem {
+        curve: &curve,
+        mass,
+        stiffness: reduced(stiffness, basis),
+        basis,
+    };
+    let [low, high] = hydro.range_rad_s();
+    let middle = problem.at(0.5 * (low + high))?;
+    let largest = middle
+        .iter()
+        .fold(0.0, |most: f64, (value, _)| most.max(*value));
+    let mut found = Vec::new();
+    for (k, (value, _)) in middle.iter().enumerate() {
+        if *value <= SOFT * largest {
+            continue;
+        }
+        let Some(omega) = problem.balanced(k, high)? else {
+            continue;
+        };
+        let shape = &problem.at(omega)?[k].1;
+        let motion = basis * shape;
+        let whole = mass + curve.at(omega);
+        let weight = |i: usize| motion[i] * motion[i] * whole[(i, i)];
+        let freedom = (0..3).fold(0, |most, i| if weight(i) > weight(most) { i } else { most });
+        found.push(Natural {
+            omega_rad_s: omega,
+            period_s: 2.0 * PI / omega,
+            freedom,
+            outside: omega < low || omega > high,
+        });
+    }
+    found.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+    Ok(found)
+}
+
+struct Problem<'a> {
+    curve: &'a MatrixCurve,
+    mass: &'a Matrix3<f64>,
+    stiffness: DMatrix<f64>,
+    basis: &'a DMatrix<f64>,
+}
+
+impl Problem<'_> {
+    /// Eigenvalues of stiffness over mass with the added mass of a frequency, rising, with their
+    /// motions.
+    fn at(&self, omega: f64) -> Result<Vec<(f64, DVector<f64>)>, HydroError> {
+        let mass = reduced(&(self.mass + self.curve.at(omega)), self.basis);
+        let Some(factor) = mass.cholesky() else {
+            return Err(HydroError::Impossible(format!(
+                "mass and added mass together are not positive definite at ω = {omega:.3} rad/s"
+            )));
+        };
+        // With 𝓜 = L Lᵀ the eigenvalues are those of L⁻¹ C L⁻ᵀ.
+        let singular = || HydroError::Impossible("the mass matrix is singular".to_owned());
+        let inverse = factor.l().try_inverse().ok_or_else(singular)?;
+        let symmetric = &inverse * &self.stiffness * inverse.transpose();
+        let eigen = symmetric.symmetric_eigen();
+        let columns = eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter());
+        let mut pairs: Vec<(f64, DVector<f64>)> = columns
+            .map(|(value, vector)| (*value, inverse.transpose() * vector))
+            .collect();
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(pairs)
+    }
+
+    /// The lowest ω at which the k-th eigenvalue is ω², by bisection of the first change of sign.
+    fn balanced(&self, k: usize, high: f64) -> Result<Option<f64>, HydroError> {
+        let excess =
+            |omega: f64| -> Result<f64, HydroError> { Ok(self.at(omega)?[k].0 - omega * omega) };
+        let top = 10.0 * high;
+        let mut low = 0.0;
+        for step in 1..=SEARCH {
+            // Closer at the low end.
+            let next = top * (step as f64 / SEARCH as f64).powi(3);
+            if excess(next)? <= 0.0 {
+                let (mut below, mut above) = (low, next);
+                for _ in 0..200 {
+                    let middle = 0.5 * (below + above);
+                    if middle <= below || middle >= above {
+                        break;
+                    }
+                    match excess(middle)? > 0.0 {
+                        true => below = middle,
+                        false => above = middle,
+                    }
+                }
+                return Ok(Some(0.5 * (below + above)));
+            }
+            low = next;
+        }
+        Ok(None)
+    }
+}
+
+/// All eigenvalues of the body with its memory, ẏ = L y for y = (q, q̇, z):
+///
+/// ```text
+/// 𝓜 q̈ + B q̇ + C q + Re Σ R_k z_k = 0,    ż_k = p_k z_k + q̇
+/// ```
+pub fn eigenvalues(
+    body: &Body,
+    memory: &Memory,
+    added_mass_inf: &Matrix3<f64>,
+) -> Result<Vec<Complex<f64>>, HydroError> {
+    let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &all())?;
+    of_matrix(matrix)
+}
+
+fn of_matrix(matrix: DMatrix<f64>) -> Result<Vec<Complex<f64>>, HydroError> {
+    let schur = Schur::try_new(matrix, f64::EPSILON, 100_000).ok_or_else(|| {
+        HydroError::Impossible("the eigenvalues of body and memory were not found".to_owned())
+    })?;
+    let mut values: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().copied().collect();
+    values.sort_by(|a, b| a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re)));
+    Ok(values)
+}
+
+/// L in the motions of a basis, u with q = N u. A pole with a complex residue is carried by the
+/// real and the imaginary part of its state.
+pub(super) fn state_matrix(
+    body: &Body,
+    stiffness: &Matrix3<f64>,
+    memory: &Memory,
+    added_mass_inf: &Matrix3<f64>,
+    basis: &DMatrix<f64>,
+) -> Result<DMatrix<f64>, HydroError> {
+    let n = basis.ncols();
+    let mass = reduced(&body.with_added_mass(added_mass_inf)?, basis);
+    let inverse = mass.try_inverse().ok_or_else(|| {
+        HydroError::Impossible(
+            "the mass matrix is singular in the motions that are left".to_owned(),
+        )
+    })?;
+    let real = |term: &Term| term.pole.im == 0.0;
+    let size = memory
+        .terms
+        .iter()
+        .map(|term| if real(term) { n } else { 2 * n });
+    let size = 2 * n + size.sum::<usize>();
+    let mut matrix = DMatrix::zeros(size, size);
+    matrix.view_mut((0, n), (n, n)).fill_with_identity();
+    let push = -&inverse * reduced(stiffness, basis);
+    matrix.view_mut((n, 0), (n, n)).copy_from(&push);
+    let push = -&inverse * reduced(&body.damping, basis);
+    matrix.view_mut((n, n), (n, n)).copy_from(&push);
+    let mut at = 2 * n;
+    for term in &memory.terms {
+        let part = |of: fn(&Complex<f64>) -> f64| reduced(&term.residue.map(|r| of(&r)), basis);
+        // Re R z = Re R Re z − Im R Im z.
+        let (re, im) = (part(|r| r.re), part(|r| r.im));
+        matrix
+            .view_mut((n, at), (n, n))
+            .copy_from(&(-&inverse * re));
+        matrix.view_mut((at, n), (n, n)).fill_with_identity();
+        matrix
+            .view_mut((at, at), (n, n))
+            .fill_diagonal(term.pole.re);
+        if !real(term) {
+            matrix
+                .view_mut((n, at + n), (n, n))
+                .copy_from(&(&inverse * im));
+            matrix
+                .view_mut((at, at + n), (n, n))
+                .fill_diagonal(-term.pole.im);
+            matrix
+                .view_mut((at + n, at), (n, n))
+                .fill_diagonal(term.pole.im);
+            matrix
+                .view_mut((at + n, at + n), (n, n))
+                .fill_diagonal(term.pole.re);
+            at += n;
+        }
+        at += n;
+    }
+    Ok(matrix)
+}
+
+/// For each natural motion of the file the eigenvalue of body and memory that is nearest to iω.
+///
+/// # Errors
+/// [`HydroError::Impossible`] if the mass is not positive definite.
+pub fn natural_of_the_memory(
+    body: &Body,
+    memory: &Memory,
+    added_mass_inf: &Matrix3<f64>,
+    natural: &[Natural],
+) -> Result<Vec<Mode>, HydroError> {
+    let matrix = state_matrix(body, &body.stiffness, memory, added_mass_inf, &all())?;
+    nearest(matrix, natural)
+}
+
+/// The same of any state matrix.
+pub(super) fn nearest(matrix: DMatrix<f64>, natural: &[Natural]) -> Result<Vec<Mode>, HydroError> {
+    let values = of_matrix(matrix)?;
+    let mode = |natural: &Natural| {
+        let aim = Complex::new(0.0, natural.omega_rad_s);
+        let oscillating = values.iter().filter(|value| value.im > 0.0);
+        let value = oscillating.min_by(|a, b| (*a - aim).norm().total_cmp(&(*b - aim).norm()));
+        let value = value.copied().unwrap_or(aim);
+        Mode {
+            eigenvalue: value,
+            period_s: 2.0 * PI / value.im,
+            damping_ratio: -value.re / value.norm(),
+        }
+    };
+    Ok(natural.iter().map(mode).collect())
+}

@@ -1,0 +1,377 @@
+//! Where a body rests on its lines in still water, and how it moves a little about that place.
+
+use super::body::Body;
+use super::natural::{Mode, Natural, natural, nearest, reduced, state_matrix};
+use crate::coefficients::Hydrodynamics;
+use crate::error::HydroError;
+use crate::memory::Memory;
+use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, RowVector3, Vector2, Vector3};
+
+/// Lines that can be taut at once: there are three freedoms.
+const MOST: usize = 3;
+/// Newton's method: steps, and places to begin at.
+const STEPS: usize = 60;
+const ROUNDING: f64 = 1e-13;
+/// An eigenvalue of NᵀHN below this part of the largest counts as no stiffness.
+const SINGULAR: f64 = 1e-9;
+
+/// An inextensible line from an anchor to a point of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// The anchor (x, z) \[m\].
+    pub anchor_m: [f64; 2],
+    /// The fairlead from the reference point, in the body at its mean place \[m\].
+    pub fairlead_m: [f64; 2],
+    /// Its length \[m\].
+    pub length_m: f64,
+}
+
+/// A place of rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rest {
+    /// q \[m, m, rad\].
+    pub q: Vector3<f64>,
+    /// The taut lines, from 0 on.
+    pub taut: Vec<usize>,
+    /// The tension of each line \[N\], 0 if slack.
+    pub tension_n: Vec<f64>,
+    /// By how much each line is too long \[m\].
+    pub slack_m: Vec<f64>,
+    /// A basis of the motions that the taut lines leave, a motion a column.
+    pub motions: DMatrix<f64>,
+    /// NᵀHN.
+    pub stiffness: DMatrix<f64>,
+    /// H, that of the body and of the tensions together.
+    pub whole: Matrix3<f64>,
+}
+
+/// A line at a place of the body.
+struct Pull {
+    /// From the reference point to the fairlead.
+    r: Vector2<f64>,
+    /// Distance of fairlead and anchor, and the direction.
+    distance: f64,
+    n: Vector2<f64>,
+}
+
+impl Pull {
+    fn at(line: &Line, reference: [f64; 2], q: &Vector3<f64>) -> Self {
+        let (sine, cosine) = q[2].sin_cos();
+        let [x, z] = line.fairlead_m;
+        let r = Vector2::new(x * cosine + z * sine, -x * sine + z * cosine);
+        let place = Vector2::new(reference[0] + q[0] + r[0], reference[1] + q[1] + r[1]);
+        let apart = place - Vector2::from(line.anchor_m);
+        let distance = apart.norm();
+        Self {
+            r,
+            distance,
+            n: apart / distance.max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// G = (nx, nz, nx rz − nz rx).
+    fn row(&self) -> RowVector3<f64> {
+        let turn = self.n[0] * self.r[1] - self.n[1] * self.r[0];
+        RowVector3::new(self.n[0], self.n[1], turn)
+    }
+
+    /// The second derivative of the distance, (JᵀJ − GᵀG)/r + diag(0, 0, −(nx rx + nz rz)) with J =
+    /// [[1, 0, rz], [0, 1, −rx]].
+    fn bend(&self) -> Matrix3<f64> {
+        let j = Matrix2x3::new(1.0, 0.0, self.r[1], 0.0, 1.0, -self.r[0]);
+        let row = self.row();
+        let mut bend = (j.transpose() * j - row.transpose() * row) / self.distance;
+        bend[(2, 2)] -= self.n.dot(&self.r);
+        bend
+    }
+}
+
+struct Problem<'a> {
+    lines: &'a [Line],
+    reference: [f64; 2],
+    body: &'a Body,
+    /// Units of length and force, in which Newton's steps are measured.
+    length: f64,
+    force: f64,
+}
+
+/// The place of rest of lowest potential V = ½ qᵀCq − F_cᵀq with no line longer than it is. For
+/// every set of up to three lines Newton's method solves
+///
+/// ```text
+/// C q − F_c + Σ T_i G_iᵀ = 0,    |P_i − A_i| = r_i
+/// ```
+///
+/// from several places; a solution counts if T_i > 0, the other lines are slack, and NᵀHN is
+/// positive definite, with H = C + Σ T_i ∂²|P_i − A_i|/∂q² and N a basis of the null space of the
+/// taut lines' G.
+///
+/// # Errors
+/// [`HydroError::Impossible`] if there is none, as where no taut line holds surge.
+pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, HydroError> {
+    let mut length: f64 = 1.0;
+    for (index, line) in lines.iter().enumerate() {
+        let numbers = [line.length_m, line.anchor_m[0], line.anchor_m[1]];
+        if !(line.length_m > 0.0 && numbers.iter().all(|number| number.is_finite())) {
+            let what = format!("the length of line {}", index + 1);
+            return Err(HydroError::value(
+                what,
+                line.length_m,
+                "it has to be above 0",
+            ));
+        }
+        length = length.max(line.length_m);
+    }
+    let weight = body.mass_kg * hydro.water.gravity_m_s2;
+    let problem = Problem {
+        lines,
+        reference: hydro.reference_m,
+        body,
+        length,
+        force: weight.max(body.constant_force.amax()),
+    };
+    let mut best: Option<(f64, Rest)> = None;
+    for taut in sets(lines.len()) {
+        for start in problem.starts(&taut) {
+            let Some(found) = problem.solve(&taut, start) else {
+                continue;
+            };
+            let potential = problem.potential(&found.q);
+            let lower =
+                |(least, _): &(f64, Rest)| potential < least - 1e-9 * problem.force * length;
+            if best.as_ref().is_none_or(lower) {
+                best = Some((potential, found));
+            }
+        }
+    }
+    best.map(|(_, rest)| rest).ok_or_else(|| {
+        let words = "there is no place of rest: no taut line holds the body in surge, or nothing \
+                     holds it up; give lines, or a place to start from";
+        HydroError::Impossible(words.to_owned())
+    })
+}
+
+/// All sets of at most three of n lines.
+fn sets(n: usize) -> Vec<Vec<usize>> {
+    let mut sets: Vec<Vec<usize>> = vec![Vec::new()];
+    let mut at = 0;
+    while at < sets.len() {
+        let set = sets[at].clone();
+        if set.len() < MOST {
+            let from = set.last().map_or(0, |last| last + 1);
+            for line in from..n {
+                let mut more = set.clone();
+                more.push(line);
+                sets.push(more);
+            }
+        }
+        at += 1;
+    }
+    sets
+}
+
+impl Problem<'_> {
+    fn pull(&self, line: usize, q: &Vector3<f64>) -> Pull {
+        Pull::at(&self.lines[line], self.reference, q)
+    }
+
+    fn potential(&self, q: &Vector3<f64>) -> f64 {
+        0.5 * q.dot(&(self.body.stiffness * q)) - self.body.constant_force.dot(q)
+    }
+
+    /// Places to begin at: the mean place, where the body would float without lines, and beside and
+    /// below it; above each anchor.
+    fn starts(&self, taut: &[usize]) -> Vec<Vector3<f64>> {
+        let heave = self.body.stiffness[(1, 1)];
+        let free = match heave > 0.0 {
+            true => self.body.constant_force[1] / heave,
+            false => 0.0,
+        };
+        let free = free.clamp(-self.length, self.length);
+        let beside =
+            |x: f64, z: f64, turn: f64| Vector3::new(x * self.length, z * self.length, turn);
+        let mut starts = vec![
+            Vector3::zeros(),
+            Vector3::new(0.0, free, 0.0),
+            beside(0.1, 0.0, 0.0),
+            beside(-0.1, 0.0, 0.0),
+            beside(0.3, -0.1, 0.1),
+            beside(-0.3, -0.1, -0.1),
+        ];
+        for line in taut {
+            let line = &self.lines[*line];
+            let above = line.anchor_m[0] - self.reference[0] - line.fairlead_m[0];
+            starts.push(Vector3::new(above, 0.0, 0.0));
+        }
+        starts
+    }
+
+    fn solve(&self, taut: &[usize], start: Vector3<f64>) -> Option<Rest> {
+        let m = taut.len();
+        let mut q = start;
+        // Tensions to begin with, so that lines hold surge: what lifts the body, shared out.
+        let lift = (self.body.constant_force[1] / m.max(1) as f64).max(0.1 * self.force);
+        let mut tension = vec![lift; m];
+        let mut settled = 0;
+        for _ in 0..STEPS {
+            let pulls: Vec<Pull> = taut.iter().map(|line| self.pull(*line, &q)).collect();
+            let (matrix, right) = self.newton(taut, &pulls, &q, &tension);
+            let step = matrix.lu().solve(&right)?;
+            let part = step.rows(0, 3).amax() / self.length;
+            // A long step is shortened, for the equations bend.
+            let scale = (0.3 / part.max(1e-300)).min(1.0);
+            for i in 0..3 {
+                let unit = if i == 2 { 1.0 / self.length } else { 1.0 };
+                q[i] += scale * step[i] * unit;
+            }
+            for (k, tension) in tension.iter_mut().enumerate() {
+                *tension += scale * step[3 + k] * self.force;
+            }
+            if !(part.is_finite() && q.amax() < 1e3 * self.length) {
+                return None;
+            }
+            settled = if part < ROUNDING { settled + 1 } else { 0 };
+            if settled == 2 {
+                return self.judged(taut, q, &tension);
+            }
+        }
+        // Rounding may keep the last step above the bound by a little.
+        let pulls: Vec<Pull> = taut.iter().map(|line| self.pull(*line, &q)).collect();
+        let (_, right) = self.newton(taut, &pulls, &q, &tension);
+        (right.amax() < 1e-11).then(|| self.judged(taut, q, &tension))?
+    }
+
+    /// Newton's matrix and right side, lengths in units of the longest line (the rotation in
+    /// radians), forces in units of the weight.
+    fn newton(
+        &self,
+        taut: &[usize],
+        pulls: &[Pull],
+        q: &Vector3<f64>,
+        tension: &[f64],
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let m = taut.len();
+        let mut hessian = self.body.stiffness;
+        let mut force = self.body.constant_force - self.body.stiffness * q;
+        for (pull, tension) in pulls.iter().zip(tension) {
+            hessian += pull.bend() * *tension;
+            force -= pull.row().transpose() * *tension;
+        }
+        // q_i = s_i u_i with s = (1, 1, 1/length): moments and lengths get comparable sizes.
+        let unit = |i: usize| if i == 2 { 1.0 / self.length } else { 1.0 };
+        let mut matrix = DMatrix::zeros(3 + m, 3 + m);
+        let mut right = DVector::zeros(3 + m);
+        for i in 0..3 {
+            for j in 0..3 {
+                matrix[(i, j)] = hessian[(i, j)] * unit(i) * unit(j) / self.force;
+            }
+            right[i] = force[i] * unit(i) / self.force;
+            for (k, pull) in pulls.iter().enumerate() {
+                matrix[(i, 3 + k)] = pull.row()[i] * unit(i);
+                matrix[(3 + k, i)] = matrix[(i, 3 + k)];
+            }
+        }
+        for (k, (pull, line)) in pulls.iter().zip(taut).enumerate() {
+            right[3 + k] = self.lines[*line].length_m - pull.distance;
+        }
+        (matrix, right)
+    }
+
+    /// The place, if it is one of rest.
+    fn judged(&self, taut: &[usize], q: Vector3<f64>, tension: &[f64]) -> Option<Rest> {
+        if tension.iter().any(|tension| *tension <= 1e-9 * self.force) {
+            return None;
+        }
+        let pulls: Vec<Pull> = (0..self.lines.len())
+            .map(|line| self.pull(line, &q))
+            .collect();
+        let slack = pulls
+            .iter()
+            .zip(self.lines)
+            .map(|(pull, line)| line.length_m - pull.distance);
+        let slack_m: Vec<f64> = slack.collect();
+        let outside = |line: usize| !taut.contains(&line) && slack_m[line] < -1e-9 * self.length;
+        if (0..self.lines.len()).any(outside) {
+            return None;
+        }
+        let mut whole = self.body.stiffness;
+        let mut tension_n = vec![0.0; self.lines.len()];
+        let mut rows = DMatrix::zeros(taut.len(), 3);
+        for (k, (line, tension)) in taut.iter().zip(tension).enumerate() {
+            tension_n[*line] = *tension;
+            whole += pulls[*line].bend() * *tension;
+            rows.row_mut(k).copy_from(&pulls[*line].row());
+        }
+        let motions = null_space(&rows);
+        let stiffness = reduced(&whole, &motions);
+        let stiff = stiffness.clone().symmetric_eigenvalues();
+        let least = SINGULAR * self.force / self.length;
+        if stiff.iter().any(|value| *value <= least) {
+            return None;
+        }
+        Some(Rest {
+            q,
+            taut: taut.to_vec(),
+            tension_n,
+            slack_m,
+            motions,
+            stiffness,
+            whole,
+        })
+    }
+}
+
+/// An orthonormal basis of the vectors that all rows are orthogonal to: what Gram and Schmidt leave
+/// of the axes after the rows, the one that most is left of first.
+fn null_space(rows: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut known: Vec<DVector<f64>> = Vec::new();
+    let left = |vector: DVector<f64>, known: &[DVector<f64>]| {
+        // Twice is enough for orthogonality to rounding.
+        let once = |vector: DVector<f64>| {
+            known
+                .iter()
+                .fold(vector, |left, one| &left - one * one.dot(&left))
+        };
+        once(once(vector))
+    };
+    for row in rows.row_iter() {
+        let vector = left(row.transpose(), &known);
+        if vector.norm() > 1e-9 * row.norm() {
+            known.push(vector.normalize());
+        }
+    }
+    let held = known.len();
+    let axis = |i: usize| DVector::from_fn(3, |k, _| if k == i { 1.0 } else { 0.0 });
+    while known.len() < 3 {
+        let vectors = (0..3).map(|i| left(axis(i), &known));
+        let longest = vectors.max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        match longest {
+            Some(vector) => known.push(vector.normalize()),
+            None => break,
+        }
+    }
+    DMatrix::from_fn(3, 3 - held, |i, k| known[held + k][i])
+}
+
+impl Rest {
+    /// Natural motions about this place with the taut lines taut: without damping by A(ω) of the
+    /// file, NᵀHN − ω² Nᵀ(M + A(ω))N, and with the memory's.
+    ///
+    /// # Errors
+    /// [`HydroError::Impossible`] if mass and added mass are not positive definite.
+    pub fn natural(
+        &self,
+        hydro: &Hydrodynamics,
+        body: &Body,
+        memory: &Memory,
+        added_mass_inf: &Matrix3<f64>,
+    ) -> Result<(Vec<Natural>, Vec<Mode>), HydroError> {
+        if self.motions.ncols() == 0 {
+            return Ok((Vec::new(), Vec::new()));
+        }
+        let found = natural(hydro, &body.mass, &self.whole, &self.motions)?;
+        let matrix = state_matrix(body, &self.whole, memory, added_mass_inf, &self.motions)?;
+        let modes = nearest(matrix, &found)?;
+        Ok((found, modes))
+    }
+}

@@ -1,0 +1,469 @@
+//! Linear answers against results of independent code, made from the same files (`linear.json`,
+//! `decay.json`, `rests.json`): natural periods, response, decay, rest.
+
+use crate::common::{hydro, reference};
+use nalgebra::{Complex, Matrix3, Vector3};
+use serde_json::Value;
+use snapload_hydro::{
+    Body, Fit, FitOptions, Hydrodynamics, Line, Memory, Rest, TermRow, Weight, decay,
+    decay_of_the_damping, eigenvalues, fit, natural_of_the_file, natural_of_the_memory,
+    response_of_the_file, response_of_the_memory, rest, swings,
+};
+
+fn file(body: &str) -> &'static str {
+    match body {
+        "pontoon" => "pontoon-deep.nc",
+        "cylinder" => "cylinder.nc",
+        "sphere" => "sphere.nc",
+        other => unreachable!("{other}"),
+    }
+}
+
+fn matrix(value: &Value) -> Matrix3<f64> {
+    let rows: [[f64; 3]; 3] = serde_json::from_value(value.clone()).expect("a matrix");
+    Matrix3::from_fn(|i, j| rows[i][j])
+}
+
+/// The memory and A∞ that the other program used.
+fn given(body: &str) -> (Memory, Matrix3<f64>) {
+    let fits = reference("fits.json");
+    let rows: Vec<TermRow> = serde_json::from_value(fits[body]["memory"].clone()).expect("rows");
+    let inf = matrix(&fits[body]["added_mass_inf"]);
+    (Memory::from_rows(&rows).expect("a memory"), inf)
+}
+
+/// The body of a table's case, with its own numbers.
+fn body(case: &Value, hydro: &Hydrodynamics) -> Body {
+    let number = |name: &str| case[name].as_f64().expect("a number");
+    let mut body = Body::new(hydro, &Weight::default()).expect("a body");
+    body.mass_kg = number("mass");
+    body.mass = matrix(&case["mass_matrix"]);
+    body.stiffness = matrix(&case["stiffness"]);
+    let force: [f64; 3] = serde_json::from_value(case["constant_force"].clone()).expect("forces");
+    body.constant_force = Vector3::from(force);
+    body
+}
+
+fn near(found: f64, expected: f64, part: f64, what: &str) {
+    let error = (found - expected).abs();
+    assert!(
+        error <= part * expected.abs(),
+        "{what}: {found}, not {expected}"
+    );
+}
+
+/// Mass matrix, stiffness and constant force of another weight than the file's are those of the
+/// table.
+#[test]
+fn bodies_follow_from_file_and_weight() {
+    let mut cases: Vec<(String, Value)> = Vec::new();
+    for (_, entry) in reference("rests.json").as_object().expect("rests") {
+        let name = entry["body"].as_str().expect("a name").to_owned();
+        cases.push((name, entry["case"].clone()));
+    }
+    for (name, entry) in reference("linear.json").as_object().expect("cases") {
+        cases.push((name.clone(), entry["case"].clone()));
+    }
+    for (name, case) in cases {
+        let hydro = hydro(file(&name));
+        let mass = matrix(&case["mass_matrix"]);
+        let m = case["mass"].as_f64().expect("a mass");
+        let centre: [f64; 2] =
+            serde_json::from_value(case["centre_of_gravity"].clone()).expect("a place");
+        let arm = [0, 1].map(|axis| centre[axis] - hydro.reference_m[axis]);
+        let weight = Weight {
+            mass_kg: Some(m),
+            centre_m: Some(centre),
+            inertia_kg_m2: Some(mass[(2, 2)] - m * (arm[0] * arm[0] + arm[1] * arm[1])),
+        };
+        let body = Body::new(&hydro, &weight).expect("a body");
+        assert!((body.mass - mass).amax() < 1e-9 * mass.amax(), "{name}");
+        let stiffness = matrix(&case["stiffness"]);
+        let off = (body.stiffness - stiffness).amax();
+        assert!(
+            off < 1e-9 * stiffness.amax(),
+            "{name}: {}{stiffness}",
+            body.stiffness
+        );
+        let force: [f64; 3] =
+            serde_json::from_value(case["constant_force"].clone()).expect("forces");
+        // The table's constant force has loads of the user's in surge and pitch.
+        let off = (body.constant_force[1] - force[1]).abs();
+        assert!(off < 1e-6 * m, "{name}: {}", body.constant_force);
+    }
+}
+
+/// Without a line: the periods of det(C − ω²(M + A(ω))), and all eigenvalues of body and memory.
+#[test]
+fn natural_periods_agree() {
+    for (name, entry) in reference("linear.json").as_object().expect("cases") {
+        let hydro = hydro(file(name));
+        let body = body(&entry["case"], &hydro);
+        let mut expected: Vec<f64> = entry["periods"]
+            .as_array()
+            .expect("periods")
+            .iter()
+            .map(|row| row["omega"].as_f64().expect("a number"))
+            .collect();
+        expected.sort_by(f64::total_cmp);
+        let natural = natural_of_the_file(&hydro, &body).expect("motions");
+        assert_eq!(natural.len(), expected.len(), "{natural:?}");
+        for (found, expected) in natural.iter().zip(&expected) {
+            near(found.omega_rad_s, *expected, 1e-9, name);
+            assert!(!found.outside);
+        }
+        let (memory, inf) = given(name);
+        let found = eigenvalues(&body, &memory, &inf).expect("eigenvalues");
+        let rows = entry["eigenvalues_of_the_exponentials"]
+            .as_array()
+            .expect("a list");
+        for row in rows {
+            let [re, im]: [f64; 2] = serde_json::from_value(row.clone()).expect("a pair");
+            let aim = Complex::new(re, im);
+            let nearest = found
+                .iter()
+                .map(|value| (value - aim).norm())
+                .fold(9.0, f64::min);
+            assert!(
+                nearest < 1e-7 * aim.norm(),
+                "{name}: {aim} is off by {nearest}"
+            );
+        }
+        let modes = natural_of_the_memory(&body, &memory, &inf, &natural).expect("modes");
+        for (mode, natural) in modes.iter().zip(&natural) {
+            // The table's eigenvalue that is nearest to the undamped motion's.
+            let aim = Complex::new(0.0, natural.omega_rad_s);
+            let row = rows.iter().map(|row| {
+                let [re, im]: [f64; 2] = serde_json::from_value(row.clone()).expect("a pair");
+                Complex::new(re, im)
+            });
+            let nearest = row.min_by(|a, b| (a - aim).norm().total_cmp(&(b - aim).norm()));
+            let nearest = nearest.expect("an eigenvalue");
+            assert!(
+                (mode.eigenvalue - nearest).norm() < 1e-7,
+                "{mode:?} {nearest}"
+            );
+            near(mode.damping_ratio, -nearest.re / nearest.norm(), 1e-6, name);
+            near(
+                mode.period_s,
+                std::f64::consts::TAU / nearest.im,
+                1e-6,
+                name,
+            );
+        }
+    }
+}
+
+/// Response to waves from the file's own coefficients, and from the exponentials.
+#[test]
+fn responses_agree() {
+    for (name, entry) in reference("linear.json").as_object().expect("cases") {
+        let hydro = hydro(file(name));
+        let body = body(&entry["case"], &hydro);
+        let (memory, inf) = given(name);
+        let of_file = response_of_the_file(&hydro, &body, 1.0).expect("a response");
+        let of_memory =
+            response_of_the_memory(&hydro, &body, &memory, &inf, 1.0).expect("a response");
+        for (found, key) in [(of_file, "rao"), (of_memory, "rao_of_the_exponentials")] {
+            let rows: Vec<[[f64; 2]; 3]> =
+                serde_json::from_value(entry[key].clone()).expect("responses");
+            assert_eq!(rows.len(), found.amplitude.len());
+            for (xi, row) in found.amplitude.iter().zip(&rows) {
+                for i in 0..3 {
+                    let off = (xi[i] - Complex::new(row[i][0], row[i][1])).norm();
+                    assert!(off < 1e-9, "{name} {key}: {off}");
+                }
+            }
+        }
+    }
+}
+
+/// With this program's own fit the response is that of the file within the fit's error.
+#[test]
+fn the_fit_answers_as_the_file_does() {
+    let hydro = hydro("pontoon-deep.nc");
+    let Fit {
+        memory,
+        added_mass_inf,
+        ..
+    } = fit(&hydro, FitOptions::default()).expect("a fit");
+    let body = Body::new(&hydro, &Weight::default()).expect("a body");
+    for direction in [1.0, -1.0] {
+        let of_file = response_of_the_file(&hydro, &body, direction).expect("a response");
+        let of_memory = response_of_the_memory(&hydro, &body, &memory, &added_mass_inf, direction);
+        let of_memory = of_memory.expect("a response");
+        for i in 0..3 {
+            let largest = of_file
+                .amplitude
+                .iter()
+                .map(|xi| xi[i].norm())
+                .fold(0.0, f64::max);
+            for (a, b) in of_file.amplitude.iter().zip(&of_memory.amplitude) {
+                let off = (a[i] - b[i]).norm();
+                assert!(off < 0.01 * largest, "{i}: {a}{b}");
+            }
+        }
+    }
+}
+
+/// Long waves carry the body along: heave with the surface, surge ahead of it by a quarter, and
+/// pitch with its slope. In a sea of a single frequency the root mean square is that of a sinusoid.
+#[test]
+fn long_waves_carry_the_body() {
+    let hydro = hydro("sphere.nc");
+    let body = Body::new(&hydro, &Weight::default()).expect("a body");
+    let response = response_of_the_file(&hydro, &body, 1.0).expect("a response");
+    let first = response.amplitude[0];
+    assert!((first[1] - Complex::new(1.0, 0.0)).norm() < 1e-4);
+    assert!((first[0] - Complex::new(0.0, 1.0)).norm() < 2e-3);
+    let at = 20;
+    let (omega, width) = (response.omega_rad_s[at], 0.004);
+    let narrow = |w: f64| {
+        if (w - omega).abs() < width / 2.0 {
+            1.0 / width
+        } else {
+            0.0
+        }
+    };
+    let (rms, covered) = response.in_a_sea(narrow);
+    assert!((covered - 1.0).abs() < 1e-9);
+    // The trapezoidal rule sees three or four points of this band.
+    let expected = response.amplitude[at][1].norm();
+    assert!(
+        (rms[1] / expected - 1.0).abs() < 0.2,
+        "{} {expected}",
+        rms[1]
+    );
+    let smooth = |w: f64| (-(w - 1.0).powi(2) / 0.02).exp();
+    let variance = (std::f64::consts::PI * 0.02).sqrt();
+    let long = response_of_the_file(&hydro, &body, -1.0).expect("a response");
+    let (a, covered) = response.in_a_sea(smooth);
+    let (b, _) = long.in_a_sea(smooth);
+    assert!(covered > 0.999_999);
+    // Waves from either side are the same to a body that is its own mirror image.
+    assert!((a[0] - b[0]).abs() < 1e-3 * a[0] && (a[1] - b[1]).abs() < 1e-3 * a[1]);
+    assert!(a[1] > 0.9 * variance.sqrt() && a[1] < 2.0 * variance.sqrt());
+}
+
+/// The sphere let go from a metre: by the exponentials to rounding, by the damping without them,
+/// and beside the published curves.
+#[test]
+fn the_sphere_decays_as_others_say() {
+    let table = reference("decay.json");
+    let hydro = hydro("sphere.nc");
+    let body = body(&reference("linear.json")["sphere"]["case"], &hydro);
+    let (memory, inf) = given("sphere");
+    let list =
+        |name: &str| -> Vec<f64> { serde_json::from_value(table[name].clone()).expect("numbers") };
+    let (t, expected) = (list("t"), list("of_the_exponentials"));
+    let start = Vector3::new(0.0, 1.0, 0.0);
+    let found = decay(&body, &memory, &inf, start, [30.0, 0.05]).expect("a decay");
+    assert_eq!(found.q.len(), expected.len());
+    for (k, q) in found.q.iter().enumerate() {
+        assert!((found.t_s[k] - t[k]).abs() < 1e-12);
+        assert!(
+            (q[1] - expected[k]).abs() < 1e-10,
+            "{}: {} {}",
+            t[k],
+            q[1],
+            expected[k]
+        );
+        assert!(q[0].abs() < 1e-12 && q[2].abs() < 1e-12);
+    }
+    let expected = list("of_the_damping_curve");
+    let found_damping = decay_of_the_damping(&hydro, &body, &inf, 1.0, &t);
+    for (k, x) in found_damping.iter().enumerate() {
+        let off = (x - expected[k]).abs();
+        assert!(off < 1e-5, "{}: {x} {}", t[k], expected[k]);
+    }
+    // As far from each participant's curve as the other program is: they spread by 3 % of the
+    // start, the nearest is within 0.4 % (IEA OES Task 10).
+    let published = table["published"]["1 m"].as_object().expect("curves");
+    for (name, published) in published {
+        let curve = |key: &str| -> Vec<f64> {
+            serde_json::from_value(published[key].clone()).expect("numbers")
+        };
+        let (times, values) = (curve("t"), curve("heave"));
+        let off = |(t, value): (&f64, &f64)| {
+            let at = (t / 0.05).round() as usize;
+            (found.q[at][1] - value).powi(2)
+        };
+        let sum: f64 = times.iter().zip(&values).map(off).sum();
+        let rms = (sum / times.len() as f64).sqrt();
+        let expected = published["rms_relative"].as_f64().expect("a number");
+        assert!((rms - expected).abs() < 2e-5, "{name}: {rms} {expected}");
+    }
+    let swings = swings(&found, 1);
+    near(swings[0].amplitude, 1.0, 1e-12, "the first amplitude");
+    let modes = natural_of_the_memory(
+        &body,
+        &memory,
+        &inf,
+        &natural_of_the_file(&hydro, &body).expect("motions"),
+    );
+    let modes = modes.expect("modes");
+    // Later swings are those of the slowest oscillation.
+    let heave = modes
+        .iter()
+        .min_by(|a, b| b.period_s.total_cmp(&a.period_s))
+        .expect("a mode");
+    near(swings[2].period_s, heave.period_s, 5e-3, "the period");
+    near(
+        swings[2].damping_ratio,
+        heave.damping_ratio,
+        3e-2,
+        "the damping ratio",
+    );
+}
+
+fn lines(case: &Value) -> Vec<Line> {
+    let pair =
+        |value: &Value| -> [f64; 2] { serde_json::from_value(value.clone()).expect("a place") };
+    let line = |line: &Value| Line {
+        anchor_m: pair(&line["anchor"]),
+        fairlead_m: pair(&line["fairlead_body"]),
+        length_m: line["length"].as_f64().expect("a length"),
+    };
+    case["lines"]
+        .as_array()
+        .expect("lines")
+        .iter()
+        .map(line)
+        .collect()
+}
+
+/// The place of rest on lines, tensions, which lines are slack, and small motion about it.
+#[test]
+fn rests_agree() {
+    for (name, entry) in reference("rests.json").as_object().expect("rests") {
+        let of = entry["body"].as_str().expect("a name");
+        let hydro = hydro(file(of));
+        let body = body(&entry["case"], &hydro);
+        let lines = lines(&entry["case"]);
+        let result = &entry["result"];
+        let found = rest(&hydro, &body, &lines).expect(name);
+        let q: [f64; 3] = serde_json::from_value(result["q"].clone()).expect("a place");
+        for i in 0..3 {
+            assert!(
+                (found.q[i] - q[i]).abs() < 1e-11,
+                "{name}: {} {q:?}",
+                found.q
+            );
+        }
+        let taut: Vec<usize> = serde_json::from_value(result["taut"].clone()).expect("lines");
+        assert_eq!(
+            found.taut.iter().map(|line| line + 1).collect::<Vec<_>>(),
+            taut,
+            "{name}"
+        );
+        let tensions: Vec<f64> =
+            serde_json::from_value(result["tension"].clone()).expect("tensions");
+        for (found, expected) in found.tension_n.iter().zip(&tensions) {
+            near(*found, *expected, 1e-10, name);
+        }
+        small_motion(name, &found, result, &hydro, &body, of);
+    }
+}
+
+fn small_motion(
+    name: &str,
+    found: &Rest,
+    result: &Value,
+    hydro: &Hydrodynamics,
+    body: &Body,
+    of: &str,
+) {
+    let (memory, inf) = given(of);
+    let natural = &result["natural"];
+    let (undamped, modes) = found.natural(hydro, body, &memory, &inf).expect("motions");
+    let expected = natural["undamped"].as_array().expect("a list");
+    assert_eq!(undamped.len(), expected.len(), "{name}");
+    for row in expected {
+        let omega = row["omega"].as_f64().expect("a number");
+        let found = undamped
+            .iter()
+            .map(|motion| (motion.omega_rad_s - omega).abs());
+        let off = found.fold(9.0, f64::min);
+        assert!(
+            off < 1e-9 * omega,
+            "{name}: ω = {omega} is off by {off}, {undamped:?}"
+        );
+    }
+    for row in natural["of_the_exponentials"].as_array().expect("a list") {
+        let [re, im]: [f64; 2] = serde_json::from_value(row["eigenvalue"].clone()).expect("λ");
+        let aim = Complex::new(re, im);
+        let nearest = modes.iter().min_by(|a, b| {
+            (a.eigenvalue - aim)
+                .norm()
+                .total_cmp(&(b.eigenvalue - aim).norm())
+        });
+        let mode = nearest.expect("a mode");
+        assert!(
+            (mode.eigenvalue - aim).norm() < 1e-9 * aim.norm(),
+            "{name}: {aim} {mode:?}"
+        );
+        let ratio = row["damping_ratio"].as_f64().expect("a number");
+        near(mode.damping_ratio, ratio, 1e-7, name);
+    }
+}
+
+/// No line holds the body in surge, or the weight is more than lines from below can hold: said.
+#[test]
+fn no_place_of_rest_is_said() {
+    let hydro = hydro("sphere.nc");
+    let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
+    let words = rest(&hydro, &body, &[]).expect_err("a refusal").to_string();
+    assert!(words.contains("surge"), "{words}");
+    // Half the weight more than it can carry, and a line from below.
+    body.constant_force[1] = -5.0 * body.stiffness[(1, 1)];
+    let line = Line {
+        anchor_m: [0.0, -40.0],
+        fairlead_m: [0.0, -3.0],
+        length_m: 35.0,
+    };
+    assert!(rest(&hydro, &body, &[line]).is_err());
+    let short = Line {
+        length_m: 0.0,
+        ..line
+    };
+    let words = rest(&hydro, &body, &[short])
+        .expect_err("a refusal")
+        .to_string();
+    assert!(words.contains("length of line 1"), "{words}");
+}
+
+/// What is needed for a body and is nowhere is asked for; masses that can not be are refused.
+#[test]
+fn bodies_ask_for_what_they_need() {
+    let whole = hydro("sphere.nc");
+    let mut bare = whole.clone();
+    bare.hydrostatics.stiffness = None;
+    let refused = |hydro: &Hydrodynamics, weight: Weight| {
+        Body::new(hydro, &weight)
+            .expect_err("a refusal")
+            .to_string()
+    };
+    assert!(refused(&bare, Weight::default()).contains("hydrostatic stiffness is missing"));
+    let mut bare = whole.clone();
+    bare.hydrostatics.displaced_mass_kg = None;
+    assert!(refused(&bare, Weight::default()).contains("the mass is missing"));
+    let heavy = Weight {
+        mass_kg: Some(-3.0),
+        ..Weight::default()
+    };
+    assert!(refused(&whole, heavy).contains("above 0"));
+    // A centre of gravity so low that the matrix of masses is not positive definite can not be had
+    // with an inertia about it; with the file's inertia about the reference point it can.
+    let low = Weight {
+        centre_m: Some([0.0, -400.0]),
+        ..Weight::default()
+    };
+    let body = Body::new(&whole, &low).expect("a body");
+    let inf = whole.added_mass_inf.expect("A(∞)");
+    assert!(
+        body.with_added_mass(&inf)
+            .expect_err("a refusal")
+            .to_string()
+            .contains("definite")
+    );
+}
