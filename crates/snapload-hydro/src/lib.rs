@@ -11,6 +11,7 @@ mod error;
 mod linear;
 mod memory;
 mod read;
+mod report;
 mod sections;
 mod spline;
 
@@ -32,5 +33,6 @@ pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,
 };
+pub use report::{Floating, GivenMemory, Json, Report, Request, page};
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use spline::Spline;

@@ -1,0 +1,187 @@
+//! What is said of coefficients: in a few lines, as JSON, and as a page with pictures.
+
+mod json;
+mod page;
+mod plots;
+mod words;
+
+pub use json::Json;
+pub use page::page;
+
+use crate::error::{HydroError, Warning};
+use crate::linear::{
+    Body, Line, Mode, Natural, Response, Rest, Weight, natural_of_the_file, natural_of_the_memory,
+    response_of_the_file, response_of_the_memory, rest,
+};
+use crate::memory::{Fit, FitOptions, TermRow, fit, given};
+use crate::read::Reading;
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Radiation damping of pitch below this part of critical is not all that stops a resonance.
+const WEAK: f64 = 0.02;
+
+/// A memory that was computed before, as it stands in this program's JSON.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GivenMemory {
+    /// A∞ by rows.
+    pub added_mass_inf: [[f64; 3]; 3],
+    /// The exponentials.
+    pub memory: Vec<TermRow>,
+}
+
+/// What is to be said, and of what body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Request {
+    /// The body's weight; what is not given is the file's.
+    pub weight: Weight,
+    /// Linear damping of each freedom beside that of waves \[N s/m, N s/m, N m s\].
+    pub damping: [f64; 3],
+    /// A constant force beside weight and buoyancy \[N, N, N m\].
+    pub force: [f64; 3],
+    /// Lines.
+    pub lines: Vec<Line>,
+    /// How the memory is fitted.
+    pub fit: FitOptions,
+    /// The memory, if it is given and not fitted.
+    pub memory: Option<GivenMemory>,
+}
+
+/// The answers that need the body's weight and stiffness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floating {
+    /// The body.
+    pub body: Body,
+    /// Natural motions without lines, by the file.
+    pub natural: Vec<Natural>,
+    /// The same by the exponentials.
+    pub modes: Vec<Mode>,
+    /// Response to waves for each direction, by the file and by the exponentials.
+    pub responses: Vec<[Response; 2]>,
+    /// Rest on lines with the small motion about it, if there are lines.
+    pub rest: Option<(Rest, Vec<Natural>, Vec<Mode>)>,
+}
+
+/// Everything that is said.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The name of the file.
+    pub name: String,
+    /// The coefficients.
+    pub reading: Reading,
+    /// The memory.
+    pub fit: Fit,
+    /// The answers that need weight and stiffness, or why there are none.
+    pub floating: Result<Floating, HydroError>,
+    /// What to know, of the file, of the fit, of the answers.
+    pub warnings: Vec<Warning>,
+}
+
+impl Report {
+    /// Fits the memory and answers.
+    ///
+    /// # Errors
+    /// A [`HydroError`] if no memory is found, or lines and weights can not be. A file that lacks
+    /// weight or stiffness has the answers that do not need them.
+    pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
+        let fit = match &request.memory {
+            Some(memory) => given(&reading.hydro, memory.added_mass_inf, &memory.memory)?,
+            None => fit(&reading.hydro, request.fit)?,
+        };
+        let floating = match Body::new(&reading.hydro, &request.weight) {
+            Ok(body) => Ok(Floating::new(&reading, &fit, body, request)?),
+            Err(error @ HydroError::Missing { .. }) if request.lines.is_empty() => Err(error),
+            Err(error) => return Err(error),
+        };
+        let mut warnings = reading.warnings.clone();
+        warnings.extend(fit.warnings.clone());
+        if let Ok(floating) = &floating {
+            floating.warn(&reading, &mut warnings);
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            reading,
+            fit,
+            floating,
+            warnings,
+        })
+    }
+}
+
+impl Floating {
+    fn new(
+        reading: &Reading,
+        fit: &Fit,
+        mut body: Body,
+        request: &Request,
+    ) -> Result<Self, HydroError> {
+        let hydro = &reading.hydro;
+        body.damping += fit.damping + Matrix3::from_diagonal(&request.damping.into());
+        body.constant_force += Vector3::from(request.force);
+        let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
+        let natural = natural_of_the_file(hydro, &body)?;
+        let modes = natural_of_the_memory(&body, memory, inf, &natural)?;
+        let mut responses = Vec::new();
+        for excitation in &hydro.excitation {
+            let direction = excitation.direction;
+            responses.push([
+                response_of_the_file(hydro, &body, direction)?,
+                response_of_the_memory(hydro, &body, memory, inf, direction)?,
+            ]);
+        }
+        let rest = match request.lines.is_empty() {
+            true => None,
+            false => {
+                let place = rest(hydro, &body, &request.lines)?;
+                let (natural, modes) = place.natural(hydro, &body, memory, inf)?;
+                Some((place, natural, modes))
+            }
+        };
+        Ok(Self {
+            body,
+            natural,
+            modes,
+            responses,
+            rest,
+        })
+    }
+
+    fn warn(&self, reading: &Reading, warnings: &mut Vec<Warning>) {
+        let [low, high] = reading.hydro.range_rad_s();
+        let held = self.rest.iter().flat_map(|(_, natural, _)| natural);
+        for natural in self
+            .natural
+            .iter()
+            .chain(held)
+            .filter(|natural| natural.outside)
+        {
+            let words = format!(
+                "a natural period of {:.2} s lies outside the file's frequencies, {low:.3} to \
+                 {high:.3} rad/s; compute them",
+                natural.period_s
+            );
+            warnings.push(Warning::new("natural periods", words));
+        }
+        let pitch = self.natural.iter().zip(&self.modes);
+        for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
+            if mode.damping_ratio < WEAK && self.body.damping[(2, 2)] == 0.0 {
+                let words = format!(
+                    "waves damp pitch by {:.1} % of critical only, and no other damping was given: its \
+                     resonance is not to be believed without",
+                    100.0 * mode.damping_ratio
+                );
+                warnings.push(Warning::new("pitch", words));
+            }
+        }
+        if let Some((rest, ..)) = &self.rest
+            && rest.q[2].abs() > 0.05
+        {
+            let words = format!(
+                "the body rests at {:.1}° of pitch, and the file was made for 0; make it again \
+                 there",
+                rest.q[2].to_degrees()
+            );
+            warnings.push(Warning::new("place of rest", words));
+        }
+    }
+}

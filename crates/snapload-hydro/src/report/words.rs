@@ -1,0 +1,143 @@
+//! The answers in a few lines of text, each a label and its words.
+
+use super::{Floating, Report};
+use crate::coefficients::FREEDOMS;
+use crate::linear::{Mode, Natural};
+
+impl Report {
+    /// Labels with their words, the most important first.
+    pub fn summary(&self) -> Vec<(String, String)> {
+        let mut rows = Vec::new();
+        let mut say = |label: &str, words: String| rows.push((label.to_owned(), words));
+        let hydro = &self.reading.hydro;
+        let [low, high] = hydro.range_rad_s();
+        let depth = match hydro.water.depth_m.is_finite() {
+            true => format!("{} m deep", hydro.water.depth_m),
+            false => "deep".to_owned(),
+        };
+        say(
+            "file",
+            format!(
+                "{}, {} frequencies from {low:.3} to {high:.3} rad/s, {} direction{}; water of {} \
+                 kg/m³, {depth}; about ({}, {}) m",
+                self.reading.format,
+                hydro.omega_rad_s.len(),
+                hydro.excitation.len(),
+                if hydro.excitation.len() == 1 { "" } else { "s" },
+                hydro.water.density_kg_m3,
+                hydro.reference_m[0],
+                hydro.reference_m[1],
+            ),
+        );
+        say("memory", self.memory_words());
+        match &self.floating {
+            Ok(floating) => floating.say(&mut say),
+            Err(error) => say("not told", format!("periods and response: {error}")),
+        }
+        for warning in &self.warnings {
+            say("warning", format!("{}: {}", warning.what, warning.words));
+        }
+        rows
+    }
+
+    fn memory_words(&self) -> String {
+        let fit = &self.fit;
+        let worst = |of: fn(&crate::memory::EntryQuality) -> f64| {
+            100.0 * fit.entries.iter().map(of).fold(0.0, f64::max)
+        };
+        let how = match fit.blocks.as_slice() {
+            [] => "given".to_owned(),
+            blocks => {
+                let block = |block: &crate::memory::BlockQuality| {
+                    let names = block.freedoms.iter().map(|i| FREEDOMS[*i]);
+                    let names = names.collect::<Vec<_>>().join(" and ");
+                    format!("{} pairs of poles for {names}", block.pairs)
+                };
+                blocks.iter().map(block).collect::<Vec<_>>().join(", ")
+            }
+        };
+        let damped = fit.blocks.iter().any(|block| block.damped);
+        format!(
+            "{how}, {} states; off the file by {:.2} % (root mean square), off K(t) by {:.2} %, {:.1} % \
+             at worst; {}",
+            fit.memory.states(),
+            worst(|entry| entry.rms),
+            worst(|entry| entry.kernel_rms),
+            worst(|entry| entry.worst_kernel),
+            if damped { "damping added" } else { "passive" },
+        )
+    }
+}
+
+impl Floating {
+    fn say(&self, say: &mut impl FnMut(&str, String)) {
+        let body = &self.body;
+        say(
+            "body",
+            format!(
+                "{:.4} t, centre of gravity ({}, {}) m, {:.4} t m² about the reference point; stiffness \
+                 {:.4} kN/m in heave, {:.4} kN m in pitch",
+                body.mass_kg / 1e3,
+                body.centre_m[0],
+                body.centre_m[1],
+                body.mass[(2, 2)] / 1e3,
+                body.stiffness[(1, 1)] / 1e3,
+                body.stiffness[(2, 2)] / 1e3,
+            ),
+        );
+        say("periods", periods(&self.natural, &self.modes));
+        for [response, _] in &self.responses {
+            let to = if response.direction > 0.0 {
+                "+x"
+            } else {
+                "−x"
+            };
+            let peaks = (0..3).map(|i| {
+                let sizes = response.amplitude.iter().map(|xi| xi[i].norm());
+                let peak = sizes.zip(&response.omega_rad_s);
+                let (size, omega) = peak.fold((0.0, 0.0), |most, (size, omega)| {
+                    if size > most.0 { (size, *omega) } else { most }
+                });
+                let (size, unit) = match i {
+                    2 => (size.to_degrees(), "°/m"),
+                    _ => (size, "m/m"),
+                };
+                let period = 2.0 * std::f64::consts::PI / omega;
+                format!("{} {size:.2} {unit} at {period:.2} s", FREEDOMS[i])
+            });
+            let words = peaks.collect::<Vec<_>>().join(", ");
+            say("response", format!("waves to {to}, at most: {words}"));
+        }
+        if let Some((rest, natural, modes)) = &self.rest {
+            let tensions = rest.tension_n.iter().map(|t| format!("{:.2}", t / 1e3));
+            let words = format!(
+                "surge {:.4} m, heave {:.4} m, pitch {:.3}°; tensions {} kN",
+                rest.q[0],
+                rest.q[1],
+                rest.q[2].to_degrees(),
+                tensions.collect::<Vec<_>>().join(", "),
+            );
+            say("rest", words);
+            if !natural.is_empty() {
+                say("held", periods(natural, modes));
+            }
+        }
+    }
+}
+
+fn periods(natural: &[Natural], modes: &[Mode]) -> String {
+    let one = |(natural, mode): (&Natural, &Mode)| {
+        format!(
+            "{} {:.3} s undamped, {:.3} s with {:.2} % of critical damping",
+            FREEDOMS[natural.freedom],
+            natural.period_s,
+            mode.period_s,
+            100.0 * mode.damping_ratio
+        )
+    };
+    let all: Vec<String> = natural.iter().zip(modes).map(one).collect();
+    match all.is_empty() {
+        true => "none: nothing rights the body".to_owned(),
+        false => all.join("; "),
+    }
+}
