@@ -12,10 +12,16 @@ mod certify;
 mod completions;
 mod critical;
 #[cfg(feature = "structure")]
+mod decay;
+#[cfg(feature = "structure")]
 mod elastic;
 #[cfg(feature = "explore")]
 mod explore;
 mod failure;
+#[cfg(feature = "structure")]
+mod hydro;
+#[cfg(feature = "structure")]
+mod hydro_input;
 mod interrupt;
 mod json;
 mod keys;
@@ -65,6 +71,8 @@ Examples:
                                                a map of 3060 cases
   snapload assess cylinder.toml --out note.html
                                                a structure in metres, with waves: do its lines break?
+  snapload hydro pontoon.nc --out pontoon.html
+                                               a floating body's coefficients: memory, periods, response
   snapload explore                             the standard case on a page in the browser, to look at and change
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
@@ -95,6 +103,12 @@ enum Verb {
     /// Run a structure on lines that stretch, beside the same on lines that do not
     #[cfg(feature = "structure")]
     Elastic(elastic::Args),
+    /// Look at the hydrodynamics of a floating body: memory, natural periods, response to waves
+    #[cfg(feature = "structure")]
+    Hydro(hydro::Args),
+    /// Let a floating body go in still water: periods and damping of its swings
+    #[cfg(feature = "structure")]
+    Decay(decay::Args),
     /// Read a MoorDyn file as a structure's case, or write a case for MoorDyn
     #[cfg(feature = "structure")]
     Moordyn(moordyn::Args),
@@ -136,6 +150,10 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
         Verb::Seas(args) => seas::run(&args),
         #[cfg(feature = "structure")]
         Verb::Elastic(args) => elastic::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Hydro(args) => hydro::run(&args),
+        #[cfg(feature = "structure")]
+        Verb::Decay(args) => decay::run(&args),
         #[cfg(feature = "structure")]
         Verb::Moordyn(args) => moordyn::run(&args),
         #[cfg(feature = "explore")]

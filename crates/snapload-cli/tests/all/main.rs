@@ -7,6 +7,7 @@ mod command_line;
 mod common;
 mod documents;
 mod explore;
+mod hydro;
 mod physics;
 mod report;
 mod structure;

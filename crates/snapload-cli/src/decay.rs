@@ -1,0 +1,141 @@
+//! `snapload decay`: a floating body let go in still water.
+use crate::failure::Failure;
+use crate::hydro_input::{HydroArgs, triple};
+use crate::structure_input::Answers;
+use serde::Serialize;
+use snapload_hydro::{Decay, FREEDOMS, Swing, decay, swings};
+use snapload_structure::told;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
+/// Swings that are printed.
+const SHOWN: usize = 8;
+
+/// Which file, from where, for how long.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    input: HydroArgs,
+    /// Where it is let go: surge and heave in m, pitch in rad
+    #[arg(long, value_name = "Q1,Q3,Q5", value_parser = triple, allow_hyphen_values = true, default_value = "0,1,0")]
+    from: [f64; 3],
+    /// How long it is watched, in s
+    #[arg(long, value_name = "NUMBER", default_value_t = 40.0)]
+    duration: f64,
+    /// The time between rows, in s
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.05)]
+    step: f64,
+    /// Write the motion as a table (CSV)
+    #[arg(long, value_name = "DECAY.csv")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    file: String,
+    from: [f64; 3],
+    t_s: &'a [f64],
+    surge_m: Vec<f64>,
+    heave_m: Vec<f64>,
+    pitch_rad: Vec<f64>,
+    swings: Vec<SwingRow>,
+}
+
+#[derive(Serialize)]
+struct SwingRow {
+    freedom: &'static str,
+    from_s: f64,
+    amplitude: f64,
+    period_s: f64,
+    damping_ratio: f64,
+}
+
+/// Does it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let name = args.input.name();
+    let bad = |error| Failure::bad_input(error).with_prefix(&name);
+    let report = args.input.report(Vec::new(), None)?;
+    let floating = report
+        .floating
+        .as_ref()
+        .map_err(|error| bad(error.clone()))?;
+    let times = [args.duration, args.step];
+    let fit = &report.fit;
+    let from = args.from;
+    if from == [0.0; 3] || from.iter().any(|q| !q.is_finite()) {
+        return Err(Failure::bad_input(
+            "--from 0,0,0: the body has to be let go from somewhere",
+        ));
+    }
+    let motion = decay(
+        &floating.body,
+        &fit.memory,
+        &fit.added_mass_inf,
+        from,
+        times,
+    );
+    let motion = motion.map_err(bad)?;
+    if args.out.is_some() {
+        answers.write(|out| out.write_all(table(&motion).as_bytes()))?;
+    }
+    let mut text = format!("{name}\n");
+    let mut rows = Vec::new();
+    for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
+        let swings = swings(&motion, freedom);
+        text += &told(called, &words(&swings, freedom));
+        rows.extend(swings.into_iter().map(|swing| SwingRow {
+            freedom: called,
+            from_s: swing.from_s,
+            amplitude: swing.amplitude,
+            period_s: swing.period_s,
+            damping_ratio: swing.damping_ratio,
+        }));
+    }
+    for warning in &report.warnings {
+        text += &told("warning", &format!("{}: {}", warning.what, warning.words));
+    }
+    let of = |i: usize| motion.q.iter().map(|q| q[i]).collect();
+    let answer = Answer {
+        file: name.clone(),
+        from: args.from,
+        t_s: &motion.t_s,
+        surge_m: of(0),
+        heave_m: of(1),
+        pitch_rad: of(2),
+        swings: rows,
+    };
+    answers.finish(&answer, text)
+}
+
+fn words(swings: &[Swing], freedom: usize) -> String {
+    if swings.is_empty() {
+        return "it does not swing".to_owned();
+    }
+    let unit = ["m", "m", "rad"][freedom];
+    let one = |swing: &Swing| {
+        format!(
+            "{:.4} {unit} at {:.2} s, then {:.3} s with {:.2} % of critical damping",
+            swing.amplitude,
+            swing.from_s,
+            swing.period_s,
+            100.0 * swing.damping_ratio
+        )
+    };
+    // A swing begins at every turning point; those of one side are told.
+    let side = swings.iter().step_by(2).take(SHOWN);
+    side.map(one).collect::<Vec<_>>().join("; ")
+}
+
+fn table(motion: &Decay) -> String {
+    let mut text = "t_s,surge_m,heave_m,pitch_rad\n".to_owned();
+    for (t, q) in motion.t_s.iter().zip(&motion.q) {
+        let _ = writeln!(text, "{t},{},{},{}", q[0], q[1], q[2]);
+    }
+    text
+}

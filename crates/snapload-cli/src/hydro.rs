@@ -1,0 +1,161 @@
+//! `snapload hydro`: a look at the coefficients of a floating body.
+use crate::failure::Failure;
+use crate::hydro_input::{HydroArgs, line, triple};
+use crate::structure_input::Answers;
+use serde::Serialize;
+use snapload_hydro::{FREEDOMS, Line, Report, page};
+use snapload_structure::{IrregularSea, Spectrum, SpectrumShape, told};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = include_str!("../help/hydro.txt").trim_ascii_end();
+
+/// Which file, on which lines, in which sea, and where the answer goes.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    input: HydroArgs,
+    /// A line: anchor, fairlead from the reference point, length, in m; may be repeated
+    #[arg(long, value_name = "AX,AZ,FX,FZ,LENGTH", value_parser = line, allow_hyphen_values = true)]
+    line: Vec<Line>,
+    /// A constant force beside weight and buoyancy, such as current: N, N, N m
+    #[arg(long, value_name = "F1,F3,F5", value_parser = triple, allow_hyphen_values = true)]
+    force: Option<[f64; 3]>,
+    /// Significant wave height in m of a sea to answer for
+    #[arg(long, value_name = "NUMBER", requires = "tp")]
+    hs: Option<f64>,
+    /// Its peak period in s
+    #[arg(long, value_name = "NUMBER", requires = "hs")]
+    tp: Option<f64>,
+    /// Its peakedness; 1 is Pierson and Moskowitz's
+    #[arg(long, value_name = "NUMBER", default_value_t = 3.3)]
+    gamma: f64,
+    /// Write the answer as one self-contained page of HTML, with pictures
+    #[arg(long, value_name = "PAGE.html")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+/// The root mean square of each freedom in a sea.
+#[derive(Serialize)]
+struct SeaRow {
+    direction: f64,
+    hs_m: f64,
+    tp_s: f64,
+    rms: [f64; 3],
+    covered: f64,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(flatten)]
+    report: snapload_hydro::Json<'a>,
+    sea: Vec<SeaRow>,
+}
+
+/// Does it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let report = args.input.report(args.line.clone(), args.force)?;
+    let sea = args.sea(&report)?;
+    if args.out.is_some() {
+        let words: Vec<String> = std::env::args().skip(1).collect();
+        let command = format!("snapload {}", words.join(" "));
+        let page = page(&report, &command)
+            .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
+        answers.write(|out| out.write_all(page.as_bytes()))?;
+    }
+    let mut text = format!("{}\n", report.name);
+    let summary = report.summary();
+    let (told_first, warnings): (Vec<_>, Vec<_>) = summary
+        .into_iter()
+        .partition(|(label, _)| label != "warning");
+    for (label, words) in &told_first {
+        text += &told(label, words);
+    }
+    for row in &sea {
+        text += &told("sea", &row.words());
+    }
+    for (label, words) in &warnings {
+        text += &told(label, words);
+    }
+    let answer = Answer {
+        report: report.to_json(),
+        sea,
+    };
+    answers.finish(&answer, text)
+}
+
+impl Args {
+    fn sea(&self, report: &Report) -> Result<Vec<SeaRow>, Failure> {
+        let (Some(hs), Some(tp)) = (self.hs, self.tp) else {
+            return Ok(Vec::new());
+        };
+        for (name, value) in [("--hs", hs), ("--tp", tp)] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Failure::bad_input(format!(
+                    "{name} {value}: it has to be above 0"
+                )));
+            }
+        }
+        if !(1.0..=20.0).contains(&self.gamma) {
+            let words = format!("--gamma {}: 1 to 20 is allowed", self.gamma);
+            return Err(Failure::BadInput(words));
+        }
+        let spectrum = Spectrum::new(&IrregularSea {
+            significant_height_m: hs,
+            peak_period_s: tp,
+            shape: match self.gamma == 1.0 {
+                true => SpectrumShape::PiersonMoskowitz,
+                false => SpectrumShape::Jonswap(self.gamma),
+            },
+            components: 1,
+            seed: 0,
+        });
+        let [low, high] = spectrum.band_rad_s();
+        let density = |omega: f64| match (low..=high).contains(&omega) {
+            true => spectrum.density(omega),
+            false => 0.0,
+        };
+        let Ok(floating) = &report.floating else {
+            return Ok(Vec::new());
+        };
+        let row = |responses: &[snapload_hydro::Response; 2]| {
+            let (rms, covered) = responses[0].in_a_sea(density);
+            SeaRow {
+                direction: responses[0].direction,
+                hs_m: hs,
+                tp_s: tp,
+                rms,
+                covered,
+            }
+        };
+        Ok(floating.responses.iter().map(row).collect())
+    }
+}
+
+impl SeaRow {
+    fn words(&self) -> String {
+        let to = if self.direction > 0.0 { "+x" } else { "−x" };
+        let [surge, heave, pitch] = self.rms;
+        let part = match self.covered < 0.99 {
+            true => format!(
+                "; the file's frequencies hold only {:.0} % of the sea's energy",
+                100.0 * self.covered
+            ),
+            false => String::new(),
+        };
+        format!(
+            "Hs {} m, Tp {} s to {to}, root mean squares without lines: {} {surge:.3} m, {} {heave:.3} \
+             m, {} {:.2}°{part}",
+            self.hs_m,
+            self.tp_s,
+            FREEDOMS[0],
+            FREEDOMS[1],
+            FREEDOMS[2],
+            pitch.to_degrees(),
+        )
+    }
+}

@@ -1,0 +1,157 @@
+//! What the verbs for coefficients of floating bodies have in common: the file, and what it does
+//! not say.
+use crate::case_input::read_text;
+use crate::failure::Failure;
+use snapload_hydro::{
+    FirstColumn, FitOptions, Given, GivenMemory, HydroError, Line, Report, Request, Weight, read,
+};
+use std::path::{Path, PathBuf};
+
+/// The file of a panel code, the body's weight, and the memory.
+#[derive(clap::Args)]
+pub(crate) struct HydroArgs {
+    /// Capytaine's .nc; WAMIT's .1, .3 or .hst, with the others beside it; Nemoh's folder of
+    /// results
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Density of the water in kg/m³, where the file does not say
+    #[arg(long, value_name = "NUMBER", help_heading = "The file")]
+    density: Option<f64>,
+    /// Gravity in m/s²
+    #[arg(long, value_name = "NUMBER", help_heading = "The file")]
+    gravity: Option<f64>,
+    /// Depth of the water in m, or inf
+    #[arg(long, value_name = "NUMBER", help_heading = "The file")]
+    depth: Option<f64>,
+    /// The point that pitch turns about and motion is counted from
+    #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
+    reference: Option<[f64; 2]>,
+    /// WAMIT's unit of length ULEN in m
+    #[arg(long, value_name = "NUMBER", help_heading = "The file")]
+    unit_length: Option<f64>,
+    /// What the first column of WAMIT's files holds
+    #[arg(long, value_name = "WHAT", default_value = "period", value_parser = ["period", "frequency", "wavenumber"], help_heading = "The file")]
+    first_column: String,
+    /// The mass in kg of the water that the body displaces, where the file does not say
+    #[arg(long, value_name = "NUMBER", help_heading = "The file")]
+    displaced_mass: Option<f64>,
+    /// The centre of gravity that the file's stiffness was made with, where the file does not say
+    #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The file")]
+    file_centre: Option<[f64; 2]>,
+    /// Which body, where the file has several
+    #[arg(long, value_name = "NAME", help_heading = "The file")]
+    body: Option<String>,
+    /// The body's mass in kg; without it that of the water it displaces
+    #[arg(long, value_name = "NUMBER", help_heading = "The body")]
+    mass: Option<f64>,
+    /// Its centre of gravity; without it the file's
+    #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The body")]
+    centre: Option<[f64; 2]>,
+    /// Its moment of inertia about the centre of gravity in kg m²; without it the file's
+    #[arg(long, value_name = "NUMBER", help_heading = "The body")]
+    inertia: Option<f64>,
+    /// Linear damping of surge, heave and pitch beside that of waves, in N s/m, N s/m, N m s
+    #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
+    damping: Option<[f64; 3]>,
+    /// Pairs of poles of the memory; without it as many as are needed for 1 %
+    #[arg(long, value_name = "NUMBER", help_heading = "The memory")]
+    pairs: Option<usize>,
+    /// Take the memory from a file that --json wrote, and fit none
+    #[arg(
+        long,
+        value_name = "FILE.json",
+        conflicts_with = "pairs",
+        help_heading = "The memory"
+    )]
+    memory: Option<PathBuf>,
+}
+
+fn numbers<const N: usize>(text: &str, form: &str) -> Result<[f64; N], String> {
+    let parts: Vec<Result<f64, _>> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers: Result<Vec<f64>, _> = parts.into_iter().collect();
+    let numbers = numbers
+        .ok()
+        .and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
+    numbers.ok_or_else(|| format!("{N} numbers are wanted, {form}"))
+}
+
+/// Two numbers.
+pub(crate) fn pair(text: &str) -> Result<[f64; 2], String> {
+    numbers(text, "x,z")
+}
+
+/// Three numbers.
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text, "of surge, heave and pitch")
+}
+
+/// A line: its anchor, its fairlead and its length.
+pub(crate) fn line(text: &str) -> Result<Line, String> {
+    let form = "anchor x, anchor z, fairlead x, fairlead z, length";
+    let [ax, az, fx, fz, length_m] = numbers(text, form)?;
+    Ok(Line {
+        anchor_m: [ax, az],
+        fairlead_m: [fx, fz],
+        length_m,
+    })
+}
+
+impl HydroArgs {
+    /// The name of the file.
+    pub(crate) fn name(&self) -> String {
+        self.file.display().to_string()
+    }
+
+    /// Reads the file and answers.
+    pub(crate) fn report(
+        &self,
+        lines: Vec<Line>,
+        force: Option<[f64; 3]>,
+    ) -> Result<Report, Failure> {
+        let name = self.name();
+        let bad = |error: HydroError| Failure::bad_input(error).with_prefix(&name);
+        let given = Given {
+            density_kg_m3: self.density,
+            gravity_m_s2: self.gravity,
+            depth_m: self.depth,
+            reference_m: self.reference,
+            centre_of_gravity_m: self.file_centre,
+            displaced_mass_kg: self.displaced_mass,
+            unit_length_m: self.unit_length,
+            first_column: match self.first_column.as_str() {
+                "frequency" => FirstColumn::Frequency,
+                "wavenumber" => FirstColumn::WaveNumber,
+                _ => FirstColumn::Period,
+            },
+            body: self.body.clone(),
+        };
+        let request = Request {
+            weight: Weight {
+                mass_kg: self.mass,
+                centre_m: self.centre,
+                inertia_kg_m2: self.inertia,
+            },
+            damping: self.damping.unwrap_or_default(),
+            force: force.unwrap_or_default(),
+            lines,
+            fit: FitOptions { pairs: self.pairs },
+            memory: match &self.memory {
+                Some(path) => Some(memory(path)?),
+                None => None,
+            },
+        };
+        let reading = read(&self.file, &given).map_err(bad)?;
+        Report::new(&name, reading, &request).map_err(bad)
+    }
+}
+
+fn memory(path: &Path) -> Result<GivenMemory, Failure> {
+    let text = read_text(path)?;
+    serde_json::from_str(&text).map_err(|error| {
+        let words = format!(
+            "{}: not a memory as --json writes it, with added_mass_inf and memory: {error}",
+            path.display()
+        );
+        Failure::BadInput(words)
+    })
+}

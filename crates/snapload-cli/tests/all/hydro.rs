@@ -1,0 +1,162 @@
+//! `snapload hydro` and `snapload decay` as their users meet them.
+
+use crate::common::{directory, listing, snapload};
+use predicates::prelude::*;
+use predicates::str::contains;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const EXAMPLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/examples");
+
+/// A directory with the pontoon in it.
+fn room() -> tempfile::TempDir {
+    let room = directory();
+    fs::copy(
+        Path::new(EXAMPLES).join("pontoon.nc"),
+        room.path().join("pontoon.nc"),
+    )
+    .unwrap();
+    room
+}
+
+fn json(room: &tempfile::TempDir, name: &str) -> Value {
+    serde_json::from_slice(&fs::read(room.path().join(name)).unwrap()).unwrap()
+}
+
+/// The pontoon of 98.4 t: heave 3.254 s, pitch 3.793 s; on two taut lines at 80 t it rests where it was
+/// computed with 99.14 kN in each and sways in 7.295 s (independent code, `linear.json` and
+/// `rests.json` of the library's tests).
+#[test]
+fn hydro_answers_in_a_few_lines_a_page_and_json() {
+    let room = room();
+    let lines = [
+        "6,-10,2,-1.2,9.666436778876",
+        "-6,-10,-2,-1.2,9.666436778876",
+    ];
+    snapload(room.path())
+        .args([
+            "hydro",
+            "pontoon.nc",
+            "--pairs",
+            "6",
+            "--out",
+            "page.html",
+            "--json",
+            "all.json",
+        ])
+        .args([
+            "--line", lines[0], "--line", lines[1], "--mass", "80000", "--centre", "0,-0.2",
+        ])
+        .args(["--inertia", "133333.3333333", "--hs", "1", "--tp", "4"])
+        .assert()
+        .success()
+        .stdout(
+            contains("58 frequencies")
+                .and(contains("99.14, 99.14 kN"))
+                .and(contains("surge 7.295 s"))
+                .and(contains("Hs 1 m"))
+                .and(contains("page.html")),
+        );
+    let page = fs::read_to_string(room.path().join("page.html")).unwrap();
+    assert!(page.matches("<svg").count() == 5 && page.contains("Natural motions"));
+    assert!(page.contains("snapload hydro pontoon.nc") && !page.contains("<script"));
+    let all = json(&room, "all.json");
+    let rest = &all["floating"]["rest"];
+    assert!((rest["tension_n"][0].as_f64().unwrap() - 99_138.096_837).abs() < 1e-3);
+    assert!((rest["natural"][0]["period_s"].as_f64().unwrap() - 7.295_485_709).abs() < 1e-6);
+    assert!(all["quality"]["least_eigenvalue"].as_f64().unwrap() > -2e-9);
+    assert_eq!(all["sea"].as_array().unwrap().len(), 2);
+
+    // The memory that was written is taken as it is, and gives the same answers.
+    snapload(room.path())
+        .args([
+            "hydro",
+            "pontoon.nc",
+            "--memory",
+            "all.json",
+            "--json",
+            "again.json",
+        ])
+        .assert()
+        .success()
+        .stdout(contains("given"));
+    let again = json(&room, "again.json");
+    for (a, b) in [
+        (&again["memory"][3]["pole"][0], &all["memory"][3]["pole"][0]),
+        (&again["added_mass_inf"][1][1], &all["added_mass_inf"][1][1]),
+    ] {
+        let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
+        assert!((a - b).abs() <= 1e-15 * b.abs());
+    }
+}
+
+/// Heave swings in the period of the eigenvalue; the table has a row a step.
+#[test]
+fn decay_tells_its_swings() {
+    let room = room();
+    snapload(room.path())
+        .args([
+            "decay",
+            "pontoon.nc",
+            "--pairs",
+            "6",
+            "--from",
+            "0,0,0.1",
+            "--duration",
+            "20",
+        ])
+        .args(["--out", "decay.csv", "--json", "decay.json"])
+        .assert()
+        .success()
+        .stdout(contains("pitch").and(contains("% of critical damping")));
+    let table = fs::read_to_string(room.path().join("decay.csv")).unwrap();
+    assert_eq!(table.lines().count(), 402);
+    assert!(table.starts_with("t_s,surge_m,heave_m,pitch_rad\n0,0,0,0.1\n"));
+    let swings = json(&room, "decay.json")["swings"].clone();
+    let period = swings[2]["period_s"].as_f64().unwrap();
+    // 2π/1.6526, the eigenvalue of surge and pitch of `linear.json`.
+    assert!((period - 3.802).abs() < 0.02, "{period}");
+}
+
+/// What can not be is said with its name and ends with status 2, and nothing is left behind.
+#[test]
+fn hydro_refuses_with_reasons() {
+    let room = room();
+    fs::write(
+        room.path().join("cut.nc"),
+        &fs::read(room.path().join("pontoon.nc")).unwrap()[..9000],
+    )
+    .unwrap();
+    fs::write(room.path().join("no.json"), "{}").unwrap();
+    for (words, reason) in [
+        (
+            &["hydro", "cut.nc"][..],
+            "cut.nc: can not be read: as netCDF4",
+        ),
+        (&["hydro", "none.nc"], "none.nc"),
+        (&["hydro", "pontoon.toml"], "Capytaine's .nc"),
+        (&["hydro", "pontoon.nc", "--density", "1000"], "1025"),
+        (&["hydro", "pontoon.nc", "--pairs", "99"], "1 to 20"),
+        (&["hydro", "pontoon.nc", "--mass", "-1"], "above 0"),
+        (
+            &["hydro", "pontoon.nc", "--memory", "no.json"],
+            "added_mass_inf",
+        ),
+        (&["hydro", "pontoon.nc", "--reference", "1"], "2 numbers"),
+        (&["hydro", "pontoon.nc", "--hs", "1"], "--tp"),
+        (
+            &["decay", "pontoon.nc", "--from", "0,0,0"],
+            "let go from somewhere",
+        ),
+        (&["decay", "pontoon.nc", "--step", "0"], "positive step"),
+    ] {
+        snapload(room.path())
+            .args(words)
+            .args(["--json", "x.json"])
+            .assert()
+            .code(2)
+            .stderr(contains(reason));
+    }
+    assert_eq!(listing(room.path()), ["cut.nc", "no.json", "pontoon.nc"]);
+}
