@@ -23,6 +23,7 @@ fn main() -> Result<(), StartError> {
             harmonics: vec![Harmonic::ellipse(0.4, 0.3, 1.7)],
         },
         drag: None,
+        floating: None,
         restitution: 0.6,
     };
     let rules = Rules {

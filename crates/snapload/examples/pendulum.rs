@@ -15,6 +15,7 @@ fn main() -> Result<(), StartError> {
             harmonics: Vec::new(),
         },
         drag: None,
+        floating: None,
         restitution: 0.5,
     };
     let start = State {

@@ -146,6 +146,7 @@ impl Model {
                 harmonics: waves.iter().map(force).collect(),
             },
             drag: drag(structure, &scales, &waves, groups.inertia),
+            floating: None,
             restitution: structure.restitution,
         };
         let rules = Rules {

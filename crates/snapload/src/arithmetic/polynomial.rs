@@ -130,6 +130,15 @@ impl<T: Real> Polynomial<T> {
         step
     }
 
+    /// Adds coefficients times `even` where the power is even, and times `odd` where it is odd.
+    #[inline(always)]
+    pub(crate) fn add_alternating(&mut self, factors: &[T; ORDER + 1], even: T, odd: T) {
+        let parts = [even, odd];
+        for k in 0..=ORDER {
+            self.0[k] = factors[k].mul_add(parts[k % 2], self.0[k]);
+        }
+    }
+
     /// With all signs changed.
     #[inline(always)]
     pub(crate) fn negated(&self) -> Self {

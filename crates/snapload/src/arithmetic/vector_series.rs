@@ -43,6 +43,21 @@ impl<T: Real, const W: usize> VectorSeries<T, W> {
         let [sums] = convolve([(self, other)], k);
         sums
     }
+
+    /// Σ |a_i b_j| s^{i+j−p}, i + j ≥ p = [`ORDER`] + 1: a bound on what the products have beyond the
+    /// last order at `s`, but for the factor s^p.
+    #[inline(always)]
+    pub(crate) fn beyond_product(&self, other: &Self, s: T) -> [T; W] {
+        let (mut rest, mut sums) = ([T::ZERO; W], [T::ZERO; W]);
+        for i in 1..=ORDER {
+            let (a, b) = (&self[i], &other[ORDER + 1 - i]);
+            for w in 0..W {
+                rest[w] = rest[w].mul_add(s, b[w].abs());
+                sums[w] = a[w].abs().mul_add(rest[w], sums[w]);
+            }
+        }
+        sums
+    }
 }
 
 /// The k-th coefficients of several products, in one pass.
@@ -101,6 +116,22 @@ fn add_products<T: Real, const W: usize>(sums: &mut [T; W], a: &[T; W], b: &[T; 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// With all coefficients 1 and s = ½ the sum is Σ_n (2p − 1 − n) s^{n−p}, p ≤ n < 2p − 1: the number
+    /// of pairs of orders below p that add up to n.
+    #[test]
+    fn what_a_product_has_beyond_the_last_order() {
+        let mut ones = VectorSeries::<f64, 1>::default();
+        for k in 0..=ORDER {
+            ones[k] = [1.0];
+        }
+        let p = ORDER + 1;
+        let known: f64 = (p..2 * p - 1)
+            .map(|n| (2 * p - 1 - n) as f64 * 0.5_f64.powi((n - p) as i32))
+            .sum();
+        let [sum] = ones.beyond_product(&ones, 0.5);
+        assert!((sum / known - 1.0).abs() < 1e-15, "{sum} {known}");
+    }
 
     /// 1/(1 − s) times 1/(1 − 2s) is Σ (2^{k+1} − 1) s^k, its square Σ (k + 1) s^k. While the k-th
     /// coefficients are not known, the two products with them are missing: those with 2^k and 1,

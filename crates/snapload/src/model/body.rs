@@ -2,6 +2,8 @@
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
+use crate::model::cable::Normal;
+use crate::model::mass::{Mass, Matrix3};
 
 /// What the body looks like from outside; only the upper bound asks (docs/model.md section 7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,11 +24,12 @@ pub enum Shape<T = f64> {
     },
 }
 
-/// A rigid body of unit mass, or a point mass (docs/model.md section 2).
+/// A rigid body of unit mass, or a point mass (docs/model.md section 2), or one with any mass
+/// matrix, as water makes it (docs/floating.md).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body<T = f64> {
     pub(crate) shape: Shape<T>,
-    pub(crate) inverse_inertia: T,
+    pub(crate) mass: Mass<T>,
 }
 
 impl<T: Real> Body<T> {
@@ -34,7 +37,9 @@ impl<T: Real> Body<T> {
     pub fn rigid(shape: Shape<T>, inertia: T) -> Self {
         Self {
             shape,
-            inverse_inertia: T::ONE / inertia,
+            mass: Mass::Unit {
+                inverse_inertia: T::ONE / inertia,
+            },
         }
     }
 
@@ -42,8 +47,19 @@ impl<T: Real> Body<T> {
     pub fn point() -> Self {
         Self {
             shape: Shape::Point,
-            inverse_inertia: T::ZERO,
+            mass: Mass::Unit {
+                inverse_inertia: T::ZERO,
+            },
         }
+    }
+
+    /// A rigid body with this mass matrix over (x, y, θ), in units in which the forces on it are
+    /// given. None unless the matrix is symmetric and positive definite.
+    pub fn with_mass_matrix(shape: Shape<T>, matrix: Matrix3<T>) -> Option<Self> {
+        Some(Self {
+            shape,
+            mass: Mass::full(matrix)?,
+        })
     }
 
     /// The same body in another arithmetic.
@@ -63,7 +79,7 @@ impl<T: Real> Body<T> {
         };
         Body {
             shape,
-            inverse_inertia: number(self.inverse_inertia),
+            mass: self.mass.map(&number),
         }
     }
 
@@ -72,18 +88,24 @@ impl<T: Real> Body<T> {
         self.shape
     }
 
-    /// 1/I; 0 for a point mass.
+    /// 1/I; 0 for a point mass. Of a mass matrix M it is that entry of M⁻¹.
     pub fn inverse_inertia(&self) -> T {
-        self.inverse_inertia
+        self.mass.inverse_inertia()
     }
 
     /// I; 0 for a point mass, whose rotation carries no energy.
     pub fn inertia(&self) -> T {
-        if self.inverse_inertia > T::ZERO {
-            T::ONE / self.inverse_inertia
-        } else {
-            T::ZERO
-        }
+        self.mass.inertia()
+    }
+
+    /// W = G M⁻¹ Gᵀ of a cable, the inverse of the mass that it feels: 1 + s²/I of a unit mass.
+    pub fn inverse_effective_mass(&self, normal: &Normal<T>) -> T {
+        self.mass.coupling(normal, normal)
+    }
+
+    /// (ẍ, ÿ, θ̈) by a force (f_x, f_y) and a moment: M⁻¹ times these.
+    pub fn moved_by(&self, force: [T; 3]) -> [T; 3] {
+        self.mass.moved_by(force)
     }
 
     /// The points of the outline, in the body's frame, one of which is the highest at any rotation,

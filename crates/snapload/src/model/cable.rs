@@ -38,14 +38,14 @@ impl<L: Lane> Normal<L> {
         self.arm.mul_add(state.vtheta, self.n.dot(state.velocity()))
     }
 
-    /// W_ij = G_i M⁻¹ G_jᵀ; with itself the inverse effective mass w = 1 + s²/I.
+    /// W_ij = G_i M⁻¹ G_jᵀ of a unit mass; with itself the inverse effective mass w = 1 + s²/I.
     #[inline(always)]
     pub fn coupling(&self, other: &Self, inverse_inertia: L) -> L {
         (self.arm * other.arm).mul_add(inverse_inertia, self.n.dot(other.n))
     }
 
-    /// The state after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I (docs/model.md section
-    /// 5).
+    /// The state of a unit mass after an impulse p in the cable: (ẋ, ẏ) −= p n, θ̇ −= p s/I
+    /// (docs/model.md section 5).
     #[inline(always)]
     pub fn apply_impulse(&self, state: &mut State<L>, impulse: L, inverse_inertia: L) {
         // Not fused, so that the impulses of two cables that mirror each other cancel to the last
@@ -53,15 +53,6 @@ impl<L: Lane> Normal<L> {
         state.vx = state.vx - impulse * self.n.x;
         state.vy = state.vy - impulse * self.n.y;
         state.vtheta = state.vtheta - impulse * self.arm * inverse_inertia;
-    }
-
-    /// The same for the position: moves the body against the normal by `distance` in the mass
-    /// metric.
-    #[inline(always)]
-    pub fn displace(&self, state: &mut State<L>, distance: L, inverse_inertia: L) {
-        state.x = state.x - distance * self.n.x;
-        state.y = state.y - distance * self.n.y;
-        state.theta = state.theta - distance * self.arm * inverse_inertia;
     }
 }
 

@@ -6,11 +6,13 @@ use crate::model::body::{Body, Shape};
 use crate::model::cable::{Cable, Normal};
 use crate::model::contact_law::ContactLaw;
 use crate::model::drag::Drag;
+use crate::model::floating::{Complex, Floating};
 use crate::model::forcing::{Forcing, Harmonic};
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 
-/// A body of unit mass on inextensible cables, under forces that depend on time alone.
+/// A body on inextensible cables, under forces that depend on time alone, in water that may resist or
+/// carry it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System<T = f64> {
     /// The body.
@@ -21,6 +23,8 @@ pub struct System<T = f64> {
     pub forcing: Forcing<T>,
     /// Resistance of the water, if it has any.
     pub drag: Option<Drag<T>>,
+    /// What linear water does to it, if it floats.
+    pub floating: Option<Floating<T>>,
     /// Coefficient of restitution e, 0 ≤ e ≤ 1.
     pub restitution: T,
 }
@@ -48,6 +52,7 @@ impl<T: Real> System<T> {
                 harmonics: vec![wave],
             },
             drag: None,
+            floating: None,
             restitution,
         }
     }
@@ -59,6 +64,7 @@ impl<T: Real> System<T> {
             cables: self.cables.iter().map(|cable| cable.map(number)).collect(),
             forcing: self.forcing.map(number),
             drag: self.drag.as_ref().map(|drag| drag.map(number)),
+            floating: self.floating.as_ref().map(|water| water.map(number)),
             restitution: number(self.restitution),
         }
     }
@@ -77,9 +83,29 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Whether motion with these taut cables has a closed form: slack, and without drag.
+    /// Whether motion with these taut cables has a closed form: slack, of unit mass, and in water
+    /// that neither resists nor carries.
     pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
-        taut.is_empty() && self.drag.is_none()
+        taut.is_empty()
+            && self.drag.is_none()
+            && self.floating.is_none()
+            && self.body.mass.is_unit()
+    }
+
+    /// The memory of water that has been at rest; empty where the body does not float.
+    pub(crate) fn memory_at_rest(&self) -> Vec<Complex<T>> {
+        self.floating
+            .as_ref()
+            .map_or_else(Vec::new, Floating::at_rest)
+    }
+
+    /// The force with which the water's memory holds the body back.
+    #[inline(always)]
+    pub(crate) fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
+        match &self.floating {
+            Some(water) => water.memory_force(memory),
+            None => [T::ZERO; 3],
+        }
     }
 
     /// The set of all cables.
@@ -87,11 +113,15 @@ impl<T: Real> System<T> {
         (0..self.cables.len().min(MAX_CABLES)).collect()
     }
 
-    /// Energy: kinetic, and potential in the constant force (docs/model.md section 1: unit F L).
+    /// Energy: kinetic, and potential in the constant force and in the hydrostatic stiffness
+    /// (docs/model.md section 1: unit F L).
     pub fn energy(&self, state: &State<T>) -> T {
-        let translation = state.vx.squared() + state.vy.squared();
-        let rotation = self.body.inertia() * state.vtheta.squared();
-        (translation + rotation) * 0.5 - self.forcing.constant.dot(state.centre())
+        let kinetic = self.body.mass.kinetic_energy(state);
+        let energy = kinetic - self.forcing.constant.dot(state.centre());
+        match &self.floating {
+            Some(water) => energy + water.potential_energy(state),
+            None => energy,
+        }
     }
 
     /// y of the highest point of the body.
@@ -111,17 +141,28 @@ impl<T: Real> System<T> {
         normals
     }
 
-    /// (ẍ, ÿ, θ̈) if no cable pulled: the forces and the drag, for unit mass.
+    /// (ẍ, ÿ, θ̈) if no cable pulled: M⁻¹ times the forces, the drag and what the water does, of
+    /// which the force of its memory is given; that is zero where the body does not float.
     #[inline(always)]
-    pub fn free_acceleration(&self, t: T, state: &State<T>) -> [T; 3] {
+    pub fn free_acceleration(&self, t: T, state: &State<T>, memory_force: [T; 3]) -> [T; 3] {
+        let mass = &self.body.mass;
         let Vector2 { x, y } = self.forcing.at(t);
-        match &self.drag {
+        let mut load = match &self.drag {
             None => [x, y, T::ZERO],
             Some(drag) => {
                 let [u, v, turning] = drag.at(t, state);
-                [x + u, y + v, turning]
+                [x + u, y + v, mass.load_of_turning(turning)]
             }
+        };
+        if let Some(water) = &self.floating {
+            let [x, y, moment] = water.force(t, state, memory_force);
+            load = [
+                load[0] + x,
+                load[1] + y,
+                load[2] + mass.load_of_moment(moment),
+            ];
         }
+        mass.accelerated_by(load)
     }
 
     /// Acceleration along the normal that a cable of zero gap would see if no cable pulled, with

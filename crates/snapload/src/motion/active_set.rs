@@ -4,6 +4,7 @@ use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::cable::Normal;
+use crate::model::mass::Mass;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
@@ -35,13 +36,14 @@ pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     candidates: TautSet,
 ) -> ActiveSet {
     apart!(T, {
         if candidates.is_empty() {
             return ActiveSet::default();
         }
-        let (w, load) = problem(system, t, state, candidates);
+        let (w, load) = problem(system, t, state, memory_force, candidates);
         let (tension, pulling) = complementary(candidates, w, &load);
         let stays_closed = |&cable: &usize| {
             let pulls = |j: usize| w(cable, j) * tension[j];
@@ -80,9 +82,10 @@ pub(crate) fn tensions<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     taut: TautSet,
 ) -> PerCable<T> {
-    let (w, load) = problem(system, t, state, taut);
+    let (w, load) = problem(system, t, state, memory_force, taut);
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
@@ -100,33 +103,32 @@ fn some_tensions<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     taut: TautSet,
 ) -> PerCable<T> {
-    let (w, load) = problem(system, t, state, taut);
+    let (w, load) = problem(system, t, state, memory_force, taut);
     solve(taut, w, &load)
 }
 
-/// (ẍ, ÿ, θ̈) while the cables of `taut` pull: f(t) − Σ T n and −Σ T s/I (docs/model.md section 6).
+/// (ẍ, ÿ, θ̈) while the cables of `taut` pull: M⁻¹ (f − Σ T Gᵀ), of a unit mass f(t) − Σ T n and
+/// −Σ T s/I (docs/model.md section 6).
 #[inline(always)]
 pub(crate) fn acceleration<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     taut: TautSet,
 ) -> [T; 3] {
-    let free = system.free_acceleration(t, state);
+    let free = system.free_acceleration(t, state, memory_force);
     if taut.is_empty() {
         return free;
     }
-    let tension = some_tensions(system, t, state, taut);
-    let inverse_inertia = system.body.inverse_inertia();
-    taut.iter().fold(free, |[x, y, theta], cable| {
-        let (normal, pull) = (system.cables[cable].normal(state), tension[cable]);
-        [
-            x - pull * normal.n.x,
-            y - pull * normal.n.y,
-            theta - pull * normal.arm * inverse_inertia,
-        ]
+    let tension = some_tensions(system, t, state, memory_force, taut);
+    let mass = &system.body.mass;
+    taut.iter().fold(free, |acceleration, cable| {
+        let normal = system.cables[cable].normal(state);
+        mass.less(acceleration, &normal, tension[cable])
     })
 }
 
@@ -191,7 +193,7 @@ impl TautCable {
 }
 
 /// The derivatives of [`acceleration`] by (x, y, θ, ẋ, ẏ, θ̇) while one or two cables pull that do
-/// not depend on each other, and the water does not resist; none else. Of a = f − p with p = M⁻¹ Gᵀ
+/// not depend on each other, of a unit mass that the water neither resists nor carries; none else. Of a = f − p with p = M⁻¹ Gᵀ
 /// T and W T = b,
 ///
 /// ```text
@@ -207,14 +209,17 @@ pub(crate) fn slopes_of_acceleration(
     let mut cables = taut.iter();
     let first = cables.next()?;
     let second = cables.next();
-    if system.drag.is_some() || cables.next().is_some() {
+    let Mass::Unit { inverse_inertia } = system.body.mass else {
+        return None;
+    };
+    if system.drag.is_some() || system.floating.is_some() || cables.next().is_some() {
         return None;
     }
     let (force, spin) = (system.forcing.at(t), state.vtheta);
     // One cable is two of which the other carries nothing.
     let one = TautCable::new(system, state, first);
     let two = TautCable::new(system, state, second.unwrap_or(first));
-    let pair = Pair::new(&one.normal, &two.normal, system, second.is_some())?;
+    let pair = Pair::new(&one.normal, &two.normal, inverse_inertia, second.is_some())?;
     let tension = pair.solved([one.load(force, spin), two.load(force, spin)]);
     let pull = pair.pulls([&one.normal, &two.normal], tension);
     let mut slopes = [[0.0; 6]; 3];
@@ -249,10 +254,9 @@ struct Pair {
 impl Pair {
     /// None if the two depend on each other, or all but do.
     #[inline(always)]
-    fn new(one: &Normal, two: &Normal, system: &System, both: bool) -> Option<Self> {
+    fn new(one: &Normal, two: &Normal, inverse_inertia: f64, both: bool) -> Option<Self> {
         /// Cables whose W is closer to singular than this are left to the general solver.
         const NEARLY_DEPENDENT: f64 = 1e-6;
-        let inverse_inertia = system.body.inverse_inertia();
         let w = [
             one.coupling(one, inverse_inertia),
             one.coupling(two, inverse_inertia),
@@ -307,11 +311,12 @@ pub(crate) fn normal_acceleration<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     cable: usize,
     taut: TautSet,
 ) -> T {
-    let tension = some_tensions(system, t, state, taut);
-    let (w, load) = problem(system, t, state, taut.with(cable));
+    let tension = some_tensions(system, t, state, memory_force, taut);
+    let (w, load) = problem(system, t, state, memory_force, taut.with(cable));
     taut.iter()
         .fold(load[cable], |sum, j| sum - w(cable, j) * tension[j])
 }
@@ -322,15 +327,16 @@ fn problem<T: Real>(
     system: &System<T>,
     t: T,
     state: &State<T>,
+    memory_force: [T; 3],
     set: TautSet,
 ) -> (impl Fn(usize, usize) -> T + Copy, PerCable<T>) {
-    let free = system.free_acceleration(t, state);
+    let free = system.free_acceleration(t, state, memory_force);
     let mut load = [T::ZERO; MAX_CABLES];
     for cable in set.iter() {
         load[cable] = system.free_normal_acceleration(cable, state, free);
     }
-    let (normals, inverse_inertia) = (system.normals(state, set), system.body.inverse_inertia());
-    let w = move |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let (normals, mass) = (system.normals(state, set), &system.body.mass);
+    let w = move |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
     (w, load)
 }
 
@@ -373,7 +379,8 @@ mod tests {
                 Dual::variable(component, i - 1)
             }));
             for taut in [TautSet::only(0), TautSet::only(1), TautSet::only(0).with(1)] {
-                let dual = acceleration(&over, Dual::constant(0.3), &variables, taut);
+                let still = [Dual::constant(0.0); 3];
+                let dual = acceleration(&over, Dual::constant(0.3), &variables, still, taut);
                 let slopes = slopes_of_acceleration(&system, 0.3, &state, taut);
                 let slopes = slopes.expect("two cables that are independent");
                 for (written, law) in slopes.iter().zip(dual) {

@@ -191,6 +191,15 @@ impl<T: Real> CableSeries<T> {
         [tension[0], tension[2]]
     }
 
+    /// What the gaps of a pair have beyond the last order at most, but for the factor
+    /// s^{[`ORDER`](crate::arithmetic::polynomial::ORDER) + 1}.
+    #[inline(always)]
+    pub(crate) fn beyond_gaps(&self, pair: usize, s: T) -> [T; 2] {
+        let span = &self.pairs[pair].span;
+        let [x, y, other_x, other_y] = span.beyond_product(span, s);
+        [x + y, other_x + other_y]
+    }
+
     /// Coefficients of order k of the gaps of a pair, |d|² − r², once d is known to that order.
     #[inline(always)]
     pub(crate) fn gaps(&self, pair: usize, k: usize) -> [T; 2] {

@@ -84,7 +84,7 @@ pub(crate) fn impact<T: Real>(
     taut: TautSet,
 ) -> ImpactResult<T> {
     let contact = system.contact_law();
-    let inverse_inertia = system.body.inverse_inertia();
+    let mass = &system.body.mass;
     let normals = system.normals(before, closed);
     let mut v_before = [T::ZERO; MAX_CABLES];
     let mut load = [T::ZERO; MAX_CABLES];
@@ -93,7 +93,7 @@ pub(crate) fn impact<T: Real>(
         v_before[cable] = v;
         load[cable] = contact.load(v);
     }
-    let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+    let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
     let held: TautSet = closed
         .iter()
         .filter(|&cable| v_before[cable] >= T::ZERO)
@@ -108,7 +108,7 @@ pub(crate) fn impact<T: Real>(
     let mut after = *before;
     let mut v_after = [T::ZERO; MAX_CABLES];
     for cable in pulling.iter() {
-        normals[cable].apply_impulse(&mut after, impulse[cable], inverse_inertia);
+        mass.apply_impulse(&normals[cable], &mut after, impulse[cable]);
     }
     for cable in closed.iter() {
         v_after[cable] = if pulling.contains(cable) {
@@ -141,12 +141,12 @@ pub(crate) fn slope_of_impact_alone(
     before: &State,
     cable: usize,
 ) -> [[f64; 6]; 3] {
-    let inverse_inertia = system.body.inverse_inertia();
+    let mass = &system.body.mass;
     let (normal, slopes) = system.cables[cable].normal_and_slopes(before);
     let g = [normal.n.x, normal.n.y, normal.arm];
-    let inverse_mass = [1.0, 1.0, inverse_inertia];
+    let moved = mass.moved_by(g);
     let v_n = normal.velocity(before);
-    let w = normal.coupling(&normal, inverse_inertia);
+    let w = mass.coupling(&normal, &normal);
     let contact = system.contact_law();
     let gain = contact.impulse_per_velocity(w);
     let velocity = [before.vx, before.vy, before.vtheta];
@@ -154,12 +154,13 @@ pub(crate) fn slope_of_impact_alone(
     for k in 0..3 {
         let dg = slopes.map(|slope| slope[k]);
         let dv_n: f64 = (0..3).map(|i| dg[i] * velocity[i]).sum();
-        let dw: f64 = (0..3).map(|i| 2.0 * g[i] * inverse_mass[i] * dg[i]).sum();
+        let dw: f64 = (0..3).map(|i| 2.0 * moved[i] * dg[i]).sum();
         let dp = contact.snap_slope([v_n, w], [dv_n, dw]);
+        let kick = gain * v_n;
+        let changed = mass.moved_by([0, 1, 2].map(|i| g[i] * dp + dg[i] * kick));
         for i in 0..3 {
-            let kick = gain * v_n;
-            rows[i][k] = -inverse_mass[i] * (g[i] * dp + dg[i] * kick);
-            rows[i][3 + k] = f64::from(i == k) - inverse_mass[i] * g[i] * gain * g[k];
+            rows[i][k] = -changed[i];
+            rows[i][3 + k] = f64::from(i == k) - moved[i] * gain * g[k];
         }
     }
     rows
@@ -194,7 +195,7 @@ mod tests {
         };
         let normal = system.cables[1].normal(&before);
         let v_n = normal.velocity(&before);
-        let w = normal.coupling(&normal, system.body.inverse_inertia());
+        let w = system.body.inverse_effective_mass(&normal);
         let result = impact(&system, &before, TautSet::only(1), TautSet::SLACK);
         assert!((result.impulse[1] - 1.7 * v_n / w).abs() < 1e-15);
         assert!((normal.velocity(&result.after) + 0.7 * v_n).abs() < 1e-15);
@@ -259,7 +260,7 @@ mod tests {
         let system = breakwater(0.9);
         let at = State::default();
         let normals = system.normals(&at, system.all_cables());
-        let coupling = normals[0].coupling(&normals[1], system.body.inverse_inertia());
+        let coupling = system.body.mass.coupling(&normals[0], &normals[1]);
         let along = State {
             vx: normals[1].n.y,
             vy: -normals[1].n.x,

@@ -25,3 +25,4 @@ pub(crate) mod taut_series;
 pub(crate) mod trajectory;
 pub(crate) mod two_cable_flight;
 pub(crate) mod two_cables;
+pub(crate) mod water_series;

@@ -23,6 +23,8 @@ pub struct Motion {
     pub tensions: PerCable<f64>,
     /// Energy \[F L\].
     pub energy: f64,
+    /// The force with which the water's memory holds a floating body back \[F, F, F L\].
+    pub memory_force: [f64; 3],
 }
 
 impl Trajectory {
@@ -75,12 +77,18 @@ impl<'a> Playback<'a> {
             self.series.state(s)
         };
         let (system, t) = (self.run.system(), segment.t + s);
+        let memory_force = if s > 0.0 {
+            self.series.memory_force(s)
+        } else {
+            segment.memory_force(system)
+        };
         Motion {
             t,
             state,
             taut,
-            tensions: tensions(system, t, &state, taut),
+            tensions: tensions(system, t, &state, memory_force, taut),
             energy: system.energy(&state),
+            memory_force,
         }
     }
 
@@ -90,11 +98,11 @@ impl<'a> Playback<'a> {
         let kept = self.run.segments();
         let system = self.run.system();
         let next = kept.get(index + 1).map_or(f64::INFINITY, |next| next.t);
-        let mut segment = match self.reached {
+        let mut segment = match self.reached.take() {
             Some((known, segment)) if known == index && segment.t <= t => segment,
             _ => {
                 self.begin(&kept[index]);
-                kept[index]
+                kept[index].clone()
             }
         };
         if !system.flies_freely(segment.active.taut) {
@@ -105,7 +113,7 @@ impl<'a> Playback<'a> {
                 later = segment.t + self.series.step();
             }
         }
-        self.reached = Some((index, segment));
+        self.reached = Some((index, segment.clone()));
         segment
     }
 

@@ -14,7 +14,7 @@ use crate::motion::complementarity::solve;
 #[inline(always)]
 pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
     apart!(T, {
-        let inverse_inertia = system.body.inverse_inertia();
+        let mass = &system.body.mass;
         for _ in 0..T::NEWTON_STEPS {
             let normals = system.normals(state, set);
             let mut distance = [T::ZERO; MAX_CABLES];
@@ -22,10 +22,10 @@ pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>
                 let tether = &system.cables[cable];
                 distance[cable] = tether.gap(state) / (tether.length() * 2.0);
             }
-            let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+            let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
             let shift = solve(set, w, &distance);
             for cable in set.iter() {
-                normals[cable].displace(state, shift[cable], inverse_inertia);
+                mass.displace(&normals[cable], state, shift[cable]);
             }
         }
     })
@@ -35,16 +35,16 @@ pub(crate) fn project_position<T: Real>(system: &System<T>, state: &mut State<T>
 #[inline(always)]
 pub(crate) fn project_velocity<T: Real>(system: &System<T>, state: &mut State<T>, set: TautSet) {
     apart!(T, {
-        let inverse_inertia = system.body.inverse_inertia();
+        let mass = &system.body.mass;
         let normals = system.normals(state, set);
         let mut velocity = [T::ZERO; MAX_CABLES];
         for cable in set.iter() {
             velocity[cable] = normals[cable].velocity(state);
         }
-        let w = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
         let kick = solve(set, w, &velocity);
         for cable in set.iter() {
-            normals[cable].apply_impulse(state, kick[cable], inverse_inertia);
+            mass.apply_impulse(&normals[cable], state, kick[cable]);
         }
     })
 }

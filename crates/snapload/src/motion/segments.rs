@@ -5,6 +5,7 @@
 //! bit. Up to [`MOST_LINKS`] of those that follow are kept to come to any time quickly; a longer run
 //! keeps every second, then every fourth, and so on, and its memory grows with its events alone.
 
+use crate::model::floating::Complex;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
@@ -12,14 +13,16 @@ use crate::motion::active_set::ActiveSet;
 use crate::motion::contact::Contact;
 use crate::motion::events::Reached;
 use crate::motion::projection::{project_position, project_velocity};
-use crate::motion::simulation::Step;
+use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 
 /// A stretch of motion with one taut set, from which the state at any time in it is computed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub(crate) t: f64,
     pub(crate) start: State,
+    /// What the water remembers then.
+    memory: Box<[Complex]>,
     pub(crate) active: ActiveSet,
     /// The cables whose gap is zero where the first expansion ends.
     closed: TautSet,
@@ -47,7 +50,19 @@ impl Segment {
     pub(crate) fn expand(&self, system: &System, series: &mut Series<f64>) {
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
-        series.begin(system, self.t, &self.start, &contacts, self.active);
+        series.begin(
+            system,
+            self.t,
+            &self.start,
+            &self.memory,
+            &contacts,
+            self.active,
+        );
+    }
+
+    /// The force of the water's memory at its start.
+    pub(crate) fn memory_force(&self, system: &System) -> [f64; 3] {
+        system.memory_force(&self.memory)
     }
 
     /// The next of the chain, by the arithmetic of the run.
@@ -55,9 +70,12 @@ impl Segment {
         let mut start = series.state(series.step());
         project_position(system, &mut start, self.closed);
         project_velocity(system, &mut start, self.active.taut);
+        let mut memory = self.memory.clone();
+        series.memory(series.step(), &mut memory);
         Self {
             t: self.t + series.step(),
             start,
+            memory,
             link: self.link + 1,
             ..*self
         }
@@ -80,10 +98,12 @@ impl Segments {
     }
 
     /// The stretch of a step.
-    pub(crate) fn take(&mut self, step: &Step, system: &System) {
+    pub(crate) fn take(&mut self, simulation: &Simulation, step: &Step) {
+        let system = simulation.system();
         let mut segment = Segment {
             t: step.t_start,
             start: step.start,
+            memory: simulation.memory_at_start(),
             active: ActiveSet {
                 taut: step.taut,
                 carrying: step.carrying,
@@ -98,17 +118,19 @@ impl Segments {
             segment.link = before.link + 1;
         }
         let eventless = step.event.reached == Reached::default();
-        self.unbroken = Some(segment).filter(|_| eventless);
         if step.t_end > step.t_start {
-            self.keep(segment);
+            self.keep(segment.clone());
         }
+        self.unbroken = Some(segment).filter(|_| eventless);
     }
 
     /// The end of the run, which is a stretch of no length.
-    pub(crate) fn end(&mut self, t: f64, state: State, taut: TautSet) {
+    pub(crate) fn end(&mut self, simulation: &Simulation) {
+        let taut = simulation.taut();
         self.keep(Segment {
-            t,
-            start: state,
+            t: simulation.time(),
+            start: *simulation.state(),
+            memory: simulation.memory().into(),
             active: ActiveSet {
                 taut,
                 carrying: taut,
@@ -122,8 +144,8 @@ impl Segments {
         if !segment.link.is_multiple_of(self.stride) {
             return;
         }
-        self.kept.push(segment);
         self.links += usize::from(segment.link > 0);
+        self.kept.push(segment);
         self.keep_links(MOST_LINKS);
     }
 

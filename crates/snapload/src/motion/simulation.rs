@@ -4,6 +4,7 @@ use crate::arithmetic::dual::Dual;
 use crate::arithmetic::precise::Precise;
 use crate::arithmetic::processor::{Kernel, apart, dispatch_over};
 use crate::arithmetic::real::Real;
+use crate::model::floating::Complex;
 use crate::model::rules::Rules;
 use crate::model::rules::Stop;
 use crate::model::state::State;
@@ -43,6 +44,8 @@ pub struct Simulation<T: Real = f64> {
     rules: Rules<T>,
     t: T,
     state: State<T>,
+    /// What the water remembers; empty where the body does not float.
+    memory: Vec<Complex<T>>,
     /// The state before the latest event.
     before: State<T>,
     active: ActiveSet,
@@ -190,6 +193,7 @@ impl<T: Real> Simulation<T> {
         Ok(Self {
             flight: Flight::new(&system, &rules),
             series: None,
+            memory: system.memory_at_rest(),
             extremes: Extremes::at(&start.state),
             two_cables: TwoCableSystem::of(&system, &rules),
             bounce_start: None,
@@ -234,6 +238,18 @@ impl<T: Real> Simulation<T> {
     /// The state reached.
     pub fn state(&self) -> &State<T> {
         &self.state
+    }
+
+    /// What the water remembers of the motion so far: the states z of its memory, those of x first,
+    /// then of y, then of θ, in the order of the exponentials; empty where the body does not float.
+    pub fn memory(&self) -> &[Complex<T>] {
+        &self.memory
+    }
+
+    /// The force with which that memory holds the body back.
+    #[inline(always)]
+    pub fn memory_force(&self) -> [T; 3] {
+        self.system.memory_force(&self.memory)
     }
 
     /// The taut cables.
@@ -341,6 +357,7 @@ impl<T: Real> Simulation<T> {
                     &self.system,
                     self.t,
                     &self.state,
+                    &self.memory,
                     &self.contacts,
                     self.active,
                 );
@@ -379,6 +396,9 @@ impl<T: Real> Simulation<T> {
                     let carried = motion.contact(cable, s);
                     *contact = carried.carried(&self.system, cable, &state);
                 }
+            }
+            if let (Some(series), false) = (&self.series, self.memory.is_empty()) {
+                series.memory(s, &mut self.memory);
             }
             self.t = if reached_end {
                 self.rules.t_end

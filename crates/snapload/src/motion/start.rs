@@ -108,7 +108,9 @@ pub(crate) fn prepare<T: Real>(
             Contact::evaluated(system, cable, &state)
         };
     }
-    let active = taut_next(system, t, &state, resting);
+    // The water has been at rest, and has nothing to remember.
+    let still = [T::ZERO; 3];
+    let active = taut_next(system, t, &state, still, resting);
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);

@@ -138,7 +138,8 @@ impl Tangent {
             Some(slopes) => slopes,
             None => {
                 let t = Number::constant(t);
-                acceleration(&self.system, t, &variables(&state), step.taut).map(|a| a.slope)
+                let still = [Number::constant(0.0); 3];
+                acceleration(&self.system, t, &variables(&state), still, step.taut).map(|a| a.slope)
             }
         }
     }
@@ -192,7 +193,7 @@ fn variables(state: &State) -> State<Number> {
 /// ż.
 #[inline(always)]
 fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
-    let [x, y, theta] = acceleration(system, t, state, taut);
+    let [x, y, theta] = acceleration(system, t, state, [0.0; 3], taut);
     [state.vx, state.vy, state.vtheta, x, y, theta]
 }
 

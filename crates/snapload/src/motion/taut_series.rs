@@ -1,5 +1,5 @@
-//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag: its
-//! Taylor series.
+//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag, of any
+//! mass but the unit one, or afloat: its Taylor series.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -29,6 +29,9 @@
 //! slack cables and the tensions come out as polynomials on the step, in which
 //! [`crate::motion::events`] finds events with the guarantee it has in flight.
 //!
+//! With any other mass matrix all accelerations are M⁻¹ times forces and moments, and W = G M⁻¹ Gᵀ; of
+//! a floating body the force has the parts of [`crate::motion::water_series`].
+//!
 //! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
 //! their step control raises to powers with the platform's libm, and they allocate their output as
 //! they go), `diffsol` (implicit and embedded pairs: likewise, and made for large stiff systems).
@@ -41,6 +44,8 @@ use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
 use crate::model::drag::DragSeries;
+use crate::model::floating::Complex;
+use crate::model::mass::Mass;
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -51,8 +56,10 @@ use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::EventFunction;
 use crate::motion::limits::Limits;
+use crate::motion::water_series::WaterSeries;
 
 mod events;
+mod water;
 
 /// A motion by less than this along a step counts as rest: its terms need not converge among
 /// themselves, only stay below rounding of this \[L\], \[rad\].
@@ -76,16 +83,20 @@ pub(crate) struct Series<T: Real> {
     circle: VectorSeries<T, 2>,
     /// k θ_k, twice.
     spin: VectorSeries<T, 2>,
-    /// The forces, drag included.
+    /// The forces, those by the water included.
     force: [Polynomial<T>; 2],
-    /// θ̈ by drag.
+    /// What the water turns the body by: a moment, or of a unit mass θ̈.
     turning: Polynomial<T>,
     drag: DragSeries<T>,
+    /// If the body floats.
+    water: Option<Box<WaterSeries<T>>>,
     pairs: CableSeries<T>,
     lines: Vec<Line<T>>,
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
+    /// What the series leave out of the gaps within the step.
+    left_out: PerCable<T>,
     limits: Limits<T>,
     step: T,
     /// What may be reached within the step: event functions, as far as they are not the gaps of
@@ -107,10 +118,15 @@ impl<T: Real> Series<T> {
             force: [Polynomial::default(); 2],
             turning: Polynomial::default(),
             drag: DragSeries::default(),
+            water: system
+                .floating
+                .as_ref()
+                .map(|water| Box::new(WaterSeries::new(system, water))),
             pairs: CableSeries::default(),
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
+            left_out: [T::ZERO; MAX_CABLES],
             limits: Limits::of(system, rules),
             step: T::ZERO,
             watched: Vec::new(),
@@ -124,6 +140,7 @@ impl<T: Real> Series<T> {
         system: &System<T>,
         t: T,
         start: &State<T>,
+        memory: &[Complex<T>],
         contacts: &Contacts<T>,
         active: ActiveSet,
     ) {
@@ -134,7 +151,7 @@ impl<T: Real> Series<T> {
             for (cable, tether) in system.cables.iter().enumerate() {
                 self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
             }
-            self.expand_force(system, t);
+            self.expand_force(system, t, memory);
             (self.x[0], self.x[1]) = (start.x, start.vx);
             (self.y[0], self.y[1]) = (start.y, start.vy);
             self.circle = VectorSeries::default();
@@ -155,6 +172,7 @@ impl<T: Real> Series<T> {
             self.extend_motions(system);
             self.know_gaps();
             self.step = self.choose_step(system);
+            self.left_out = self.left_out_of_gaps(system, self.step);
             self.active.taut = active
                 .taut
                 .iter()
@@ -166,7 +184,7 @@ impl<T: Real> Series<T> {
 
     /// f(t0 + s) as a power series.
     #[inline(always)]
-    fn expand_force(&mut self, system: &System<T>, t: T) {
+    fn expand_force(&mut self, system: &System<T>, t: T, memory: &[Complex<T>]) {
         self.force = [Polynomial::default(); 2];
         let constant = system.forcing.constant;
         (self.force[0][0], self.force[1][0]) = (constant.x, constant.y);
@@ -175,6 +193,9 @@ impl<T: Real> Series<T> {
         }
         if let Some(drag) = &system.drag {
             self.drag.begin(drag, t);
+        }
+        if let (Some(series), Some(water)) = (&mut self.water, &system.floating) {
+            series.begin(water, t, memory);
         }
     }
 
@@ -188,7 +209,8 @@ impl<T: Real> Series<T> {
         for (force, drag) in self.force.iter_mut().zip(found) {
             force[k] += drag;
         }
-        self.turning[k] = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
+        let turning = -(drag.turning * self.theta[k + 1] * (k + 1) as f64);
+        self.turning[k] = system.body.mass.load_of_turning(turning);
     }
 
     /// Gives the k-th coefficient of θ.
@@ -220,18 +242,20 @@ impl<T: Real> Series<T> {
     /// All coefficients, order by order.
     #[inline(always)]
     fn extend_motions(&mut self, system: &System<T>) {
-        let inverse_inertia = system.body.inverse_inertia();
+        let mass = &system.body.mass;
         let normals = self.pairs.set_carrying(self.active.carrying);
-        let coupling = |i: usize, j: usize| normals[i].coupling(&normals[j], inverse_inertia);
+        let coupling = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
         let ready = Factored::new(self.active.carrying, coupling);
         self.keep_gaps(1);
         for k in 0..ORDER - 1 {
             self.extend_drag(system, k);
-            self.extend_motion(k, inverse_inertia, &ready);
+            self.extend_water(system, k);
+            self.extend_motion(k, mass, &ready);
             self.extend_pairs(k + 2);
             self.keep_gaps(k + 2);
             self.keep_tensions(k);
         }
+        self.close_water(system);
     }
 
     /// The k-th coefficients of the tensions, and those of order k + 2 of the motion.
@@ -239,7 +263,7 @@ impl<T: Real> Series<T> {
     fn extend_motion(
         &mut self,
         k: usize,
-        inverse_inertia: T,
+        mass: &Mass<T>,
         ready: &Factored<T, impl Fn(usize, usize) -> T>,
     ) {
         // θ_{k+2} is still zero, so this is the part that the lower orders of θ give.
@@ -247,16 +271,12 @@ impl<T: Real> Series<T> {
         let (sine, cosine) = self.rotation(k + 2);
         let share = T::ONE / ((k + 1) * (k + 2)) as f64;
 
-        let [x, y, moment] = self.pairs.known_pulls(k);
-        let known = [
-            self.force[0][k] - x,
-            self.force[1][k] - y,
-            self.turning[k] - moment * inverse_inertia,
-        ];
-        let [x, y, moment] = self.pairs.find_tensions(k, known, [sine, cosine], ready);
-        self.x[k + 2] = (known[0] - x) * share;
-        self.y[k + 2] = (known[1] - y) * share;
-        let theta = (known[2] - moment * inverse_inertia) * share;
+        let load = [self.force[0][k], self.force[1][k], self.turning[k]];
+        let pulls = self.pairs.known_pulls(k);
+        let known = mass.accelerated_by(mass.less_pull(load, pulls));
+        let pulls = self.pairs.find_tensions(k, known, [sine, cosine], ready);
+        let [x, y, theta] = mass.slowed_by(known, pulls).map(|a| a * share);
+        (self.x[k + 2], self.y[k + 2]) = (x, y);
         self.turn(k + 2, theta);
         let [cosine_0, sine_0] = self.circle[0];
         self.circle[k + 2] = [cosine - theta * sine_0, sine + theta * cosine_0];
@@ -307,7 +327,7 @@ impl<T: Real> Series<T> {
             let mut light = T::ONE;
             for cable in self.active.carrying.iter() {
                 let fairlead = system.cables[cable].fairlead();
-                light = light.max(T::ONE + fairlead.dot(fairlead) * system.body.inverse_inertia());
+                light = light.max(system.body.mass.largest_coupling(fairlead.dot(fairlead)));
             }
             let still = T::from_f64(STILL);
             let longest = T::ONE.min((T::from_f64(8.0) / light).sqrt());
@@ -320,7 +340,7 @@ impl<T: Real> Series<T> {
                 let scale = (tension[0].abs() + 1.0) * 20.0;
                 step = tension.converged_within(step, ORDER - 2, scale);
             }
-            step
+            self.shortened(system, step)
         })
     }
 
@@ -360,7 +380,7 @@ impl<T: Real> Series<T> {
         let ([value, ..], noise) = self.lines[cable].gap.jet_and_noise(s, ORDER);
         Contact {
             gap: value,
-            error: self.contacts[cable].error + noise,
+            error: self.contacts[cable].error + noise + self.left_out[cable],
             resting: false,
         }
     }

@@ -93,21 +93,20 @@ impl Trajectory {
             norms: Norms::default(),
         };
         while let Some(step) = simulation.step() {
-            run.take(&step);
+            run.take(&simulation, &step);
             if watch(&simulation, &step).is_break() {
                 return (run, ControlFlow::Break(()));
             }
         }
         run.end = End::of(&simulation);
-        run.segments
-            .end(run.end.t, run.end.state, simulation.taut());
+        run.segments.end(&simulation);
         run.norms.y_max = simulation.y_max();
         run.norms.theta_max = simulation.theta_max();
         (run, ControlFlow::Continue(()))
     }
 
-    fn take(&mut self, step: &Step) {
-        self.segments.take(step, &self.system);
+    fn take(&mut self, simulation: &Simulation, step: &Step) {
+        self.segments.take(simulation, step);
         if step.t_end > step.t_start {
             match self.modes.last_mut() {
                 Some(mode) if mode.taut == step.taut => mode.t_end = step.t_end,

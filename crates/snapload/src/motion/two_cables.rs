@@ -8,6 +8,7 @@ use crate::model::body::Body;
 use crate::model::cable::Cable;
 use crate::model::contact_law::ContactLaw;
 use crate::model::forcing::{Forcing, Harmonic};
+use crate::model::mass::Mass;
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -112,8 +113,8 @@ impl<L: Copy> TwoCableSystem<L> {
 }
 
 impl<T: Real> TwoCableSystem<T> {
-    /// The door of the fast path: a system with two cables and one sinusoid, without drag; others
-    /// are left to the general loop.
+    /// The door of the fast path: a body of unit mass on two cables under one sinusoid, without drag
+    /// and not afloat; others are left to the general loop.
     ///
     /// Everything that a system and its rules say is named here, so that what is added to either
     /// does not compile before it is said what it means for the fast path.
@@ -123,6 +124,7 @@ impl<T: Real> TwoCableSystem<T> {
             cables,
             forcing,
             drag,
+            floating,
             // In the law of contact.
             restitution: _,
         } = system;
@@ -131,7 +133,7 @@ impl<T: Real> TwoCableSystem<T> {
             harmonics,
         } = forcing;
         let Body {
-            inverse_inertia,
+            mass,
             // As far as it matters, it is the body's reach.
             shape: _,
         } = body;
@@ -146,7 +148,9 @@ impl<T: Real> TwoCableSystem<T> {
             max_impacts,
             v_stick,
         } = *rules;
-        let ([first, second], [wave], None) = (&cables[..], &harmonics[..], drag) else {
+        let ([first, second], [wave], None, None, Mass::Unit { inverse_inertia }) =
+            (&cables[..], &harmonics[..], drag, floating, mass)
+        else {
             return None;
         };
         let never = T::from_f64(NEVER);

@@ -14,6 +14,7 @@ fn string(length: f64, weight: f64, restitution: f64) -> System {
             harmonics: vec![],
         },
         drag: None,
+        floating: None,
         restitution,
     }
 }

@@ -15,6 +15,7 @@ fn billiard(cables: &[([f64; 2], f64)]) -> System {
             .collect(),
         forcing: Forcing::default(),
         drag: None,
+        floating: None,
         restitution: 1.0,
     }
 }

@@ -42,6 +42,7 @@ impl Table {
                 }],
             },
             drag: None,
+            floating: None,
             restitution: self.e,
         }
     }

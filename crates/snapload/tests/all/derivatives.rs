@@ -206,6 +206,7 @@ fn towards_a_graze(depth: f64) -> (System, State) {
             harmonics: vec![],
         },
         drag: None,
+        floating: None,
         restitution: 0.8,
     };
     let (angle, theta, along, spin, before): (f64, f64, f64, f64, f64) = (1.2, 0.4, 0.4, 0.7, 0.5);
@@ -278,7 +279,7 @@ fn derivatives_grow_towards_a_graze() {
         let before = State::from_components(exact.before.components().map(Digits::to_f64));
         let (v_n, t) = (exact.v_n.to_f64(), exact.t.to_f64());
         let Normal { n, arm } = system.cables[0].normal(&before);
-        let free = system.free_acceleration(t, &before);
+        let free = system.free_acceleration(t, &before, [0.0; 3]);
         let alpha = -system.free_normal_acceleration(0, &before, free);
         assert!(alpha > 0.5 && v_n < 0.2, "it slows down where it snaps");
         let inverse_inertia = system.body.inverse_inertia();

@@ -26,6 +26,7 @@ fn falling(force: [f64; 2], drag: Drag) -> System {
             harmonics: vec![],
         },
         drag: Some(drag),
+        floating: None,
         restitution: 0.5,
     }
 }

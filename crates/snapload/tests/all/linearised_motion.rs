@@ -45,6 +45,7 @@ fn systems(restitution: BoxedStrategy<f64>) -> impl Strategy<Value = (System, St
                     harmonics: wave.into_iter().map(harmonic).collect(),
                 },
                 drag: None,
+                floating: None,
                 restitution: e,
             };
             (system, state)

@@ -15,6 +15,8 @@ mod case_border;
 mod common;
 mod derivatives;
 mod drag;
+mod floating;
+mod floating_random;
 mod invariants;
 mod linearised_motion;
 mod many_cables;

@@ -35,6 +35,7 @@ fn systems(forced: bool) -> impl Strategy<Value = System> {
                     harmonics: vec![Harmonic::ellipse(f_o, wave.1, wave.2)],
                 },
                 drag: None,
+                floating: None,
                 restitution,
             }
         },
@@ -147,6 +148,7 @@ fn parallel_tethers_share_an_impact_evenly() {
             harmonics: Vec::new(),
         },
         drag: None,
+        floating: None,
         restitution: 0.5,
     };
     let start = State {
@@ -250,6 +252,7 @@ fn parallel_tethers_swing_as_one_pendulum() {
                 harmonics: Vec::new(),
             },
             drag: None,
+            floating: None,
             restitution: 0.5,
         };
         let start = State {
@@ -329,6 +332,7 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                         harmonics: vec![Harmonic::ellipse(f_o, nu, omega)],
                     },
                     drag: None,
+                    floating: None,
                     restitution: e,
                 };
                 let rules = Rules {

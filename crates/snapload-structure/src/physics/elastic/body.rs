@@ -74,7 +74,7 @@ impl SprungBody<'_> {
 
     pub(super) fn acceleration(&self, t: f64, state: &State, pulling: TautSet) -> [f64; 3] {
         let inverse_inertia = self.system.body.inverse_inertia();
-        let free = self.system.free_acceleration(t, state);
+        let free = self.system.free_acceleration(t, state, [0.0; 3]);
         pulling.iter().fold(free, |[x, y, theta], line| {
             let Stretch { n, arm, force, .. } = self.stretch(line, state);
             [

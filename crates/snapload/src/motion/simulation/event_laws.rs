@@ -65,7 +65,8 @@ impl<T: Real> Simulation<T> {
             let candidates = slow.union(at_rest).union(caught);
             let mut halted = result.after;
             project_velocity(&self.system, &mut halted, candidates);
-            self.active = taut_next(&self.system, self.t, &halted, candidates);
+            let memory_force = self.memory_force();
+            self.active = taut_next(&self.system, self.t, &halted, memory_force, candidates);
             let at_rest = if caught.is_empty() {
                 project_velocity(&self.system, &mut self.state, self.active.taut);
                 at_rest
@@ -171,10 +172,11 @@ impl<T: Real> Simulation<T> {
             let last = series.step() * 0.5;
             let later = steps.into_iter().find(clear).unwrap_or(last);
             let state = series.state(since + later);
-            taut_next(&self.system, self.t + later, &state, taut)
+            let memory_force = series.memory_force(since + later);
+            taut_next(&self.system, self.t + later, &state, memory_force, taut)
         } else {
             let kept = released.iter().fold(taut, TautSet::without);
-            taut_next(&self.system, self.t, &self.state, kept)
+            taut_next(&self.system, self.t, &self.state, self.memory_force(), kept)
         };
     }
 
@@ -217,7 +219,9 @@ impl<T: Real> Simulation<T> {
         }
         let mut limit = None;
         for cable in cables.iter() {
-            let alpha = normal_acceleration(&self.system, self.t, &self.state, cable, others);
+            let (system, memory_force) = (&self.system, self.memory_force());
+            let alpha =
+                normal_acceleration(system, self.t, &self.state, memory_force, cable, others);
             if alpha > T::ZERO {
                 let at = self.t + self.system.contact_law().time_of_bounces(v_n, alpha)?;
                 limit = Some(limit.map_or(at, |limit: T| limit.max(at)));

@@ -2,6 +2,7 @@
 
 use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
+use crate::model::floating::Complex;
 use crate::model::rules::Limit;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -22,7 +23,7 @@ const LOOKS: usize = 64;
 pub(super) enum Stretch<'a, T: Real> {
     /// In closed form.
     Closed(Cow<'a, Flight<T>>),
-    /// By a series, as cables are taut or the water resists.
+    /// By a series, as cables are taut, or the water resists or carries.
     Expanded(&'a Series<T>),
 }
 
@@ -99,6 +100,15 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(crate) fn within(&self, step: &Step<T>, s: T) -> State<T> {
         self.motion(step.taut).state(s)
+    }
+
+    /// What the water remembered when the latest step began.
+    pub(crate) fn memory_at_start(&self) -> Box<[Complex<T>]> {
+        let mut memory: Box<[Complex<T>]> = self.memory().into();
+        if let (Some(series), false) = (&self.series, memory.is_empty()) {
+            series.memory(T::ZERO, &mut memory);
+        }
+        memory
     }
 
     /// The motion of the latest stretch.
@@ -295,7 +305,8 @@ impl<T: Real> Simulation<T> {
         };
         if step.taut != step.carrying {
             let t = step.t_start + s;
-            return tensions(&self.system, t, &series.state(s), step.taut);
+            let memory_force = series.memory_force(s);
+            return tensions(&self.system, t, &series.state(s), memory_force, step.taut);
         }
         for cable in step.taut.iter() {
             now[cable] = series.tension(cable, s);

@@ -74,7 +74,7 @@ impl<T: Real> Series<T> {
         let jet = self.jet(EventFunction::Gap(cable), gap, ORDER, s);
         if s > T::ZERO {
             return Jet {
-                noise: jet.noise + contact.error,
+                noise: jet.noise + contact.error + self.left_out[cable],
                 ..jet
             };
         }

@@ -1,0 +1,146 @@
+//! The part of linear water in the series of a motion.
+
+use crate::arithmetic::polynomial::ORDER;
+use crate::arithmetic::real::Real;
+use crate::model::cable::Cable;
+use crate::model::floating::Complex;
+use crate::model::system::System;
+use crate::model::taut_set::{MAX_CABLES, PerCable};
+use crate::motion::taut_series::{STILL, Series};
+use crate::motion::water_series::SeriesEnd;
+
+impl<T: Real> Series<T> {
+    /// Adds the k-th coefficients of what linear water does.
+    #[inline(always)]
+    pub(super) fn extend_water(&mut self, system: &System<T>, k: usize) {
+        let (place, velocity) = (self.place(k), self.velocity(k));
+        let (Some(series), Some(water)) = (&mut self.water, &system.floating) else {
+            return;
+        };
+        let [x, y, moment] = series.extend(water, k, place, velocity);
+        self.force[0][k] += x;
+        self.force[1][k] += y;
+        let before = if system.drag.is_some() {
+            self.turning[k]
+        } else {
+            T::ZERO
+        };
+        self.turning[k] = before + system.body.mass.load_of_moment(moment);
+    }
+
+    /// Takes the memory to the last order, and finds what the series leave out.
+    #[inline(always)]
+    pub(super) fn close_water(&mut self, system: &System<T>) {
+        let orders = [ORDER - 1, ORDER];
+        let end = SeriesEnd {
+            places: orders.map(|k| self.place(k)),
+            speed: self.velocity(ORDER - 1),
+            forces: orders.map(|k| [self.force[0][k], self.force[1][k]]),
+        };
+        if let (Some(series), Some(water)) = (&mut self.water, &system.floating) {
+            series.close(system, water, &end, self.active.taut.is_empty());
+        }
+    }
+
+    /// The k-th coefficients of q.
+    #[inline(always)]
+    fn place(&self, k: usize) -> [T; 3] {
+        [self.x[k], self.y[k], self.theta[k]]
+    }
+
+    /// The k-th coefficients of q̇.
+    #[inline(always)]
+    fn velocity(&self, k: usize) -> [T; 3] {
+        self.place(k + 1).map(|next| next * (k + 1) as f64)
+    }
+
+    /// The longest part of a step, by halves of an octave, on which what the series leave out of the
+    /// gaps is a part of a rounding of how far the cables' ends move.
+    #[inline(always)]
+    pub(super) fn shortened(&self, system: &System<T>, mut step: T) -> T {
+        if self.is_followed_by_its_terms(system) {
+            return step;
+        }
+        let [first, second] = [1, 2].map(|k| {
+            let [x, y, theta] = self.place(k).map(T::abs);
+            x + y + theta
+        });
+        let longest = system.cables.iter().map(Cable::length);
+        let longest = longest.fold(T::ONE, T::max) * (T::EPSILON * 0.1);
+        let allowed = |s: T| ((first + second * s) * s + STILL) * longest;
+        let too_long = |s: T| {
+            let left_out = self.left_out_of_gaps(system, s);
+            let of_motion = self.left_out_of_motion(s);
+            left_out.into_iter().fold(of_motion, T::max) > allowed(s)
+        };
+        while step > T::EPSILON && too_long(step) {
+            step = step * 0.7;
+        }
+        step
+    }
+
+    /// Where the motion has singularities its products have the same ones, and their last terms are
+    /// about as small as its own. The flight of a floating body, or of one with any mass, is a sum of
+    /// exponentials: its squares grow twice as fast, and what a series of them leaves out is 2^28 times
+    /// as much.
+    fn is_followed_by_its_terms(&self, system: &System<T>) -> bool {
+        self.water.is_none() && system.body.mass.is_unit()
+    }
+
+    /// What the series of place, velocity and memory leave out up to a time `s`.
+    #[inline(always)]
+    fn left_out_of_motion(&self, s: T) -> T {
+        match &self.water {
+            None => T::ZERO,
+            Some(water) => water.remainder(s),
+        }
+    }
+
+    /// What the series leave out of each gap up to a time `s`, at most:
+    ///
+    /// - of |d|², the products beyond the last order;
+    /// - of d, |ρ| times what is left out of (cos θ, sin θ). These solve ċ = −θ̇ s, ṡ = θ̇ c but for the
+    ///   products beyond the last order, and rotations do not let an error grow;
+    /// - of place and rotation, what is left out of the motion.
+    ///
+    /// An error of d makes one of 2r times that, as |d| ≤ r up to the first closing.
+    #[inline(always)]
+    pub(super) fn left_out_of_gaps(&self, system: &System<T>, s: T) -> PerCable<T> {
+        let mut left_out = [T::ZERO; MAX_CABLES];
+        if self.is_followed_by_its_terms(system) {
+            return left_out;
+        }
+        let mut power = s;
+        for _ in 0..ORDER {
+            power = power * s;
+        }
+        let [cosine, sine] = self.spin.beyond_product(&self.circle, s);
+        let of_motion = self.left_out_of_motion(s);
+        let turned = (cosine + sine) * power + of_motion;
+        for (pair, tethers) in system.cables.chunks(2).enumerate() {
+            let beyond = self.pairs.beyond_gaps(pair, s);
+            for (place, tether) in tethers.iter().enumerate() {
+                let end = tether.fairlead().length() * turned + of_motion * 2.0;
+                left_out[2 * pair + place] = beyond[place] * power + end * tether.length() * 2.0;
+            }
+        }
+        left_out
+    }
+
+    /// The force of the water's memory a time `s` after the start.
+    #[inline(always)]
+    pub(crate) fn memory_force(&self, s: T) -> [T; 3] {
+        match &self.water {
+            None => [T::ZERO; 3],
+            Some(water) => water.memory_force(s),
+        }
+    }
+
+    /// The memory itself then.
+    #[inline(always)]
+    pub(crate) fn memory(&self, s: T, into: &mut [Complex<T>]) {
+        if let Some(water) = &self.water {
+            water.memory(s, into);
+        }
+    }
+}
