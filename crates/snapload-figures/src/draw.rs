@@ -7,7 +7,7 @@ use crate::layers::draw_layers;
 use crate::legend::Legend;
 use crate::map::{BESIDE, Bar, has_doubts, range};
 use crate::picture::Picture;
-use crate::plot::{self, Axis, Layer, Plot, Width, drawable};
+use crate::plot::{self, Axis, Inset, Layer, Plot, Width, drawable};
 use crate::svg::{Anchor, FRAME, Sheet};
 use crate::text::{
     CAP_HEIGHT, LABEL, NAME_GAP, ROW, SMALL, TICK, TICK_GAP, fitted, plain, widest, width,
@@ -54,6 +54,9 @@ pub fn draw(name: &str, page: Width, panels: &[Plot]) -> Result<Picture, FigureE
         area.rect = area.rect + Vec2::new(0.0, top + 2.5);
         draw_layers(&mut sheet, area, plot);
         draw_y_axis(&mut sheet, &plot.y.label, &y, &area);
+        if let Some(inset) = &plot.inset {
+            draw_inset(&mut sheet, area.rect, inset);
+        }
         if let Some(bar) = bar {
             bar.draw(&mut sheet, area.rect);
         }
@@ -177,6 +180,42 @@ fn widened(Area { rect, x, y }: Area) -> Area {
     };
     let (x, y) = (about(x, rect.width()), about(y, rect.height()));
     Area { rect, x, y }
+}
+
+/// Draws a smaller plot into a part of a frame.
+fn draw_inset(sheet: &mut Sheet, frame: Rect, inset: &Inset) {
+    /// What is left free within its part.
+    const AIR: f64 = 3.0;
+    let Inset { plot, place } = inset;
+    let [left, bottom, right, top] = *place;
+    let at = |x: f64, y: f64| {
+        let (width, height) = (frame.width(), frame.height());
+        Point::new(frame.x0 + x * width, frame.y1 - y * height)
+    };
+    let part = Rect::from_points(at(left, bottom), at(right, top));
+    sheet.blank(part);
+    let mut area = ranges(plot);
+    // Room for the numbers beside and below; those of the widened range may be longer.
+    for _ in 0..2 {
+        let numbers = widest(ticks(plot.y.ticks, area.y).texts());
+        let half = widest(ticks(plot.x.ticks, area.x).texts().last().into_iter()) / 2.0;
+        area.rect = Rect {
+            x0: part.x0 + AIR + numbers + TICK_GAP + TICK,
+            y0: part.y0 + AIR,
+            x1: part.x1 - AIR.max(half),
+            y1: part.y1 - AIR - TICK - TICK_GAP - SMALL,
+        };
+        if plot.equal_scale {
+            area = widened(area);
+        }
+    }
+    draw_layers(sheet, area, plot);
+    draw_y_axis(sheet, "", &ticks(plot.y.ticks, area.y), &area);
+    let unnamed = Axis {
+        label: String::new(),
+        ..plot.x.clone()
+    };
+    draw_x_axis(sheet, &unnamed, &area, true);
 }
 
 /// The title, from `top` down; like its neighbours it returns where it ends.

@@ -27,7 +27,7 @@ pub(crate) fn draw_layers(sheet: &mut Sheet, area: Area, plot: &Plot) {
         Layer::Markers(points, ..) => points.len(),
         _ => 0,
     });
-    let marker = marker_radius(markers.sum());
+    let marker = marker_radius(markers.sum::<usize>().max(plot.markers));
     for layer in &plot.layers {
         draw_layer(sheet, area, layer, marker, &mut ink);
     }

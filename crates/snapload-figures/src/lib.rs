@@ -55,6 +55,7 @@ pub use error::FigureError;
 pub use figures::{Leg, Mode, energy, rotation, snap_velocities, tensions, trajectory};
 pub use picture::{PNG_SCALE, Picture};
 pub use plot::{
-    Axis, Cell, Colour, Dash, Layer, Map, Mark, Plot, Point, Range, Shape, Stroke, TickStyle, Width,
+    Axis, Cell, Colour, Dash, Inset, Layer, Map, Mark, Plot, Point, Range, Shape, Stroke,
+    TickStyle, Width,
 };
 pub use run::{RunPlot, RunPlots};

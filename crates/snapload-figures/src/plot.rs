@@ -25,6 +25,22 @@ pub struct Plot {
     pub layers: Vec<Layer>,
     /// Words in the middle of the plot, such as the reason why it is empty; empty for none.
     pub note: String,
+    /// A smaller plot within the frame, such as a part of it enlarged, or the whole of which it is a
+    /// part.
+    pub inset: Option<Box<Inset>>,
+    /// Markers are drawn as small as if there were at least so many of them: plots that are compared
+    /// have markers of one size.
+    pub markers: usize,
+}
+
+/// A smaller plot within the frame of another one: on white, with numbers along its axes, without
+/// labels and legend.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Inset {
+    /// What it shows.
+    pub plot: Plot,
+    /// Where it stands, numbers and all: left, bottom, right and top side, in parts of the frame.
+    pub place: [f64; 4],
 }
 
 /// One axis of a plot.

@@ -4,7 +4,7 @@ use crate::draw::draw;
 use crate::error::FigureError;
 use crate::figures::{self, Leg, Mode};
 use crate::picture::Picture;
-use crate::plot::{Mark, Plot, Point, Range, Width};
+use crate::plot::{Axis, Inset, Mark, Plot, Point, Range, Width};
 use snapload::{ModeInterval, Motion, Playback, TautSet, Trajectory, Vector2};
 
 /// Longest step of time between two drawn points, where a run has no more than [`MOST_STEPS`] of
@@ -120,7 +120,30 @@ impl<'a> RunPlots<'a> {
             RunPlot::Energy => figures::energy(&over_time(|m| m.energy), self.horizon),
         };
         plot.x.range = Range::AtLeast(0.0, self.run.end().t);
-        plot
+        match which {
+            RunPlot::Snaps => self.windowed(plot),
+            _ => plot,
+        }
+    }
+
+    /// Snap velocities where there are snaps, with the whole run as an inset, if it goes on without any
+    /// for more than half of its time.
+    fn windowed(&self, whole: Plot) -> Plot {
+        let last = self.run.impacts().iter().rfind(|impact| impact.v_n > 0.0);
+        match last.map(|impact| impact.t) {
+            Some(last) if last > 0.0 && last < 0.5 * self.run.end().t => Plot {
+                x: Axis {
+                    range: Range::Fixed(0.0, 1.05 * last),
+                    ..whole.x.clone()
+                },
+                inset: Some(Box::new(Inset {
+                    place: [0.6, 0.5, 0.99, 0.98],
+                    plot: whole.clone(),
+                })),
+                ..whole
+            },
+            _ => whole,
+        }
     }
 
     /// One of them on a page of its own.

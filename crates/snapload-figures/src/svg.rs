@@ -105,6 +105,11 @@ impl Sheet {
         self.rect(rect, format_args!(r#"fill="{SHADE}""#));
     }
 
+    /// A white background.
+    pub(crate) fn blank(&mut self, rect: Rect) {
+        self.rect(rect, format_args!(r##"fill="#fff""##));
+    }
+
     /// The frame of a plot.
     pub(crate) fn frame(&mut self, rect: Rect) {
         let (colour, width) = (hex(FRAME.colour), number(FRAME.width_pt));

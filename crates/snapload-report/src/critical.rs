@@ -100,7 +100,7 @@ impl Probability {
     pub fn in_words(&self, text: &mut String) {
         let Passes { p05, p50, p95 } = self.passes;
         let from = |f_o: Option<f64>| match f_o {
-            Some(f_o) => format!("from f_o = {f_o}"),
+            Some(f_o) => format!("first at f_o = {f_o}"),
             None => "nowhere".to_owned(),
         };
         let _ = writeln!(

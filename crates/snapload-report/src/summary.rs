@@ -49,7 +49,7 @@ pub fn summary_lines(
     lines.push(("Outcome", outcome_in_words(trusted)));
     lines.push(("Trust", trust_in_words(trusted)));
     lines.extend(certified.map(|certified| ("Proved", certified.in_words())));
-    lines.push(("Impacts", impacts(run.impacts())));
+    lines.push(("Impacts", impacts(trusted)));
     lines.extend(hardest(trusted).map(|hardest| ("Hardest", hardest)));
     let (norms, errors) = (run.norms(), NormErrors::of(run, &trusted.trust));
     let norm = |name: &str, value: f64, error| {
@@ -61,10 +61,13 @@ pub fn summary_lines(
     let rho3 = norm("rho3", norms.rho3, errors.rho3);
     lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
     let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
-    lines.push(("", format!("y_max = {y_max}, theta_max = {theta_max} rad")));
-    lines.push(("Modes", modes(run.modes())));
+    let doubt = doubt_at(trusted, run.end().t);
+    let extremes = format!("y_max = {y_max}{doubt}, theta_max = {theta_max} rad{doubt}");
+    lines.push(("", extremes));
+    lines.push(("Modes", modes(run.modes()) + doubt));
     if (2..=FEW_MODES).contains(&run.modes().len()) {
-        lines.extend(run.modes().iter().map(|mode| ("", interval(mode))));
+        let words = |mode: &ModeInterval| interval(mode) + doubt_at(trusted, mode.t_end);
+        lines.extend(run.modes().iter().map(|mode| ("", words(mode))));
     }
     lines
 }
@@ -104,11 +107,22 @@ fn rounded(value: &Value) -> String {
     }
 }
 
+/// What is said of a number of which nothing is known.
+const NOT_CERTAIN: &str = "not certain";
+
+/// What stands behind what the motion up to some time comes to, where that is past the horizon.
+fn doubt_at(trusted: &Trusted, t: f64) -> &'static str {
+    match trusted.horizon() {
+        Some(horizon) if t >= horizon => " (not certain)",
+        _ => "",
+    }
+}
+
 /// How many decimal digits of a value are known, of its fraction where it is below 1; nothing where
 /// there is no error to tell it from.
 fn known(value: f64, error: Option<f64>) -> String {
     let Some(error) = error else {
-        return "not certain".to_owned();
+        return NOT_CERTAIN.to_owned();
     };
     let digits = digits_within(error / value.abs().max(1.0)).floor();
     let plural = if digits == 1.0 { "" } else { "s" };
@@ -152,8 +166,10 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
     }
 }
 
-/// How many snaps each cable had. Rows with v_n = 0 are impulses passed into a taut cable.
-fn impacts(impacts: &[Impact]) -> String {
+/// How many snaps each cable had, and how many in all are certain where not all are. Rows with
+/// v_n = 0 are impulses passed into a taut cable.
+fn impacts(trusted: &Trusted) -> String {
+    let impacts = trusted.run.impacts();
     let mut of_cable = [0_usize; snapload::MAX_CABLES];
     let mut passed = 0;
     for impact in impacts {
@@ -167,6 +183,11 @@ fn impacts(impacts: &[Impact]) -> String {
         0 => "none".to_owned(),
         _ => format!("{total}"),
     };
+    if let Some(horizon) = trusted.trust.horizon.filter(|_| total > 0) {
+        let known = impacts.iter().take(horizon.impact.saturating_sub(1));
+        let known = known.filter(|impact| impact.v_n > 0.0).count();
+        let _ = write!(text, " ({known} certain)");
+    }
     let mut join = ": ";
     for (cable, count) in of_cable.iter().enumerate().filter(|(_, count)| **count > 0) {
         let _ = write!(text, "{join}{count} of cable {}", cable + 1);

@@ -103,7 +103,13 @@ pub(crate) fn figures(study: &Study) -> Result<Vec<Row<Figure>>, ReportError> {
     let lists: Lists = toml::from_str(include_str!("../data/figures.toml"))?;
     let row = |row: &Row<Listed>| {
         let axes = Axes::shared(study, row)?;
-        let figure = |figure: &Listed| figure.draw(study, &lists, axes);
+        // What stands alone has the width of the page.
+        let page = if row.columns == 1 {
+            Width::Page
+        } else {
+            Width::Column
+        };
+        let figure = |figure: &Listed| figure.draw(study, &lists, axes, page);
         Ok(Row {
             title: row.title.clone(),
             columns: row.columns,
@@ -118,19 +124,27 @@ pub(crate) fn figures(study: &Study) -> Result<Vec<Row<Figure>>, ReportError> {
 }
 
 impl Listed {
-    fn draw(&self, study: &Study, lists: &Lists, axes: Axes) -> Result<Figure, ReportError> {
+    fn draw(
+        &self,
+        study: &Study,
+        lists: &Lists,
+        axes: Axes,
+        page: Width,
+    ) -> Result<Figure, ReportError> {
         let name = format!("figure-{}", self.number.replace('.', "-"));
-        let (plot, about) = match &self.shows {
+        let (mut plot, about) = match &self.shows {
             Shows::Run(run) => run.draw(&name, study, axes)?,
             Shows::Critical(curve) => curve.critical(study, lists)?,
             Shows::Norms(curve) => curve.norms(study, lists)?,
             Shows::State(state) => state.draw(study)?,
-            Shows::Example(example) => example.draw(&name)?,
+            Shows::Example(example) => example.draw(study, &name)?,
         };
+        // For those who do not see it, each figure has a title of its own.
+        plot.description = format!("Fig. {}. {}", self.number, about.caption);
         Ok(Figure {
             number: self.number.clone(),
             data: csv(&plot),
-            picture: draw(&name, Width::Column, &[plot])?,
+            picture: draw(&name, page, &[plot])?,
             about,
         })
     }

@@ -5,14 +5,19 @@
 //! that begins to slide; the motion really slides on. [`Report`] makes files of it.
 
 mod claims;
+mod critical_row;
 mod figures;
+mod many_digits;
 mod page;
 mod proved;
+mod sentences;
 mod source;
 mod story;
 mod study;
 mod tables;
 
+pub use proved::proofs;
+pub use story::stretches;
 pub use study::Study;
 
 use claims::Claim;
@@ -26,6 +31,9 @@ pub enum ReportError {
     /// A case is not legal.
     #[error("a case can not be run: {0}")]
     Case(#[from] snapload::CaseError),
+    /// A run was not finished.
+    #[error("a run was not finished: {0}")]
+    Run(#[from] snapload::analysis::Unfinished),
     /// The list of figures can not be read.
     #[error("the list of figures can not be read: {0}")]
     List(#[from] toml::de::Error),
@@ -83,6 +91,7 @@ fn claims_json(claims: &[Claim]) -> String {
             "claim": claim.claim,
             "verdict": claim.verdict.words(),
             "evidence": evidence.trim_end(),
+            "judged": claim.judged,
         })
     };
     let rows: serde_json::Value = claims.iter().map(row).collect();

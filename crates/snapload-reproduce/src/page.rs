@@ -3,13 +3,15 @@
 
 use crate::ReportError;
 use crate::claims::{Claim, Verdict};
+use crate::critical_row::{CriticalRow, NEIGHBOURS};
 use crate::figures::{Figure, Row};
+use crate::sentences::{Chapter, Kind};
 use crate::source::{Number, REPORT, critical, decimals, probability, run};
-use crate::story::story;
-use crate::study::{Both, CaseRuns, CriticalRow, NEIGHBOURS, Reading, Study};
-use crate::tables::{EXCEEDING, critical_outcome, outcome, published_exceeds, rows_6_1};
+use crate::story::{self, story};
+use crate::study::{CaseRuns, Reading, Study};
+use crate::tables::{END_TIMES, EXCEEDING, by_convention, critical_outcome, outcome, rows_6_1};
 use maud::{Markup, PreEscaped, html};
-use snapload::{Trajectory, anchor_height};
+use snapload::anchor_height;
 
 /// The symbols that plain text writes with an underscore, set as such.
 const SYMBOLS: [(&str, &str); 8] = [
@@ -23,8 +25,9 @@ const SYMBOLS: [(&str, &str); 8] = [
     ("I_c", "<i>I</i><sub>c</sub>"),
 ];
 
-const VERDICTS: [Verdict; 3] = [
+const VERDICTS: [Verdict; 4] = [
     Verdict::Reproduced,
+    Verdict::Mixed,
     Verdict::NotReproduced,
     Verdict::NotDecidable,
 ];
@@ -46,6 +49,7 @@ pub(crate) fn page(
         study,
         figures,
         claims,
+        chapter: Chapter::read(claims)?,
         commands: Vec::new(),
     };
     let mut text = String::new();
@@ -66,11 +70,20 @@ pub(crate) fn page(
     Ok(text)
 }
 
+/// Up to where the numbers of a row are known.
+fn known_to(case: &CaseRuns, reading: Reading) -> String {
+    match (case.proved.of(reading), case.runs.of(reading).horizon) {
+        (None, Some(t)) => format!("t = {}", decimals(t, 2)),
+        _ => "the end".to_owned(),
+    }
+}
+
 /// What the page is made of, and the commands that it mentioned so far.
 struct Page<'a> {
     study: &'a Study,
     figures: &'a [Row<Figure>],
     claims: &'a [Claim],
+    chapter: Chapter,
     commands: Vec<String>,
 }
 
@@ -84,22 +97,43 @@ impl Page<'_> {
     /// A number or a word within a sentence.
     fn word(&mut self, name: &str) -> Option<Markup> {
         let rows = &self.study.critical;
-        let computed = |row: &CriticalRow| Some(row.computed.chapter.first?.f_o - row.published);
-        let differences = || rows.iter().filter_map(computed).map(f64::abs);
-        let exceeds = |row: &&CriticalRow| published_exceeds(row, &row.computed.chapter);
+        let differences = || {
+            let first = rows
+                .iter()
+                .filter_map(|row| Some(row.first()?.0 - row.published));
+            first.map(f64::abs)
+        };
+        let exceeds = |row: &&CriticalRow| {
+            row.at_published()
+                .is_some_and(|proved| proved.reason.exceeds())
+        };
+        let of_verdict = |verdict| {
+            rows.iter()
+                .filter(move |row| row.verdict() == verdict)
+                .count()
+        };
         let count = match name {
             "version" => return Some(html! { (env!("CARGO_PKG_VERSION")) }),
             "report" => return Some(html! { (REPORT) }),
+            "horizons" => return Some(html! { (self.horizons()) }),
+            "worst end" => return Some(html! { (decimals(self.worst_end(), 2)) }),
+            "miscounted" => self.miscounted(),
+            "runs" => self.study.cases.len(),
             "statements" => self.claims.len(),
             "published" => rows.len(),
             "equal" => differences().filter(|d| *d < 0.005).count(),
             "close" => differences().filter(|d| *d < 0.035).count(),
             "exceeding" => rows.iter().filter(exceeds).count(),
-            "decidable" => rows
-                .iter()
-                .filter(|row| row.decidable(Reading::Chapter))
-                .count(),
+            "entries reproduced" => of_verdict(Verdict::Reproduced),
+            "entries not reproduced" => of_verdict(Verdict::NotReproduced),
+            "entries open" => of_verdict(Verdict::NotDecidable),
             "neighbours" => NEIGHBOURS as usize,
+            "sentences" => self.chapter.count(|_| true),
+            "sentences claimed" => self.chapter.count(|kind| matches!(kind, Kind::Claims(_))),
+            "sentences defining" => self.chapter.count(|kind| matches!(kind, Kind::Definition)),
+            "sentences unchecked" => self
+                .chapter
+                .count(|kind| matches!(kind, Kind::NotCheckable(_))),
             symbol if SYMBOLS.iter().any(|(plain, _)| *plain == symbol) => {
                 return Some(symbols(symbol));
             }
@@ -114,6 +148,40 @@ impl Page<'_> {
             }
         };
         Some(html! { (count) })
+    }
+
+    /// After how many impacts the runs of Table 6.1 are no longer known in doubles.
+    fn horizons(&self) -> String {
+        let cases = self.study.cases.iter();
+        let horizons = cases.filter_map(|case| case.runs.chapter.first_unknown);
+        let horizons: Vec<usize> = horizons.collect();
+        match (horizons.iter().min(), horizons.iter().max()) {
+            (Some(least), Some(most)) => format!("{least} to {most}"),
+            _ => "no".to_owned(),
+        }
+    }
+
+    /// By how much the end of a run in doubles is off at the most, where it is proved.
+    fn worst_end(&self) -> f64 {
+        let cases = self.study.cases.iter();
+        let off = cases.filter_map(|case| {
+            let proved = case.proved.chapter?;
+            Some((case.runs.chapter.run.end().t - proved.time()).abs())
+        });
+        off.fold(0.0, f64::max)
+    }
+
+    /// How many runs have another number of impacts in doubles than is proved.
+    fn miscounted(&self) -> usize {
+        let cases = self.study.cases.iter();
+        let differs = |case: &&CaseRuns| {
+            let impacts = case.runs.chapter.run.impacts().iter();
+            let snaps = impacts.filter(|impact| impact.v_n > 0.0).count();
+            case.proved
+                .chapter
+                .is_some_and(|proved| proved.impacts != snaps)
+        };
+        cases.filter(differs).count()
     }
 
     /// A part of the page.
@@ -136,10 +204,15 @@ impl Page<'_> {
             },
             "rows of 6.1" => self.table_6_1(),
             "rows of 6.2" => html! {
-                @for row in &study.critical {
-                    @for reading in Reading::BOTH { (self.critical(row, reading)) }
-                }
+                @for row in &study.critical { (self.critical(row)) }
             },
+            "heads of conventions" => html! {
+                @for t_end in END_TIMES { th { "t ≤ " (t_end) } }
+            },
+            "rows of conventions" => html! {
+                @for row in &study.critical { (self.conventions(row)) }
+            },
+            "sentences table" => self.sentences(),
             "figures" => html! {
                 @for Row { title, columns, figures } in figures {
                     section {
@@ -150,8 +223,8 @@ impl Page<'_> {
                     }
                 }
             },
-            "story of sliding" => self.story("sliding-example", &study.sliding),
-            "story of rocking" => self.story("rocking-example", &study.rocking),
+            "story of sliding" => self.story("sliding-example"),
+            "story of rocking" => self.story("rocking-example"),
             "claims" => html! {
                 @for (section, claims) in sections(claims) {
                     tbody id={ "claims-" (section) } {
@@ -196,19 +269,17 @@ impl Page<'_> {
     fn table_6_1(&mut self) -> Markup {
         let study = self.study;
         let [chapter, sliding_on] = Reading::BOTH;
-        let same = |Both {
-                        chapter,
-                        sliding_on,
-                    }: &Both<Trajectory>| {
-            chapter.end() == sliding_on.end() && chapter.norms() == sliding_on.norms()
+        let same = |case: &CaseRuns| {
+            let [ends, goes_on] = Reading::BOTH.map(|reading| &case.runs.of(reading).run);
+            ends.end() == goes_on.end() && ends.norms() == goes_on.norms()
         };
         html! {
             @for series in rows_6_1().chunk_by(|(p, _), (q, _)| p == q) {
                 tbody {
-                    tr { th colspan="18" scope="rowgroup" { "Series " (symbols(series[0].0)) } }
+                    tr { th colspan="19" scope="rowgroup" { "Series " (symbols(series[0].0)) } }
                     @for case in series.iter().filter_map(|(_, code)| study.case(code)) {
                         // One line where both readings come to the same, else two.
-                        @if same(&case.runs) {
+                        @if same(case) {
                             (self.outcome(case, "none", &Reading::BOTH))
                         } @else {
                             (self.outcome(case, "ends", &[chapter]))
@@ -225,26 +296,64 @@ impl Page<'_> {
         html! {
             tr {
                 th scope="row" { (case.code) }
-                td { (p.r) } td { (decimals(anchor_height(p.r, p.a), 3)) } td { (p.e) } td { (p.a) } td { (p.b) }
-                td { (p.f_o) } td { (p.omega) } td { (sliding) }
+                td.given { (p.r) } td.given { (decimals(anchor_height(p.r, p.a), 3)) } td.given { (p.e) }
+                td.given { (p.a) } td.given { (p.b) } td.given { (p.f_o) } td.given { (p.omega) }
+                td { (sliding) }
                 @for number in outcome(case, readings[0]) { td { (self.link(&number)) } }
+                td { (known_to(case, readings[0])) }
                 td { @for reading in readings { (self.cite(&run(case.code, *reading))) " " } }
             }
         }
     }
 
-    fn critical(&mut self, row: &CriticalRow, reading: Reading) -> Markup {
+    fn critical(&mut self, row: &CriticalRow) -> Markup {
         html! {
             tr {
                 th scope="row" { (row.shape) }
                 td { (row.r) } td { (row.size[0]) } td { (row.size[1]) }
-                td { (decimals(row.published, 2)) } td { (reading.either("ends", "goes on")) }
-                @for number in critical_outcome(row, reading) {
+                td { (decimals(row.published, 2)) }
+                @for number in critical_outcome(row) {
                     td class=[(number.key == EXCEEDING).then_some("long")] {
                         @if !number.shown.is_empty() { (self.link(&number)) }
                     }
                 }
-                td { (self.cite(&critical(row, reading))) " " (self.cite(&probability(row, reading))) }
+                td { (self.cite(&critical(row, Reading::Chapter))) " " (self.cite(&probability(row))) }
+            }
+        }
+    }
+
+    fn conventions(&mut self, row: &CriticalRow) -> Markup {
+        html! {
+            tr {
+                th scope="row" { (row.shape) }
+                td { (row.r) } td { (row.size[0]) } td { (row.size[1]) }
+                td { (decimals(row.published, 2)) }
+                @for number in by_convention(row) { td { (self.link(&number)) } }
+            }
+        }
+    }
+
+    fn sentences(&self) -> Markup {
+        html! {
+            @for section in &self.chapter.sections {
+                tbody {
+                    tr { th colspan="3" scope="rowgroup" { "Section " (section.name) } }
+                    @for (k, sentence) in section.sentences.iter().enumerate() {
+                        tr {
+                            td { (k + 1) }
+                            td class="long" { "“" (symbols(&sentence.begins)) " …”" }
+                            td class="long" {
+                                @match &sentence.kind {
+                                    Kind::Claims(ids) => {
+                                        @for id in ids { a href={ "#claim-" (id) } { (id) } " " }
+                                    }
+                                    Kind::Definition => { "sets, describes or points to" }
+                                    Kind::NotCheckable(why) => { "not checkable: " (why) }
+                                }
+                            }
+                        }
+                    }
+                }
             }
         }
     }
@@ -275,16 +384,21 @@ impl Page<'_> {
         }
     }
 
-    fn story(&mut self, code: &str, told: &Trajectory) -> Markup {
-        let made = run(code, Reading::SlidingOn);
+    fn story(&mut self, code: &str) -> Markup {
+        let made = story::proof(code);
         html! {
             ol {
-                @for step in story(told) {
-                    @let key = format!(".modes[{}].t_start", step.mode);
-                    li { "t = " (self.link(&Number::new(step.t, 4, &made, key))) ": " (step.what) "." }
+                @for (begins, what) in story(code) {
+                    li {
+                        @match &begins {
+                            Some(t) => { "t = " (self.link(t)) }
+                            None => { "t = 0" }
+                        }
+                        ": " (what) "."
+                    }
                 }
             }
-            div.source { (self.cite(&made)) " " (command(&made)) " → " code { ".modes, .impacts" } }
+            div.source { (self.cite(&made)) " " (command(&made)) " → " code { ".impacts" } }
         }
     }
 
@@ -293,6 +407,7 @@ impl Page<'_> {
         let class = match claim.verdict {
             Verdict::Reproduced => "yes",
             Verdict::NotReproduced => "no",
+            Verdict::Mixed => "mixed",
             Verdict::NotDecidable => "open",
         };
         let key = format!("claims.json: .[] | select(.id == \"{id}\").evidence");
@@ -303,6 +418,7 @@ impl Page<'_> {
                 td { span class={ "verdict " (class) } { (claim.verdict.words()) } }
                 td class="long" {
                     (self.link(&Number::word(&claim.evidence, REPORT, key))) " " (self.cite(REPORT))
+                    @if !claim.judged.is_empty() { br; span.judged { (symbols(&claim.judged)) } }
                     @if !claim.remark.is_empty() { br; i { (symbols(&claim.remark)) } }
                 }
             }

@@ -1,6 +1,10 @@
 //! What makes a number of the report again: a command, and where in its JSON the number stands.
 
-use crate::study::{CriticalRow, NEIGHBOURS, Reading};
+use crate::critical_row::{CriticalRow, NEIGHBOURS};
+use crate::study::Reading;
+
+/// What stands before a number that lies past the horizon of its run.
+pub(crate) const DOUBTFUL: &str = "~";
 
 /// A number (or a word) of the report, with what makes it again.
 #[derive(Clone, Debug)]
@@ -44,12 +48,10 @@ impl Number {
         }
     }
 
-    /// `yes` or `no`.
-    pub(crate) fn answer(yes: bool, command: &str, key: impl Into<String>) -> Self {
-        Self {
-            exact: yes.to_string(),
-            ..Self::word(if yes { "yes" } else { "no" }, command, key)
-        }
+    /// Marked as one that rounding decides.
+    pub(crate) fn doubtful(mut self) -> Self {
+        self.shown.insert_str(0, DOUBTFUL);
+        self
     }
 }
 
@@ -71,13 +73,21 @@ pub(crate) fn critical(row: &CriticalRow, reading: Reading) -> String {
     format!("{} --json -", scan(row, reading))
 }
 
-/// The command that prints how many of its neighbours exceed.
-pub(crate) fn probability(row: &CriticalRow, reading: Reading) -> String {
-    let (scan, max) = (scan(row, reading), row.looked_up_to());
-    format!("{scan} --max {max} --ensemble {NEIGHBOURS} --json -")
+/// The command that proves how its run under one amplitude ends.
+pub(crate) fn amplitude(row: &CriticalRow, f_o: f64) -> String {
+    let scan = scan(row, Reading::Chapter);
+    let set = scan.trim_start_matches("snapload critical");
+    format!("snapload certify{set} --set f_o={f_o} --json -")
 }
 
-fn scan(row: &CriticalRow, reading: Reading) -> String {
+/// The command that prints how many of its neighbours exceed.
+pub(crate) fn probability(row: &CriticalRow) -> String {
+    let scan = scan(row, Reading::Chapter);
+    format!("{scan} --ensemble {NEIGHBOURS} --json -")
+}
+
+/// The command that looks for the critical force of a row.
+pub(crate) fn scan(row: &CriticalRow, reading: Reading) -> String {
     let ([a, b], r) = (row.size, row.r);
     format!(
         "snapload critical --set r={r} --set a={a} --set b={b}{}",

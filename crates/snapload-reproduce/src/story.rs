@@ -1,84 +1,200 @@
-//! A run told step by step, from its log of events.
+//! The two examples that slide and rock, told step by step from what is proved of them.
 
-use snapload::{ModeInterval, Trajectory};
+use crate::source::Number;
+use snapload::CaseError;
+use snapload_certificate::{ExactCase, certify};
+use std::ops::ControlFlow;
 
-/// Shorter stretches of a mode are told together as bouncing.
-const SHORT: f64 = 0.02;
-
-/// A sentence of the story.
-#[derive(Clone, Debug)]
-pub(crate) struct Step {
-    /// Which of the run's modes it begins with.
-    pub(crate) mode: usize,
-    /// When it begins.
-    pub(crate) t: f64,
-    /// What happens.
-    pub(crate) what: String,
+/// A stretch of motion with taut cables, as it is proved.
+#[derive(Clone, Debug, PartialEq)]
+struct Stretch {
+    /// The taut cables, by number: `1`, `2` or `1+2`.
+    taut: String,
+    from: String,
+    until: String,
+    /// What ends it, in the words of a certificate.
+    event: String,
+    /// How many snaps and stretches are proved before it: its place in the certificate.
+    place: usize,
+    /// How many snaps of these.
+    snaps: usize,
 }
 
-/// The story.
-pub(crate) fn story(run: &Trajectory) -> Vec<Step> {
-    let long = |mode: &ModeInterval| mode.t_end - mode.t_start >= SHORT;
-    let mut first = 0;
-    let stretches = run.modes().chunk_by(|p, q| !long(p) && !long(q));
-    stretches
-        .map(|modes| {
-            let step = Step {
-                mode: first,
-                t: modes[0].t_start,
-                what: if long(&modes[0]) {
-                    begins(run, &modes[0])
-                } else {
-                    let next = run.modes().get(first + modes.len());
-                    bounces(modes, next.map_or(run.end().t, |mode| mode.t_start))
-                },
-            };
-            first += modes.len();
-            step
-        })
+/// Until when the examples are proved. What follows is one stretch of rocking.
+const UNTIL: f64 = 12.0;
+/// The examples.
+const CASES: [&str; 2] = ["sliding-example", "rocking-example"];
+/// Shorter stretches are told together.
+const SHORT: f64 = 0.02;
+
+/// The command that proves an example.
+pub(crate) fn proof(case: &str) -> String {
+    format!("snapload certify --taut --case {case} --set t_end={UNTIL} --json -")
+}
+
+/// The file of stretches made anew.
+///
+/// # Errors
+/// A case that is not legal, or a proof that came to no end: faults of the program.
+pub fn stretches() -> Result<String, CaseError> {
+    let proved = CASES.map(|code| proved(code, UNTIL));
+    let lines: Vec<String> = proved.into_iter().collect::<Result<_, _>>()?;
+    Ok(String::from("case,taut,from,until,event,place,snaps\n") + &lines.concat())
+}
+
+/// The stretches of an example up to a time, a line each.
+fn proved(code: &str, until: f64) -> Result<String, CaseError> {
+    let mut parameters = snapload::named_case(code)?.parameters;
+    parameters.t_end = until;
+    let fault = || CaseError::value("case", code, "a case that can be proved");
+    let case = ExactCase::of(&parameters, |_| None).map_err(|_| fault())?;
+    let proof = certify(&case, true, &mut |_| ControlFlow::Continue(()));
+    let proof = proof.ok().and_then(Result::ok).ok_or_else(fault)?;
+    let written: serde_json::Value = serde_json::from_str(&proof.text()).unwrap_or_default();
+    let (mut text, mut snaps) = (String::new(), 0);
+    for (place, line) in written["impacts"]
+        .as_array()
+        .iter()
+        .copied()
+        .flatten()
+        .enumerate()
+    {
+        let word = |key: &str| line[key].as_str().unwrap_or_default();
+        let Some(mode) = line["mode"].as_array() else {
+            snaps += 1;
+            continue;
+        };
+        let taut: Vec<String> = mode.iter().map(ToString::to_string).collect();
+        let (taut, event) = (taut.join("+"), word("event"));
+        let (from, until) = (word("from"), word("until"));
+        text += &format!("{code},{taut},{from},{until},{event},{place},{snaps}\n");
+    }
+    Ok(text)
+}
+
+/// The stretches of an example, as they are kept.
+fn kept(code: &str) -> Vec<Stretch> {
+    let lines = include_str!("../data/stretches.csv").lines();
+    lines
+        .filter_map(|line| read(line.strip_prefix(code)?))
         .collect()
 }
 
-/// Short stretches, up to the beginning of a long one.
-fn bounces(modes: &[ModeInterval], until: f64) -> String {
-    let taut = match modes.iter().filter(|mode| !mode.taut.is_empty()).count() {
-        0 => String::new(),
-        1 => ", once with a cable taut for a moment".to_owned(),
-        times => format!(", {times} times with a cable taut for a moment"),
-    };
-    let lasts = match until - modes[0].t_start {
-        short if short < 1e-3 => "less than 0.001".to_owned(),
-        long => format!("{long:.3}"),
-    };
-    format!("bounces in short flights for {lasts}{taut}")
+fn read(line: &str) -> Option<Stretch> {
+    let fields: Vec<&str> = line.split(',').collect();
+    let [_, taut, from, until, event, place, snaps] = fields.try_into().ok()?;
+    let [taut, from, until, event] = [taut, from, until, event].map(str::to_owned);
+    Some(Stretch {
+        taut,
+        from,
+        until,
+        event,
+        place: place.parse().ok()?,
+        snaps: snaps.parse().ok()?,
+    })
 }
 
-fn begins(run: &Trajectory, mode: &ModeInterval) -> String {
-    let (from, to) = (mode.t_start, mode.t_end);
-    let snaps = || run.impacts().iter().filter(|impact| impact.v_n > 0.0);
-    let what = match (mode.taut.len(), mode.taut.iter().next()) {
-        (1, Some(cable)) => {
-            let name = ["right", "left"][cable.min(1)];
-            let hit = snaps().find(|impact| impact.t == to);
-            let until = match hit.filter(|hit| !mode.taut.contains(hit.cable)) {
-                Some(_) => ", until it strikes the other boundary and leaves this one",
-                None => "",
+impl Stretch {
+    fn lasts(&self) -> f64 {
+        let time = |text: &str| text.parse().unwrap_or(f64::NAN);
+        time(&self.until) - time(&self.from)
+    }
+
+    /// What it is and how it ends; `next` is the one after it.
+    fn told(&self, next: Option<&Self>) -> String {
+        let lasts = self.lasts();
+        let what = match self.taut.as_str() {
+            "1" => "slides with the right cable taut",
+            "2" => "slides with the left cable taut",
+            _ => return "rocks with both cables taut, from here on".to_owned(),
+        };
+        let how = match (self.event.as_str(), next) {
+            (event, Some(next)) if event.starts_with("impact") && next.from == self.until => {
+                ", until it strikes the other boundary and keeps to this one"
+            }
+            (event, _) if event.starts_with("impact") => {
+                ", until it strikes the other boundary and leaves this one"
+            }
+            _ => "",
+        };
+        format!("{what} for {lasts:.4}{how}")
+    }
+}
+
+/// The steps of a story: when each begins, but for the first, and what happens.
+pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
+    let (stretches, command) = (kept(code), proof(code));
+    let begins = |k: usize| {
+        let (stretch, key) = (
+            &stretches[k],
+            format!(".impacts[{}].from", stretches[k].place),
+        );
+        Number::decimal(&stretch.from, 4, &command, &format!("{key} | tonumber"))
+    };
+    let mut steps = vec![(
+        None,
+        flies(stretches.first().map_or(0, |first| first.snaps)),
+    )];
+    let mut k = 0;
+    while k < stretches.len() {
+        let short = |stretch: &&Stretch| stretch.lasts() < SHORT;
+        let together = stretches[k..].iter().take_while(short).count();
+        let number = begins(k);
+        let (what, next) = if together > 1 {
+            let (first, next) = (&stretches[k], stretches.get(k + together));
+            let snaps = next.map_or(0, |next| next.snaps - first.snaps);
+            let what = format!(
+                "slides {together} times with the left cable taut, none for longer than {SHORT}, between \
+                 {snaps} snaps"
+            );
+            (what, k + together)
+        } else {
+            let next = stretches.get(k + 1);
+            let snaps = next.map_or(0, |next| next.snaps - stretches[k].snaps);
+            let then = match snaps {
+                0 | 1 => String::new(),
+                _ => format!("; then {}", flies(snaps)),
             };
-            format!("slides with the {name} cable taut{until}")
+            (stretches[k].told(next) + &then, k + 1)
+        };
+        steps.push((Some(number), what));
+        k = next;
+    }
+    steps
+}
+
+fn flies(snaps: usize) -> String {
+    format!("flies free of both cables, with {snaps} snaps")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_stretches_are_proved_again() -> Result<(), CaseError> {
+        let again = proved(CASES[1], 8.15594)?;
+        let (kept, again) = (kept(CASES[1]), again.lines().collect::<Vec<_>>());
+        assert!(again.len() > 3);
+        for (line, kept) in again[..again.len() - 1].iter().zip(kept) {
+            assert_eq!(line.strip_prefix(CASES[1]).and_then(read), Some(kept));
         }
-        (0, _) => {
-            let count = snaps()
-                .filter(|impact| impact.t > from && impact.t <= to)
-                .count();
-            format!("flies free of both cables, with {count} snaps")
+        Ok(())
+    }
+
+    #[test]
+    fn both_examples_end_in_rocking() {
+        for code in CASES {
+            let stretches = kept(code);
+            assert!(stretches.len() > 10);
+            let last = stretches.last().expect("a stretch");
+            assert_eq!(
+                (last.taut.as_str(), last.event.as_str()),
+                ("1+2", "end_time")
+            );
+            // In order, and none begins before the one before it ends.
+            let in_order = |pair: &[Stretch]| pair[0].until <= pair[1].from;
+            assert!(stretches.windows(2).all(in_order));
         }
-        _ => "rocks with both cables taut".to_owned(),
-    };
-    let (y, lasts) = (run.at(from).state.y, to - from);
-    let end = if to == run.end().t {
-        ", to the end of the run"
-    } else {
-        ""
-    };
-    format!("at height y = {y:.4}, {what}; this lasts {lasts:.3}{end}")
+    }
 }

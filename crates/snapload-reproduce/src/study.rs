@@ -1,12 +1,14 @@
 //! Every run that the report needs, each computed once.
 
+use crate::critical_row::CriticalRow;
+use crate::many_digits::Run;
 use crate::proved::Proved;
 use snapload::analysis::{
-    CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, Uncertainty, Unfinished,
-    in_parallel, unwatched,
+    ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, trusted_run, unwatched,
 };
 use snapload::{
-    Case, CaseError, Outcome, Parameters, Stop, Trajectory, named_case, natural_inertia, table_6_1,
+    Case, CaseError, Outcome, Parameters, Stop, Trajectory, Value, named_case, natural_inertia,
+    table_6_1,
 };
 
 /// How a run that begins to slide is read.
@@ -57,7 +59,9 @@ pub(crate) struct Both<T> {
 }
 
 impl<T> Both<T> {
-    fn try_new(make: impl Fn(Reading) -> Result<T, Unfinished>) -> Result<Self, Unfinished> {
+    pub(crate) fn try_new(
+        make: impl Fn(Reading) -> Result<T, Unfinished>,
+    ) -> Result<Self, Unfinished> {
         Ok(Self {
             chapter: make(Reading::Chapter)?,
             sliding_on: make(Reading::SlidingOn)?,
@@ -74,75 +78,38 @@ impl<T> Both<T> {
 pub(crate) struct CaseRuns {
     pub(crate) code: &'static str,
     pub(crate) parameters: Parameters,
-    pub(crate) runs: Both<Trajectory>,
-    pub(crate) proved: Both<Option<Proved>>,
+    pub(crate) runs: Both<Known>,
+    /// What is proved of its runs, where no cable stays taut before a stop rule ends them.
+    pub(crate) proved: Both<Option<&'static Proved>>,
+    /// The run with many digits, in the chapter's reading.
+    pub(crate) exact: Run,
 }
 
-/// A row of Table 6.2.
+/// A run in doubles.
 #[derive(Clone, Debug)]
-pub(crate) struct CriticalRow {
-    /// Cable length.
-    pub(crate) r: f64,
-    pub(crate) shape: &'static str,
-    /// Half-sizes.
-    pub(crate) size: [f64; 2],
-    /// The published critical force.
-    pub(crate) published: f64,
-    /// The computed ones, with all amplitudes that exceed.
-    pub(crate) computed: Both<CriticalForce>,
-    /// How many neighbours exceed, at amplitudes up to [`CriticalRow::looked_up_to`].
-    pub(crate) probable: Both<ExceedanceCurve>,
+pub(crate) struct Known {
+    pub(crate) run: Trajectory,
+    /// From when on it is not known, as `snapload run` tells it; none if it is to its end.
+    pub(crate) horizon: Option<f64>,
+    /// The number of the first impact past it.
+    pub(crate) first_unknown: Option<usize>,
 }
 
-/// Neighbours of each run of Table 6.2, 1e-12 away at the most.
-pub(crate) const NEIGHBOURS: u32 = 20;
-
-/// Table 6.2 as published: r, shape, half-sizes, f_cr.
-const TABLE_6_2: [(f64, &str, [f64; 2], f64); 16] = [
-    (1.5, "circle", [0.1, 0.0], 0.31),
-    (1.5, "circle", [0.2, 0.0], 0.42),
-    (1.5, "circle", [0.3, 0.0], 0.40),
-    (1.5, "square", [0.1, 0.1], 0.32),
-    (1.5, "square", [0.2, 0.2], 0.34),
-    (1.5, "square", [0.3, 0.3], 0.60),
-    (1.5, "rectangle", [0.2, 0.1], 0.68),
-    (1.5, "rectangle", [0.3, 0.1], 0.67),
-    (2.5, "circle", [0.1, 0.0], 0.10),
-    (2.5, "circle", [0.2, 0.0], 0.18),
-    (2.5, "circle", [0.3, 0.0], 0.30),
-    (2.5, "square", [0.1, 0.1], 0.28),
-    (2.5, "square", [0.2, 0.2], 0.33),
-    (2.5, "square", [0.3, 0.3], 0.35),
-    (2.5, "rectangle", [0.2, 0.1], 0.27),
-    (2.5, "rectangle", [0.3, 0.1], 0.35),
-];
-
-impl CriticalRow {
-    /// The body with all else as in the standard case.
-    pub(crate) fn parameters(&self) -> Parameters {
-        of_shape(self.r, self.size)
+impl Known {
+    pub(crate) fn new(parameters: Parameters) -> Result<Self, Unfinished> {
+        let case = Case::new(parameters)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        Ok(Self {
+            run,
+            horizon: trust.horizon.map(|horizon| horizon.t),
+            first_unknown: trust.horizon.map(|horizon| horizon.impact),
+        })
     }
 
-    /// The larger of the published critical force and the computed ones.
-    pub(crate) fn looked_up_to(&self) -> f64 {
-        looked_up_to(self.published, &self.computed)
+    /// Whether what happens at a time is known.
+    pub(crate) fn is_known_at(&self, t: f64) -> bool {
+        self.horizon.is_none_or(|horizon| t < horizon)
     }
-
-    /// Whether arithmetic in doubles can decide the published value: at no amplitude up to it
-    /// neighbours disagree.
-    pub(crate) fn decidable(&self, reading: Reading) -> bool {
-        let points = self.probable.of(reading).points.iter();
-        points
-            .filter(|point| point.f_o <= self.published)
-            .all(|point| point.share.count == 0 || point.share.count == point.share.of)
-    }
-}
-
-fn looked_up_to(published: f64, computed: &Both<CriticalForce>) -> f64 {
-    Reading::BOTH
-        .into_iter()
-        .filter_map(|reading| computed.of(reading).first)
-        .fold(published, |largest, first| largest.max(first.f_o))
 }
 
 /// The standard case with cables of another length.
@@ -154,7 +121,7 @@ fn standard(r: f64) -> Parameters {
 }
 
 /// The standard case with another body and cables.
-fn of_shape(r: f64, [a, b]: [f64; 2]) -> Parameters {
+pub(crate) fn of_shape(r: f64, [a, b]: [f64; 2]) -> Parameters {
     let inertia = natural_inertia(a, b);
     Parameters {
         a,
@@ -185,6 +152,9 @@ pub(crate) struct NormCurve {
     pub(crate) points: Both<Vec<(f64, Outcome)>>,
 }
 
+/// The largest amplitude at which the curves of critical force are looked for.
+pub(crate) const LARGEST: f64 = 2.0;
+
 /// The values over which the curves of critical force are drawn: key, first, last, how many.
 const CURVES: [(&str, f64, f64, usize); 2] = [("e", 0.3, 1.0, 71), ("omega", 0.4, 2.4, 101)];
 
@@ -203,9 +173,9 @@ pub struct Study {
     /// Figs 6.31-6.38.
     pub(crate) norms: Vec<NormCurve>,
     /// The sliding example (eq. 6.57).
-    pub(crate) sliding: Trajectory,
+    pub(crate) sliding: Known,
     /// The rocking example (eq. 6.69).
-    pub(crate) rocking: Trajectory,
+    pub(crate) rocking: Known,
 }
 
 impl Study {
@@ -218,8 +188,7 @@ impl Study {
         tell("the cases of Table 6.1", 0.0)?;
         let cases = cases()?;
         tell("Table 6.2", 0.1)?;
-        let critical = TABLE_6_2.into_iter().map(critical_row);
-        let critical = critical.collect::<Result<_, _>>()?;
+        let critical = CriticalRow::all()?;
         let mut curves = Vec::new();
         for over in CURVES {
             for r in LENGTHS {
@@ -237,9 +206,7 @@ impl Study {
             let points = Both::try_new(of)?;
             Ok(NormCurve { r, points })
         });
-        let example = |code| -> Result<Trajectory, Unfinished> {
-            Ok(Case::new(named_case(code)?.parameters)?.run())
-        };
+        let example = |code| Known::new(named_case(code)?.parameters);
         Ok(Self {
             cases,
             critical,
@@ -265,53 +232,50 @@ fn cases() -> Result<Vec<CaseRuns>, Unfinished> {
             codes.push(code);
         }
     }
-    let case = |code| {
-        let parameters = named_case(code)?.parameters;
-        Ok(CaseRuns {
-            code,
-            parameters,
-            runs: Both::try_new(|reading| Ok(Case::new(reading.apply(parameters))?.run()))?,
-            proved: proved(parameters),
-        })
-    };
-    in_parallel(codes.len(), |k| case(codes[k]))
+    in_parallel(codes.len(), |k| CaseRuns::new(codes[k]))
 }
 
-/// What is proved in both readings.
-fn proved(parameters: Parameters) -> Both<Option<Proved>> {
-    let of = |reading: Reading| Proved::of(&reading.apply(parameters));
-    let chapter = of(Reading::Chapter);
-    // A run that ends before it slides is one in both readings.
-    let sliding_on = match &chapter {
-        Some(proved) if proved.reason != Stop::SlidingStart => chapter.clone(),
-        _ => of(Reading::SlidingOn),
-    };
-    Both {
-        chapter,
-        sliding_on,
+impl CaseRuns {
+    fn new(code: &'static str) -> Result<Self, Unfinished> {
+        let parameters = named_case(code)?.parameters;
+        let proved = Both {
+            chapter: Proved::kept(&Reading::Chapter.apply(parameters)),
+            sliding_on: Proved::kept(&Reading::SlidingOn.apply(parameters)),
+        };
+        Ok(Self {
+            code,
+            parameters,
+            runs: Both::try_new(|reading| Known::new(reading.apply(parameters)))?,
+            exact: exact(&Reading::Chapter.apply(parameters), proved.chapter)?,
+            proved,
+        })
     }
 }
 
-fn critical_row(
-    (r, shape, size, published): (f64, &'static str, [f64; 2], f64),
-) -> Result<CriticalRow, Unfinished> {
-    let parameters = of_shape(r, size);
-    let computed = Both::try_new(|reading| {
-        CriticalForce::scan(&reading.apply(parameters), ForceScan::default(), &unwatched)
-    })?;
-    let scan = ForceScan::new(0.01, looked_up_to(published, &computed))?;
-    let neighbours = |reading: Reading| {
-        let (parameters, uncertainty) = (reading.apply(parameters), Uncertainty::default());
-        ExceedanceCurve::scan(&parameters, scan, &uncertainty, NEIGHBOURS, 1, &unwatched)
+/// The run with so many digits that its end is the one that is proved, if there is a proof.
+pub(crate) fn exact(parameters: &Parameters, proved: Option<&Proved>) -> Result<Run, CaseError> {
+    let run = Run::of_76_digits(parameters)?;
+    let Some(proved) = proved else {
+        return Ok(run);
     };
-    Ok(CriticalRow {
-        r,
-        shape,
-        size,
-        published,
-        computed,
-        probable: Both::try_new(neighbours)?,
-    })
+    let is_proved = |run: &Run| {
+        run.end().reason == proved.reason
+            && run.snaps() == proved.impacts
+            && (run.end().t - proved.time()).abs() < 1e-12
+    };
+    if is_proved(&run) {
+        return Ok(run);
+    }
+    let run = Run::of_153_digits(parameters)?;
+    if is_proved(&run) {
+        return Ok(run);
+    }
+    let t = Value::Number(run.end().t);
+    Err(CaseError::value(
+        "t",
+        t,
+        format!("the end that is proved, {}", proved.t),
+    ))
 }
 
 fn curve(
@@ -327,7 +291,8 @@ fn curve(
             "e" => parameters.e = value,
             _ => parameters.omega = value,
         }
-        let first = first_exceeding(&reading.apply(parameters), ForceScan::default())?;
+        let scan = ForceScan::new(0.01, LARGEST)?;
+        let first = first_exceeding(&reading.apply(parameters), scan)?;
         Ok((value, first.map(|(f_o, _)| f_o)))
     };
     let points = |reading| in_parallel(count, |k| point(k, reading));

@@ -1,8 +1,9 @@
 //! Tables 6.1 and 6.2: what each row comes to, and both as CSV.
 
+use crate::critical_row::CriticalRow;
 use crate::proved::Proved;
-use crate::source::{Number, critical, decimals, probability, proof, run};
-use crate::study::{CaseRuns, CriticalRow, Reading, Study};
+use crate::source::{Number, REPORT, amplitude, critical, decimals, probability, proof, run, scan};
+use crate::study::{CaseRuns, Reading, Study};
 use snapload::analysis::CriticalForce;
 use snapload::{Norms, table_6_1};
 
@@ -36,72 +37,114 @@ pub(crate) fn rows_6_1() -> Vec<(&'static str, &'static str)> {
 /// The decimals of a time that is proved; all 25 stand in the table beside the report.
 const PROVED_PLACES: usize = 10;
 
-/// What a run comes to: reason, end, number of impacts, as they are proved where they are, and norms.
+/// What a run comes to: reason, end, number of impacts, and norms. They are proved, and those of many
+/// digits, where the run ends before a cable stays taut; else those of doubles, marked where they are
+/// past what is known.
 pub(crate) fn outcome(case: &CaseRuns, reading: Reading) -> Vec<Number> {
-    let (run, command) = (case.runs.of(reading), run(case.code, reading));
-    let mut numbers = match case.proved.of(reading) {
-        Some(proved) => proved_end(proved, &proof(case.code, reading)),
-        None => {
-            // An impulse passed into a taut cable is no impact.
-            let impacts = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
-            let snaps = "[.impacts[] | select(.v_n > 0)] | length";
-            vec![
-                Number::word(run.end().reason.words(), &command, ".end.reason"),
-                Number::new(run.end().t, 4, &command, ".end.t"),
-                Number::word(impacts.count(), &command, snaps),
-            ]
-        }
-    };
-    numbers.extend(NORMS.iter().map(|(name, _, of)| {
+    match case.proved.of(reading) {
+        Some(proved) => known(case, reading, proved),
+        None => in_doubles(case, reading),
+    }
+}
+
+fn known(case: &CaseRuns, reading: Reading, proved: &Proved) -> Vec<Number> {
+    let (command, norms) = (proof(case.code, reading), case.exact.norms());
+    // Snap velocities are the third of each line.
+    let velocities = ".impacts | map(.[2] | tonumber)";
+    let early = ".impacts | map(select((.[1] | tonumber) <= 10) | .[2] | tonumber)";
+    let mut numbers = vec![
+        Number::word(proved.reason.words(), &command, ".end.reason"),
+        Number::decimal(&proved.t, PROVED_PLACES, &command, ".end.t | tonumber"),
+        Number::word(proved.impacts, &command, ".impacts | length"),
+        Number::new(norms.rho1, 4, &command, format!("{velocities} | max")),
+        Number::new(norms.rho2, 4, &command, format!("{early} | add")),
+        Number::new(norms.rho3, 4, &command, format!("{velocities} | add")),
+    ];
+    // What a certificate does not tell. Where doubles come to the same digits, their command does.
+    let doubles = case.runs.of(reading).run.norms();
+    for (name, _, of) in &NORMS[3..] {
+        let exact = Number::new(
+            of(norms),
+            4,
+            REPORT,
+            format!("table-6-1.csv: {name} of {}", case.code),
+        );
         let key = format!(".norms.{name}");
-        Number::new(of(run.norms()), 4, &command, key)
-    }));
+        let doubles = Number::new(of(doubles), 4, &run(case.code, reading), key);
+        numbers.push(if exact.shown == doubles.shown {
+            doubles
+        } else {
+            exact
+        });
+    }
     numbers
 }
 
-fn proved_end(proved: &Proved, command: &str) -> Vec<Number> {
-    vec![
-        Number::word(proved.reason.words(), command, ".end.reason"),
-        Number::decimal(&proved.t, PROVED_PLACES, command, ".end.t | tonumber"),
-        Number::word(proved.impacts, command, ".impacts | length"),
-    ]
+fn in_doubles(case: &CaseRuns, reading: Reading) -> Vec<Number> {
+    let (known, command) = (case.runs.of(reading), run(case.code, reading));
+    let run = &known.run;
+    // An impulse passed into a taut cable is no impact.
+    let impacts = run.impacts().iter().filter(|impact| impact.v_n > 0.0);
+    let snaps = "[.impacts[] | select(.v_n > 0)] | length";
+    let mut numbers = vec![
+        Number::word(run.end().reason.words(), &command, ".end.reason"),
+        Number::new(run.end().t, 4, &command, ".end.t"),
+        Number::word(impacts.count(), &command, snaps),
+    ];
+    numbers.extend(NORMS.map(|(name, _, of)| {
+        let key = format!(".norms.{name}");
+        Number::new(of(run.norms()), 4, &command, key)
+    }));
+    match known.horizon {
+        Some(_) => numbers.into_iter().map(Number::doubtful).collect(),
+        None => numbers,
+    }
 }
 
-/// What a row of Table 6.2 comes to: critical force, its difference from the published one, whether
-/// that exceeds, from which amplitudes on parts of the neighbours exceed, whether they decide, all
-/// intervals.
-pub(crate) fn critical_outcome(row: &CriticalRow, reading: Reading) -> Vec<Number> {
-    let (found, published) = (row.computed.of(reading), row.published);
-    let (made, neighbours) = (critical(row, reading), probability(row, reading));
+/// What an entry of Table 6.2 comes to in the chapter's reading: critical force and its difference
+/// from the published one, whether that exceeds, all proved; from which amplitudes on parts of the
+/// neighbours exceed first, the verdict, and all intervals in doubles.
+pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
+    let published = row.published;
+    let (made, neighbours) = (critical(row, Reading::Chapter), probability(row));
     let none = |shown: &str, command: &str, key: &str| Number {
         exact: String::new(),
         ..Number::word(shown, command, key)
     };
-    let less = format!(".f_cr - {published}");
-    let mut numbers = match found.first.map(|first| first.f_o) {
-        Some(first) => vec![
-            Number::new(first, 2, &made, ".f_cr"),
-            Number {
-                shown: signed(first - published),
-                ..Number::word(format!("{:.2}", first - published), &made, less)
-            },
-        ],
-        None => vec![none("none", &made, ".f_cr"), none("", &made, &less)],
+    let mut numbers = match row.first() {
+        Some((first, _)) => {
+            let command = amplitude(row, first);
+            let less = format!(".case.f_o - {published}");
+            vec![
+                Number::new(first, 2, &command, ".case.f_o"),
+                Number {
+                    shown: signed(first - published),
+                    ..Number::word(format!("{:.2}", first - published), &command, less)
+                },
+            ]
+        }
+        None => vec![none("none", &made, ".f_cr"), none("", &made, ".f_cr")],
     };
-    let within = format!("any(.exceeding[]; .[0] <= {published} and {published} <= .[1])");
-    let exceeds = published_exceeds(row, found);
-    numbers.push(Number::answer(exceeds, &made, within));
+    numbers.push(match row.at_published() {
+        Some(proved) => Number::word(
+            proved.reason.words(),
+            &amplitude(row, published),
+            ".end.reason",
+        ),
+        None => none("open", &amplitude(row, published), ".end.reason"),
+    });
     numbers.extend(
         [("p05", 0.05), ("p50", 0.5), ("p95", 0.95)].map(|(name, part)| {
             let key = format!(".passes.{name}");
-            match row.probable.of(reading).passes(part) {
+            match row.probable.passes(part) {
                 Some(f_o) => Number::new(f_o, 2, &neighbours, key),
                 None => none("none", &neighbours, &key),
             }
         }),
     );
-    let agree = format!("all(.probability[]; .f_o > {published} or .part == 0 or .part == 1)");
-    numbers.push(Number::answer(row.decidable(reading), &neighbours, agree));
+    let key = format!("table-6-2.csv: {}", verdict_key(row));
+    numbers.push(Number::word(row.verdict().words(), REPORT, key));
+    let found = &row.computed.chapter;
     let exact = intervals(found, "-", "; ", |f_o| f_o.to_string());
     numbers.push(Number {
         shown: intervals(found, "–", ", ", |f_o| decimals(f_o, 2)),
@@ -110,10 +153,44 @@ pub(crate) fn critical_outcome(row: &CriticalRow, reading: Reading) -> Vec<Numbe
     numbers
 }
 
-/// Whether the published critical force is among the amplitudes that exceed.
-pub(crate) fn published_exceeds(row: &CriticalRow, computed: &CriticalForce) -> bool {
-    let inside = |[from, to]: &[f64; 2]| (*from..=*to).contains(&row.published);
-    computed.exceeding.iter().any(inside)
+fn verdict_key(row: &CriticalRow) -> String {
+    format!(
+        "verdict of r = {}, {} x {}",
+        row.r, row.size[0], row.size[1]
+    )
+}
+
+/// The times at which a run may be ended: the critical force hangs on them.
+pub(crate) const END_TIMES: [f64; 4] = [18.0, 25.0, 50.0, 100.0];
+
+/// The critical force of a row by convention: in the chapter's reading with each end time, proved;
+/// where sliding goes on, and where nothing but the two limits ends a run, in doubles.
+pub(crate) fn by_convention(row: &CriticalRow) -> Vec<Number> {
+    let none = |command: &str| Number::word("none", command, ".f_cr");
+    let mut numbers: Vec<Number> = END_TIMES
+        .into_iter()
+        .map(|t_end| match row.first_by(t_end) {
+            Some((f_o, _)) => Number::new(f_o, 2, &amplitude(row, f_o), ".case.f_o"),
+            None => none(&critical(row, Reading::Chapter)),
+        })
+        .collect();
+    let sliding_on = critical(row, Reading::SlidingOn);
+    let alone = format!(
+        "{} --set stop_when_settled=false --json -",
+        scan(row, Reading::SlidingOn)
+    );
+    let firsts = [
+        (
+            sliding_on,
+            row.computed.sliding_on.first.map(|first| first.f_o),
+        ),
+        (alone, row.limits_alone.map(|(f_o, _)| f_o)),
+    ];
+    numbers.extend(firsts.map(|(command, first)| match first {
+        Some(f_o) => Number::new(f_o, 2, &command, ".f_cr"),
+        None => none(&command),
+    }));
+    numbers
 }
 
 /// A difference with its sign; none where it vanishes.
@@ -136,39 +213,43 @@ fn intervals(found: &CriticalForce, to: &str, and: &str, text: impl Fn(f64) -> S
 
 /// Table 6.1 with the outcome of every row, in both readings.
 pub(crate) fn csv_6_1(study: &Study) -> String {
-    let header = "series,case,reading,end,t,impacts,rho1,rho2,rho3,y_max,theta_max";
+    let header = "series,case,reading,known_to,end,t,impacts,rho1,rho2,rho3,y_max,theta_max";
     let rows = rows_6_1().into_iter().flat_map(|(series, code)| {
         let case = study.case(code).into_iter();
         case.flat_map(move |case| {
-            Reading::BOTH.map(|reading| line(&[series, code], reading, &outcome(case, reading)))
+            Reading::BOTH.map(|reading| {
+                let words = reading.either("sliding ends the run", "sliding goes on");
+                let known = match (case.proved.of(reading), case.runs.of(reading).horizon) {
+                    (None, Some(t)) => t.to_string(),
+                    _ => "end".to_owned(),
+                };
+                cells(&[series, code, words, &known], &outcome(case, reading))
+            })
         })
     });
     table(header, rows)
 }
 
-/// Table 6.2, computed beside published, in both readings.
+/// Table 6.2, computed beside published, and by convention.
 pub(crate) fn csv_6_2(study: &Study) -> String {
-    let header = "r,shape,a,b,published,reading,computed,difference,published_exceeds,p05,p50,p95,\
-                  decidable,exceeding";
-    let rows = study.critical.iter().flat_map(|row| {
+    let header = "r,shape,a,b,published,proved,difference,published_ends,p05,p50,p95,verdict,exceeding,\
+                  t_end_18,t_end_25,t_end_50,t_end_100,sliding_on,limits_alone";
+    let rows = study.critical.iter().map(|row| {
         let [r, a, b, published] =
             [row.r, row.size[0], row.size[1], row.published].map(|number| number.to_string());
-        Reading::BOTH.map(|reading| {
-            line(
-                &[&r, row.shape, &a, &b, &published],
-                reading,
-                &critical_outcome(row, reading),
-            )
-        })
+        let numbers = [critical_outcome(row), by_convention(row)].concat();
+        cells(&[&r, row.shape, &a, &b, &published], &numbers)
     });
     table(header, rows)
 }
 
-fn line(head: &[&str], reading: Reading, numbers: &[Number]) -> String {
-    let words = reading.either("sliding ends the run", "sliding goes on");
+fn cells(head: &[&str], numbers: &[Number]) -> String {
     let exact = numbers.iter().map(|number| number.exact.as_str());
-    let cells: Vec<&str> = head.iter().copied().chain([words]).chain(exact).collect();
-    cells.join(",")
+    head.iter()
+        .copied()
+        .chain(exact)
+        .collect::<Vec<&str>>()
+        .join(",")
 }
 
 fn table(header: &str, rows: impl Iterator<Item = String>) -> String {

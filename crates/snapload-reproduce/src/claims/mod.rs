@@ -5,6 +5,7 @@
 //! judge stands in the table `JUDGES` of its section here, and answers with a verdict and the
 //! values that the words tell. To add a claim, add one entry to each.
 
+mod motions;
 mod newton;
 mod numbers;
 mod runs;

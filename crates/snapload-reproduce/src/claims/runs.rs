@@ -1,13 +1,13 @@
 //! Runs of cases and of their neighbours, and what is read from a run.
 
+use super::numbers::between;
 use super::verdict::{Finding, Verdict};
 use crate::ReportError;
-use crate::study::{CaseRuns, CriticalRow, Reading, Study, first_exceeding};
+use crate::critical_row::CriticalRow;
+use crate::many_digits::Run;
+use crate::study::{CaseRuns, LARGEST, Reading, Study, first_exceeding};
 use snapload::analysis::{ForceScan, in_parallel};
-use snapload::{
-    Case, CaseError, Impact, Outcome, Parameters, Playback, State, Stop, System, TautSet,
-    Trajectory, table_6_1,
-};
+use snapload::{Case, CaseError, Outcome, Parameters, TautSet, Trajectory, table_6_1};
 
 /// How far the neighbours of a start are from it.
 const NEAR: f64 = 1e-12;
@@ -104,6 +104,18 @@ pub(super) fn run(parameters: &Parameters) -> Result<Trajectory, CaseError> {
     Ok(Case::new(*parameters)?.run())
 }
 
+/// What is asked of the runs of many cases from each start, `[start][case]`: the first of them are
+/// those of 76 digits, the neighbours are in doubles.
+pub(super) fn of_runs<T: Send>(
+    cases: &[Parameters],
+    neighbours: usize,
+    what: impl Fn(&Run) -> T + Sync,
+) -> Result<Vec<Vec<T>>, CaseError> {
+    let mut of_starts = from_starts(cases, neighbours, |case| Ok(what(&Run::of_doubles(case)?)))?;
+    of_starts[0] = each(cases, |case| Ok(what(&Run::of_76_digits(case)?)))?;
+    Ok(of_starts)
+}
+
 /// The outcome of a case; its run is not kept.
 pub(super) fn outcome(parameters: &Parameters) -> Result<Outcome, CaseError> {
     Ok(Outcome::of(&Case::new(*parameters)?))
@@ -114,9 +126,9 @@ pub(super) const NEVER: f64 = 9.0;
 /// Two amplitudes of the scan are equal within this.
 pub(super) const SAME: f64 = 0.005;
 
-/// The critical force of a case, by the scan of Table 6.2.
+/// The critical force of a case, in hundredths.
 pub(super) fn critical_force(parameters: &Parameters) -> Result<f64, CaseError> {
-    let first = first_exceeding(parameters, ForceScan::default())?;
+    let first = first_exceeding(parameters, ForceScan::new(0.01, LARGEST)?)?;
     Ok(first.map_or(NEVER, |(f_o, _)| f_o))
 }
 
@@ -127,6 +139,11 @@ pub(super) fn shown(f_cr: f64) -> String {
     } else {
         "none".to_owned()
     }
+}
+
+/// The least and the greatest of critical forces in words.
+pub(super) fn shown_span(forces: impl IntoIterator<Item = f64>) -> String {
+    between(forces, shown)
 }
 
 /// A case of the study.
@@ -153,22 +170,25 @@ pub(super) fn table_codes() -> Vec<&'static str> {
     codes
 }
 
-/// The cases of Table 6.1 with their neighbours, in the chapter's reading. The force is that of the
-/// code where the printed one differs.
+/// The cases of Table 6.1 in many digits, with their neighbours in doubles, in the chapter's reading.
+/// The force is that of the code where the printed one differs.
 pub(super) struct Tabled<'a> {
     pub(super) study: &'a Study,
     pub(super) codes: Vec<&'static str>,
     pub(super) cases: Vec<Parameters>,
     /// `[start][case]`.
-    runs: Vec<Vec<Trajectory>>,
+    runs: Vec<Vec<Run>>,
 }
 
 impl<'a> Tabled<'a> {
     pub(super) fn new(study: &'a Study) -> Result<Self, ReportError> {
         let codes = table_codes();
-        let case = |code: &&str| Ok(chapter(case(study, code)?.parameters));
-        let cases: Vec<Parameters> = codes.iter().map(case).collect::<Result<_, ReportError>>()?;
-        let runs = from_starts(&cases, MANY, run)?;
+        let runs = codes.iter().map(|code| case(study, code));
+        let of_codes: Vec<&CaseRuns> = runs.collect::<Result<_, ReportError>>()?;
+        let cases = of_codes.iter().map(|case| chapter(case.parameters));
+        let cases: Vec<Parameters> = cases.collect();
+        let mut runs = from_starts(&cases, MANY, Run::of_doubles)?;
+        runs[0] = of_codes.iter().map(|case| case.exact.clone()).collect();
         Ok(Self {
             study,
             codes,
@@ -178,15 +198,20 @@ impl<'a> Tabled<'a> {
     }
 
     /// The runs of all codes.
-    pub(super) fn own(&self) -> &[Trajectory] {
+    pub(super) fn own(&self) -> &[Run] {
         &self.runs[0]
+    }
+
+    /// The runs of all codes from each start, those in many digits first.
+    pub(super) fn members(&self) -> impl Iterator<Item = &[Run]> {
+        self.runs.iter().map(Vec::as_slice)
     }
 
     /// The runs of some codes from each start, the cases' own first.
     pub(super) fn of<const N: usize>(
         &self,
         codes: [&str; N],
-    ) -> Result<Vec<[&Trajectory; N]>, ReportError> {
+    ) -> Result<Vec<[&Run; N]>, ReportError> {
         let mut places = [0; N];
         for (place, code) in places.iter_mut().zip(codes) {
             let found = self.codes.iter().position(|known| *known == code);
@@ -197,28 +222,23 @@ impl<'a> Tabled<'a> {
     }
 }
 
-/// Of a statement on a figure of each of some runs, asked from every start; gives the cases' own.
+/// Of a statement on a figure of each of some runs, asked from every start.
 pub(super) fn measured<const N: usize>(
     name: &'static str,
-    members: &[[&Trajectory; N]],
-    figure: impl Fn(&Trajectory) -> f64,
+    members: &[[&Run; N]],
+    figure: impl Fn(&Run) -> f64,
     holds: impl Fn(&[f64; N]) -> bool,
 ) -> Finding {
-    let figures = |runs: &[&Trajectory; N]| runs.map(&figure);
-    Finding::robust(members, |runs| holds(&figures(runs))).list(name, figures(&members[0]))
+    let figures: Vec<[f64; N]> = members.iter().map(|runs| runs.map(&figure)).collect();
+    Finding::robust(&figures, holds).by_start(name, figures)
 }
 
 /// A statement of each case by itself, from all starts.
 pub(super) fn by_case<const N: usize>(
-    members: &[[&Trajectory; N]],
-    holds: impl Fn(&Trajectory) -> bool,
+    members: &[[&Run; N]],
+    holds: impl Fn(&Run) -> bool,
 ) -> [Verdict; N] {
     std::array::from_fn(|k| Verdict::robust(members.iter().map(|runs| holds(runs[k]))))
-}
-
-/// Whether a run left the range: rotation limit or upper bound.
-pub(super) fn exceeds(run: &Trajectory) -> bool {
-    run.end().reason.exceeds()
 }
 
 /// When the first interval begins, before the end of the run, in which such cables are taut.
@@ -240,83 +260,11 @@ pub(super) fn first_rocking(parameters: &Parameters) -> Result<Option<f64>, Case
     first_interval(parameters, |taut| taut.len() > 1)
 }
 
-/// Time and θ where the rotation turns back.
-pub(super) fn turns(run: &Trajectory) -> Vec<(f64, f64)> {
-    let turns =
-        |hit: &&Impact| hit.before.vtheta == 0.0 || hit.before.vtheta * hit.after.vtheta < 0.0;
-    let turning = run.impacts().iter().filter(turns);
-    turning.map(|hit| (hit.t, hit.before.theta)).collect()
-}
-
-/// A swing of θ between two turns that is large \[rad\].
-pub(super) const LARGE_SWING: f64 = 0.5;
-
-/// The sizes of the swings of θ between its turns.
-pub(super) fn swings(run: &Trajectory) -> Vec<f64> {
-    let size = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1).abs();
-    turns(run).windows(2).map(size).collect()
-}
-
-/// The largest rotation of a run.
-pub(super) fn rotation(run: &Trajectory) -> f64 {
-    run.norms().theta_max
-}
-
-/// The places at times a step apart, from a time to another one.
-pub(super) fn places(run: &Trajectory, (from, to): (f64, f64), step: f64) -> Vec<[f64; 2]> {
-    let mut playback = Playback::new(run);
-    let count = ((to - from) / step).floor().max(0.0) as usize;
-    (0..=count)
-        .map(|k| from + k as f64 * step)
-        .chain([to])
-        .map(|t| playback.at(t).state)
-        .map(|state| [state.x, state.y])
-        .collect()
-}
-
-/// What a printed plot shows of a snap velocity.
-pub(super) const CLEAR: f64 = 1e-2;
-
-/// The impacts that a printed plot shows.
-pub(super) fn clear(run: &Trajectory) -> impl Iterator<Item = &Impact> + Clone {
-    run.impacts().iter().filter(|hit| hit.v_n > CLEAR)
-}
-
-/// The push of the wave at a time on a body in some state, away from the anchor of a cable.
-pub(super) fn push(system: &System, cable: usize, t: f64, state: &State) -> f64 {
-    let [nx, ny] = system.cables[cable].normal(state).n.components();
-    let [fx, fy] = system.forcing.at(t).components();
-    nx * fx + ny * (fy - system.forcing.constant.y)
-}
-
-/// The speed of the point of the body to which a cable is attached.
-pub(super) fn attachment_speed(system: &System, cable: usize, state: &State) -> f64 {
-    let (s, c) = state.theta.sin_cos();
-    let [x, y] = system.cables[cable].lever(s, c).components();
-    (state.vx - state.vtheta * y).hypot(state.vy + state.vtheta * x)
-}
-
-/// How a run ended and when, in words.
-pub(super) fn ending(run: &Trajectory) -> String {
-    let reason = match run.end().reason {
-        Stop::Settled => "settles",
-        Stop::RotationLimit => "rotation limit",
-        Stop::UpperBound => "upper bound",
-        Stop::SlidingStart => "slides",
-        Stop::EndTime => "goes on",
-        Stop::ImpactLimit => "impact limit",
-    };
-    format!("{reason} at {:.3}", run.end().t)
-}
-
-/// The endings of the cases themselves, the first of the members.
-pub(super) fn endings<const N: usize>(members: &[[&Trajectory; N]]) -> String {
-    members[0].map(ending).join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::claims::motions::{CLEAR, clear, ending, exceeds, swings, turns};
+    use snapload::Stop;
 
     #[test]
     fn neighbours_are_near_and_differ() {
@@ -351,9 +299,9 @@ mod tests {
             f_o: 0.5,
             ..standard
         };
-        let runs = each(&[standard, strong], run)?;
+        let runs = each(&[standard, strong], Run::of_76_digits)?;
         assert_eq!(runs.iter().map(exceeds).collect::<Vec<_>>(), [false, true]);
-        assert!(ending(&runs[0]).starts_with("settles at 7.2"));
+        assert_eq!(ending(runs[0].end()), "settles at 7.246");
         assert!(clear(&runs[0]).all(|hit| hit.v_n > CLEAR));
         assert_eq!(swings(&runs[0]).len() + 1, turns(&runs[0]).len());
         // The first that exceeds, and nothing below it.

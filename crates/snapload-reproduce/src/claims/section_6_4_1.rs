@@ -5,16 +5,15 @@ mod region;
 mod rotation;
 mod waves;
 
+use super::motions::{ending, endings, exceeds, places};
 use super::numbers::{falling, marked_over_others, max, min};
-use super::runs::{
-    MANY, Tabled, case, chapter, each, ending, endings, exceeds, measured, near, outcome, places,
-    row, run, standard,
-};
+use super::runs::{MANY, Tabled, case, chapter, each, measured, near, of_runs, row, standard};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
+use crate::many_digits::Run;
 use crate::study::first_exceeding;
 use snapload::analysis::{ForceScan, in_parallel};
-use snapload::{CaseError, Parameters, Playback, Stop, Trajectory};
+use snapload::{CaseError, Parameters, Stop};
 use std::f64::consts::TAU;
 
 /// Checks the claims of this section.
@@ -31,10 +30,15 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let measured = in_parallel(members.len(), of_member)?;
         let column = |of: &[[f64; 3]; 4], k: usize| of.map(|activity| activity[k]);
         let finding = Finding::robust(&measured, |of| (0..3).all(|k| falling(&column(of, k))));
+        let of = |k: usize| {
+            measured
+                .iter()
+                .map(move |of| of.map(|activity| activity[k]))
+        };
         Ok(finding
-            .list("path", column(&measured[0], 0))
-            .list("x", column(&measured[0], 1))
-            .list("rho3", column(&measured[0], 2)))
+            .by_start("path", of(0))
+            .by_start("x", of(1))
+            .by_start("rho3", of(2)))
     }),
     ("6.4.1-16", |tabled| {
         /// Where velocities fall the ratio is below this, and where they do not above that.
@@ -42,7 +46,8 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         const KEEPS: f64 = 0.8;
         let members = tabled.of(RESTITUTIONS)?;
         let falls = |[first, others @ ..]: &[f64; 4]| *first > KEEPS && max(*others) < FALLS;
-        Ok(measured("ratios", &members, later_to_earlier, falls))
+        let finding = measured("ratios", &members, later_to_earlier, falls);
+        Ok(finding.values("falls keeps", [FALLS, KEEPS]))
     }),
     ("6.4.1-17", |tabled| {
         let members = tabled.of(RESTITUTIONS)?;
@@ -51,7 +56,8 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     }),
     ("6.4.1-18", |tabled| {
         let [early, late, end] = apart(&elastic(tabled)?);
-        Ok(Finding::of(late / early > CHAOS).values("early late end", [early, late, end]))
+        let finding = Finding::of(late / early > CHAOS);
+        Ok(finding.values("early late end chaos", [early, late, end, CHAOS]))
     }),
     ("6.4.1-36", |tabled| {
         /// Off the middle, where free motion would meet both boundaries at once for ever.
@@ -59,45 +65,46 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let elastic = elastic(tabled)?;
         let mut free = chapter(case(tabled.study, RESTITUTIONS[0])?.parameters);
         (free.f_o, free.x, free.t_end) = (0.0, OFF, elastic[0].end().t);
-        let runs = near(&free, MANY, run)?;
+        let runs = near(&free, MANY, Run::of_doubles)?;
         let [early, late, end] = apart(&runs.iter().collect::<Vec<_>>());
         let [forced_early, forced_late, _] = apart(&elastic);
         let [with, without] = [forced_late / forced_early, late / early];
         Ok(Finding::of(with > CHAOS && without < CHAOS)
             .values("off early late end", [OFF, early, late, end])
+            .value("chaos", CHAOS)
             .found("chaotic_without", without >= CHAOS))
     }),
     ("6.4.1-19", |tabled| {
         let runs = elastic(tabled)?;
-        let rotates = |run: &&Trajectory| run.end().reason == Stop::RotationLimit;
+        let rotates = |run: &&Run| run.end().reason == Stop::RotationLimit;
         Ok(Finding::robust(&runs, rotates)
-            .value("ending", ending(runs[0]))
-            .value("impacts", runs[0].impacts().len()))
+            .value("ending", ending(runs[0].end()))
+            .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
     ("6.4.1-20", |tabled| {
         /// Rounding of one impact's energies.
         const ROUNDING: f64 = 1e-14;
         let runs = elastic(tabled)?;
-        let lost = |run: &&Trajectory| {
+        let lost = |run: &&Run| {
             let energy = |state| run.system().energy(state);
             let hits = run.impacts().iter();
             max(hits.map(|hit| (energy(&hit.before) - energy(&hit.after)).abs()))
         };
         Ok(Finding::robust(&runs, |run| lost(run) < ROUNDING)
             .value("most", max(runs.iter().map(lost)))
-            .value("impacts", runs[0].impacts().len()))
+            .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
     ("6.4.1-21", |tabled| {
         let members = tabled.of(RESTITUTIONS)?;
-        let impulse = |run: &Trajectory| max(run.impacts().iter().map(|hit| hit.impulse));
-        let rho1 = |run: &Trajectory| run.norms().rho1;
+        let impulse = |run: &Run| max(run.impacts().iter().map(|hit| hit.impulse));
+        let rho1 = |run: &Run| run.norms().rho1;
         let fall = measured("velocities", &members, rho1, |all| falling(all));
-        Ok(fall.list("impulses", members[0].map(impulse)))
+        Ok(fall.by_start("impulses", members.iter().map(|runs| runs.map(impulse))))
     }),
     ("6.4.1-22", settles_sooner),
     ("6.4.1-23", |tabled| {
         let members = tabled.of(FORCES)?;
-        let only_last = |runs: &[&Trajectory; 5]| {
+        let only_last = |runs: &[&Run; 5]| {
             runs.map(exceeds) == [false, false, false, false, true]
                 && runs[4].end().reason == Stop::RotationLimit
         };
@@ -111,6 +118,8 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .list("first", found))
     }),
     ("6.4.1-25", settles_above_critical),
+    ("6.4.1-39", below_a_half),
+    ("6.4.1-41", |_| loss_holds()),
 ];
 
 /// e = 1, 0.9, 0.7, 0.5.
@@ -130,14 +139,14 @@ const FORCES: [&str; 5] = [
 ];
 
 /// The runs with e = 1.
-fn elastic<'a>(tabled: &'a Tabled) -> Result<Vec<&'a Trajectory>, ReportError> {
+fn elastic<'a>(tabled: &'a Tabled) -> Result<Vec<&'a Run>, ReportError> {
     let runs = tabled.of([RESTITUTIONS[0]])?;
     Ok(runs.into_iter().flatten().collect())
 }
 
 /// Length of the centre's path, range of x, and ρ3.
-fn activity(run: &Trajectory) -> [f64; 3] {
-    let points = places(run, (0.0, run.end().t), 0.01);
+fn activity(run: &Run) -> [f64; 3] {
+    let points = places(|t| run.at(t), (0.0, run.end().t), 0.01);
     let step = |pair: &[[f64; 2]]| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
     let x = || points.iter().map(|p| p[0]);
     [
@@ -148,7 +157,7 @@ fn activity(run: &Trajectory) -> [f64; 3] {
 }
 
 /// Mean snap velocity in the second half of the time over that in the first.
-fn later_to_earlier(run: &Trajectory) -> f64 {
+fn later_to_earlier(run: &Run) -> f64 {
     let half = run.end().t / 2.0;
     marked_over_others(run.impacts().iter().map(|hit| (hit.t >= half, hit.v_n)))
 }
@@ -156,14 +165,13 @@ fn later_to_earlier(run: &Trajectory) -> f64 {
 /// The largest distance of neighbours from the first run in x, y and θ, in the first period of
 /// their motion and in the last (a whole period, for the distance swings, too); and when the first
 /// of them ends.
-fn apart(runs: &[&Trajectory]) -> [f64; 3] {
+fn apart(runs: &[&Run]) -> [f64; 3] {
     let end = min(runs.iter().map(|run| run.end().t));
     let late = end - TAU / Parameters::STANDARD.omega;
     let [first, last] = [0.0, late].map(|from| {
         let paths = runs.iter().map(|run| {
-            let mut playback = Playback::new(run);
             let times = (0..=100).map(|k| from + (end - late) * f64::from(k) / 100.0);
-            let states = times.map(|t| playback.at(t).state);
+            let states = times.map(|t| run.at(t));
             states.flat_map(|s| [s.x, s.y, s.theta]).collect()
         });
         let paths: Vec<Vec<f64>> = paths.collect();
@@ -178,7 +186,7 @@ const CHAOS: f64 = 1e4;
 
 fn settles_sooner(tabled: &Tabled) -> Judged {
     let members = tabled.of(RESTITUTIONS)?;
-    let times = |runs: &[&Trajectory; 4]| -> Vec<f64> {
+    let times = |runs: &[&Run; 4]| -> Vec<f64> {
         let settled = runs.iter().filter(|run| run.end().reason == Stop::Settled);
         settled.map(|run| run.end().t).collect()
     };
@@ -186,12 +194,12 @@ fn settles_sooner(tabled: &Tabled) -> Judged {
     // From 0.95 down to 0.5.
     let steps = (0..10).map(|k| f64::from(95 - 5 * k) / 100.0);
     let cases: Vec<Parameters> = steps.map(|e| chapter(standard(|p| p.e = e))).collect();
-    let ends = each(&cases, |case| Ok(outcome(case)?.end))?;
+    let ends = each(&cases, |case| Ok(*Run::of_76_digits(case)?.end()))?;
     let settled = ends.iter().filter(|end| end.reason == Stop::Settled);
     let fine: Vec<f64> = settled.map(|end| end.t).collect();
     let back = fine.windows(2).filter(|pair| !falling(pair)).count();
     Ok(Finding::robust(&members, |runs| sooner(&times(runs)))
-        .list("times", times(&members[0]))
+        .by_start("times", members.iter().map(times))
         .values("settle back", [fine.len(), back])
         .list("fine", fine))
 }
@@ -208,7 +216,7 @@ fn first_rotating() -> Result<Vec<Option<f64>>, CaseError> {
 fn settles_above_critical(tabled: &Tabled) -> Judged {
     let members = tabled.of(FORCES)?;
     let first = first_rotating()?;
-    let settles = |runs: &[&Trajectory; 5], first: Option<f64>| {
+    let settles = |runs: &[&Run; 5], first: Option<f64>| {
         let mut others = runs[..4].iter();
         others.all(|run| run.end().reason == Stop::Settled) && first.is_some_and(|f_o| f_o < 0.4)
     };
@@ -220,4 +228,48 @@ fn settles_above_critical(tabled: &Tabled) -> Judged {
     Ok(Finding::new(Verdict::robust(holds))
         .list("ends", members.iter().map(|runs| runs[3].end().t))
         .value("exceeding", exceeding.join(", ")))
+}
+
+/// What the rows of Table 6.1 with a force below a half come to: those of the series f_o, and all;
+/// and the rows of shapes, at 0.3 as their number says, and at 0.5 as it is printed.
+fn below_a_half(tabled: &Tabled) -> Judged {
+    let settles = |runs: &[Run], k: usize| runs[k].end().reason == Stop::Settled;
+    let weak = |k: &usize| tabled.cases[*k].f_o < 0.5;
+    let places: Vec<usize> = (0..tabled.codes.len()).filter(weak).collect();
+    let of_case = |k: &usize| Verdict::robust(tabled.members().map(|runs| settles(runs, *k)));
+    let (series, others): (Vec<usize>, Vec<usize>) = places
+        .into_iter()
+        .partition(|k| FORCES.contains(&tabled.codes[*k]));
+    let verdicts = [&series, &others].map(|of| Verdict::all(of.iter().map(of_case)));
+    let own = tabled.own();
+    let words = |k: &usize| format!("{} {}", tabled.codes[*k], ending(own[*k].end()));
+    let not = others.iter().filter(|k| !settles(own, **k));
+    let not: Vec<String> = not.map(words).collect();
+    let printed = tabled
+        .study
+        .cases
+        .iter()
+        .filter(|case| case.code.ends_with("-559"));
+    let printed = printed.filter(|case| !FORCES.contains(&case.code));
+    let printed: Vec<String> = printed
+        .map(|case| format!("{} {}", case.code, ending(case.exact.end())))
+        .collect();
+    Ok(Finding::new(Verdict::families(verdicts))
+        .values("series others", [series.len(), others.len()])
+        .values("not printed", [not.join(", "), printed.join(", ")])
+        .value("count", not.len()))
+}
+
+/// Whether the least loss keeps the case with e = 1 within the limits: it exceeds, and no e below it
+/// does.
+fn loss_holds() -> Judged {
+    let steps = (0..=10).map(|k| f64::from(100 - k) / 100.0);
+    let cases: Vec<Parameters> = steps.map(|e| chapter(standard(|p| p.e = e))).collect();
+    let exceeding = of_runs(&cases, MANY, exceeds)?;
+    let only_first = |all: &Vec<bool>| all[0] && !all[1..].contains(&true);
+    let own = cases
+        .iter()
+        .zip(&exceeding[0])
+        .filter(|(_, exceeds)| **exceeds);
+    Ok(Finding::robust(&exceeding, only_first).list("exceeding", own.map(|(case, _)| case.e)))
 }

@@ -8,6 +8,8 @@ use super::numbers::falling;
 use super::runs::{FEW, NEVER, SAME, chapter, critical_force, from_starts, shown, standard};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
+use crate::critical_row::NEIGHBOURS;
+use crate::proved::Proved;
 use crate::study::Study;
 use snapload::analysis::in_parallel;
 use snapload::{Parameters, Stop, anchor_height, natural_inertia};
@@ -15,7 +17,7 @@ use table::{Column, Entry, Table};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
-    let mut all = ask(&[JUDGES], &Table::new(study)?)?;
+    let mut all = ask(&[JUDGES], &Table::new(study))?;
     all.extend(ask(&[curves::JUDGES], study)?);
     Ok(all)
 }
@@ -26,9 +28,11 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
     ("6.4.2-03", growth),
     ("6.4.2-04", |table| {
         let exceptions = |column: &Column| STEPS - table.rising(column);
-        let counts = table.columns.iter().map(|column| exceptions(column) as f64);
-        Ok(Finding::measured("exceptions", counts, |count| count > 0.0)
-            .values("steps published", [STEPS, exceptions(&table.published)]))
+        let counts: Vec<usize> = table.columns.iter().map(exceptions).collect();
+        Ok(Finding::new(to_the_rule(growth(table)?.verdict, &counts))
+            .list("exceptions", counts.iter().map(|count| *count as f64))
+            .values("steps published", [STEPS, exceptions(&table.published)])
+            .found("no_rule", growth(table)?.verdict == Verdict::NotReproduced))
     }),
     ("6.4.2-05", |table| {
         as_often_as_published(table, Table::lower_when_long)
@@ -39,8 +43,8 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
     ("6.4.2-07", |table| of_standard_case(table, 1.5, 0.31)),
     ("6.4.2-08", |table| of_standard_case(table, 2.5, 0.10)),
     ("6.4.2-09", |table| {
-        let found = &table.entry(1.5, [0.1, 0.0])?.row.computed.chapter;
-        let first = found.first.map_or(NEVER, |first| first.f_o);
+        let entry = table.entry(1.5, [0.1, 0.0])?;
+        let (found, first) = (&entry.row.computed.chapter, entry.own());
         let count = |[from, to]: &[f64; 2]| ((to - from) * 100.0).round() as usize + 1;
         let exceed: usize = found.exceeding.iter().map(count).sum();
         let finding = Finding::of((first - 0.31).abs() < SAME && (1..70).contains(&exceed));
@@ -52,51 +56,91 @@ const JUDGES: &Judges<fn(&Table) -> Judged> = &[
     }),
     ("6.4.2-17", |_| over_cable_length()),
     ("6.4.2-19", connection_points),
+    ("6.4.2-20", published_exceed),
 ];
 
 /// The steps of Table 6.2 to the next larger size of a family.
 const STEPS: usize = 12;
 
+/// Whether there are exceptions to a rule: there are none to one that fails itself.
+fn to_the_rule(rule: Verdict, exceptions: &[usize]) -> Verdict {
+    let some = Verdict::robust(exceptions.iter().map(|count| *count > 0));
+    Verdict::all([rule, some])
+}
+
+/// Whether the first amplitude that exceeds does so by rotation, as it is proved of each entry.
+fn by_rotation(firsts: impl Iterator<Item = Option<Stop>>) -> Verdict {
+    let rotates = |stop: Option<Stop>| Verdict::of(stop == Some(Stop::RotationLimit));
+    Verdict::families(firsts.map(rotates))
+}
+
 fn reasons(table: &Table) -> Judged {
-    let rotates = |found: &Option<(f64, Stop)>| matches!(found, Some((_, Stop::RotationLimit)));
-    let verdict = |e: &Entry| Verdict::robust(e.members.iter().map(rotates));
-    let entries = table.entries.iter();
-    let others = entries
-        .clone()
-        .filter(|e| verdict(e) != Verdict::Reproduced);
-    let others = others.map(|e| {
-        let by_rotation = e.members.iter().filter(|found| rotates(found)).count();
-        format!("{}: {by_rotation} of {} starts", e.name(), e.members.len())
+    let firsts = table.entries.iter().map(|e| (e, e.row.first()));
+    let firsts: Vec<_> = firsts.collect();
+    let stop = |(_, first): &(_, Option<(f64, &Proved)>)| first.map(|(_, proved)| proved.reason);
+    let others = firsts
+        .iter()
+        .filter(|first| stop(first) != Some(Stop::RotationLimit));
+    let others = others.map(|(e, first)| {
+        let end = |(f_o, proved): (f64, &Proved)| {
+            let (reason, t) = (proved.reason.words(), proved.time());
+            format!(
+                "{}: f_o = {f_o:.2} reaches the {reason} at t = {t:.2}",
+                e.name()
+            )
+        };
+        first.map_or_else(|| format!("{}: none exceeds", e.name()), end)
     });
     let others: Vec<String> = others.collect();
-    let sure = table.entries.len() - others.len();
-    Ok(Finding::new(Verdict::all(entries.map(verdict)))
-        .values("sure entries", [sure, table.entries.len()])
-        .value("others", others.join("; "))
-        .found("sure_of_some", sure > 0))
+    let entries = table.entries.len();
+    Ok(Finding::new(by_rotation(firsts.iter().map(stop)))
+        .values("sure entries", [entries - others.len(), entries])
+        .value("others", others.join("; ")))
 }
 
 fn values(table: &Table) -> Judged {
     let entries = || table.entries.iter();
     let with = |which| entries().filter(move |e| e.verdict() == which);
     let text = |e: &Entry| format!("{} ({:.2})", e.text(), e.row.published);
-    let settled = with(Verdict::NotReproduced).filter(|e| e.settles_at_published());
-    let settled: Vec<String> = settled.map(Entry::name).collect();
-    let verdicts = [
-        Verdict::Reproduced,
-        Verdict::NotDecidable,
-        Verdict::NotReproduced,
-    ];
-    let [agree, open, differ] = verdicts.map(|which| with(which).count());
-    Ok(Finding::new(Verdict::all(entries().map(Entry::verdict)))
-        .value("forces", entries().map(text).collect::<Vec<_>>().join(", "))
-        .values(
-            "agree open differ smaller",
-            [agree, open, differ, differ - settled.len()],
-        )
-        .found("a_smaller_exceeds", differ > settled.len())
-        .found("none_exceeds", !settled.is_empty())
-        .value("settled", settled.join("; ")))
+    let differing = || with(Verdict::NotReproduced);
+    let smaller = differing().filter(|e| e.smaller_exceeds()).count();
+    let settled: Vec<String> = differing()
+        .filter(|e| !e.smaller_exceeds())
+        .map(Entry::name)
+        .collect();
+    let open: Vec<String> = with(Verdict::NotDecidable).map(Entry::name).collect();
+    let [agree, differ] = [Verdict::Reproduced, Verdict::NotReproduced].map(|v| with(v).count());
+    Ok(
+        Finding::new(Verdict::families(entries().map(Entry::verdict)))
+            .value("forces", entries().map(text).collect::<Vec<_>>().join(", "))
+            .values("agree differ smaller", [agree, differ, smaller])
+            .value("neighbours", NEIGHBOURS as usize)
+            .values("settled open", [settled.join("; "), open.join("; ")]),
+    )
+}
+
+/// Whether the published amplitudes exceed the limits, as it is proved.
+fn published_exceed(table: &Table) -> Judged {
+    let ends = table
+        .entries
+        .iter()
+        .map(|e| (e, e.row.at_published().map(|proved| proved.reason)));
+    let ends: Vec<(&Entry, Option<Stop>)> = ends.collect();
+    let exceeds = |(_, stop): &(&Entry, Option<Stop>)| match stop {
+        Some(stop) => Verdict::of(stop.exceeds()),
+        None => Verdict::NotDecidable,
+    };
+    let not = ends
+        .iter()
+        .filter(|end| exceeds(end) != Verdict::Reproduced);
+    let not = not.map(|(e, stop)| {
+        let words = stop.map_or("open", Stop::words);
+        format!("{} at {:.2}: {words}", e.name(), e.row.published)
+    });
+    let not: Vec<String> = not.collect();
+    Ok(Finding::new(Verdict::families(ends.iter().map(exceeds)))
+        .values("exceed entries", [ends.len() - not.len(), ends.len()])
+        .value("not", not.join("; ")))
 }
 
 fn growth(table: &Table) -> Judged {
@@ -111,8 +155,10 @@ fn growth(table: &Table) -> Judged {
     let off = |e: &Entry| (e.own() - e.row.published).abs();
     let entries = table.entries.iter();
     let most = entries.max_by(|p, q| off(p).total_cmp(&off(q)));
+    let words = |columns: &[Column]| columns.iter().map(text).collect::<Vec<_>>().join("; ");
     Ok(Finding::robust(&table.columns, grows)
         .value("computed", text(&table.columns[0]))
+        .value("crossings", words(&table.columns[1..]))
         .value("published", text(&table.published))
         .value("most", most.map(Entry::name).unwrap_or_default())
         .found("of_the_published", grows(&table.published)))
@@ -132,12 +178,13 @@ fn as_often_as_published<'a>(table: &Table<'a>, count: fn(&Table<'a>, &Column) -
 fn of_standard_case(table: &Table, r: f64, published: f64) -> Judged {
     let entry = table.entry(r, [0.1, 0.0])?;
     let slides_on = entry.row.computed.sliding_on.first.map_or(NEVER, |x| x.f_o);
-    let all: Vec<f64> = entry.critical().chain([slides_on]).collect();
-    let finding = Finding::robust(&all, |f_cr| (f_cr - published).abs() < SAME);
+    let alone = entry.row.limits_alone.map_or(NEVER, |(f_o, _)| f_o);
+    let finding = Finding::robust(&entry.members, |f_cr| (f_cr - published).abs() < SAME);
+    let crossings = entry.members[1..].iter().map(|f_o| shown(*f_o));
     Ok(finding
         .value("f_cr", entry.text())
-        .value("starts", entry.members.len())
-        .value("slides_on", shown(slides_on)))
+        .value("crossings", crossings.collect::<Vec<_>>().join(", "))
+        .values("slides_on alone", [slides_on, alone].map(shown)))
 }
 
 /// The area in which the standard body may be without rotation, down from the anchors' level.
@@ -187,4 +234,31 @@ fn connection_points(table: &Table) -> Judged {
     let pairs = 2 * found.len();
     Ok(Finding::of(4 * points >= 3 * pairs && points > inertia)
         .values("points inertia pairs", [points, inertia, pairs]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rule_that_fails_has_no_exceptions() {
+        let judged = |rule, exceptions: &[usize]| to_the_rule(rule, exceptions);
+        assert_eq!(
+            judged(Verdict::NotReproduced, &[5, 5]),
+            Verdict::NotReproduced
+        );
+        assert_eq!(judged(Verdict::Reproduced, &[2, 3]), Verdict::Reproduced);
+        assert_eq!(judged(Verdict::Reproduced, &[0, 0]), Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn one_entry_that_reaches_the_bound_first_is_a_counterexample() {
+        let judged = |stops: [Stop; 2]| by_rotation(stops.into_iter().map(Some));
+        assert_eq!(judged([Stop::RotationLimit; 2]), Verdict::Reproduced);
+        assert_eq!(
+            judged([Stop::RotationLimit, Stop::UpperBound]),
+            Verdict::Mixed
+        );
+        assert_eq!(judged([Stop::UpperBound; 2]), Verdict::NotReproduced);
+    }
 }

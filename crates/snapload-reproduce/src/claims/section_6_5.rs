@@ -10,7 +10,7 @@ use super::runs::{FEW, each, from_starts, near, past_settling, run, shapes_under
 use super::verdict::{Claim, Finding, Judged, Judges, ask};
 use crate::ReportError;
 use crate::study::Study;
-use example::{Rocking, example, rocks_on};
+use example::{LOW, Rocking, example, rocks_on};
 use slides::Slides;
 use snapload::{ModeInterval, Parameters, Playback, Trajectory};
 
@@ -86,9 +86,23 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .found("by_sliding", sliding > 0))
     }),
     ("6.5.2.2-12", |of| {
-        let sliding = of.count(&["sliding", "rocking"]);
-        let all = sliding + of.count(&["slack", "rocking"]);
-        Ok(Finding::of(sliding > 0).values("sliding all runs", [sliding, all, of.sweep.len()]))
+        let begins = of.rocking_begins();
+        let [long, short] = [Begin::after_a_slide, Begin::after_a_short_slide]
+            .map(|such| begins.iter().filter(|begin| such(begin)).count());
+        Ok(Finding::of(long > 0)
+            .values("long short all", [long, short, begins.len()])
+            .values("runs", [of.sweep.len()])
+            .value("shortest", SHORTEST))
+    }),
+    ("6.5.2.2-16", |of| {
+        let begins = of.rocking_begins();
+        let settling = begins.iter().filter(|begin| begin.settles()).count();
+        Ok(Finding::of(settling > 0)
+            .values(
+                "settling all runs",
+                [settling, begins.len(), of.sweep.len()],
+            )
+            .values("low shortest", [LOW, SHORTEST]))
     }),
     ("6.5.2.2-13", |_| lasting()),
 ];
@@ -111,7 +125,7 @@ impl Material<'_> {
 }
 
 fn slack_is_taut(of: &Material) -> Judged {
-    let run = &of.study.sliding;
+    let run = &of.study.sliding.run;
     let mut playback = Playback::new(run);
     let flights = run.modes().iter().filter(|mode| mode.taut.is_empty());
     let gaps = flights.map(|mode| {
@@ -124,6 +138,55 @@ fn slack_is_taut(of: &Material) -> Judged {
         .value("intervals", gaps.len())
         .value("nearest", nearest)
         .found("slack", nearest < 0.0))
+}
+
+/// A slide shorter than this moves nothing that one could see.
+const SHORTEST: f64 = 1e-3;
+
+/// How a rocking begins.
+#[derive(Clone, Copy, Debug)]
+struct Begin {
+    /// How long the body slid just before; 0 if it did not.
+    slid: f64,
+    /// Where its centre is.
+    y: f64,
+}
+
+impl Begin {
+    fn after_a_slide(&self) -> bool {
+        self.slid >= SHORTEST
+    }
+
+    fn after_a_short_slide(&self) -> bool {
+        self.slid > 0.0 && self.slid < SHORTEST
+    }
+
+    /// Low, and out of bouncing.
+    fn settles(&self) -> bool {
+        self.slid < SHORTEST && self.y < LOW
+    }
+}
+
+impl Material<'_> {
+    /// How the rocking of all shapes and amplitudes begins, each time.
+    fn rocking_begins(&self) -> Vec<Begin> {
+        let of_run = |run: &Trajectory| {
+            let mut playback = Playback::new(run);
+            let pairs = run
+                .modes()
+                .windows(2)
+                .filter(|pair| kind(&pair[1]) == "rocking");
+            let begins = pairs.map(|pair| Begin {
+                slid: match kind(&pair[0]) {
+                    "sliding" => pair[0].t_end - pair[0].t_start,
+                    _ => 0.0,
+                },
+                y: playback.at(pair[1].t_start).state.y,
+            });
+            begins.collect::<Vec<_>>()
+        };
+        self.sweep.iter().flat_map(of_run).collect()
+    }
 }
 
 /// How often a run rocks and then slides, and how often it climbs in that slide.
@@ -155,4 +218,17 @@ fn lasting() -> Judged {
     };
     let counts: Vec<[usize; 2]> = on.iter().map(counts).collect();
     Ok(Finding::robust(&counts, |[low, high]| low > high).values("low high", counts[0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slide_of_no_length_is_none() {
+        let begin = |slid, y| Begin { slid, y };
+        assert!(begin(0.01, 0.02).after_a_slide() && !begin(0.01, 0.02).settles());
+        assert!(!begin(1e-4, 0.02).after_a_slide() && begin(1e-4, 0.02).settles());
+        assert!(!begin(0.0, 0.2).settles() && !begin(0.0, 0.02).after_a_short_slide());
+    }
 }

@@ -348,7 +348,7 @@ fn compression(of: &Material) -> Judged {
         let ([gx, gy, _], [fx, fy, _]) = (q.moment.gradient(q.side), q.terms());
         (fx * gx + fy * gy > 0.0) == (q.lambda > 0.0)
     });
-    let (tension, times) = tension_residual(&of.study.sliding, 1);
+    let (tension, times) = tension_residual(&of.study.sliding.run, 1);
     let finding = Finding::of(holds(residual) && pushes && times > 0 && holds(tension));
     Ok(finding
         .value("times", times)
@@ -396,7 +396,7 @@ fn origin(of: &Material) -> Judged {
         BOTH.map(|side| sizes.cable(side).gap(&State::default()))
     });
     let most = largest(gaps);
-    let elsewhere = first_hit(&of.study.sliding).map(|State { x, y, theta, .. }| {
+    let elsewhere = first_hit(&of.study.sliding.run).map(|State { x, y, theta, .. }| {
         format!("; the sliding example meets both at x = {x:.3}, y = {y:.3}, θ = {theta:.2}")
     });
     Ok(Finding::of(!shapes.is_empty() && most < CLOSED)

@@ -9,7 +9,7 @@ use super::runs::{past_settling, run, standard};
 use super::verdict::{Claim, Finding, Judged, Judges, ask};
 use crate::ReportError;
 use crate::study::Study;
-use snapload::{Playback, Real, TautSet, Trajectory};
+use snapload::{Playback, Real, TautSet, Trajectory, natural_inertia};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
@@ -79,7 +79,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
                 length(force.into_iter().take(2)) / size - 1.0
             })
         });
-        let (tension, times) = tension_residual(&of.study.rocking, 2);
+        let (tension, times) = tension_residual(&of.study.rocking.run, 2);
         let finding = Finding::of(holds(compression) && times > 0 && holds(tension));
         Ok(finding
             .value("residual", compression)
@@ -87,6 +87,7 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .value("tension", tension))
     }),
     ("6.5.2.1-07", loss),
+    ("6.5.2.1-08", |_| rocking_square()),
 ];
 
 /// 6.59, 6.60: the gaps of a circle.
@@ -233,6 +234,36 @@ fn losses_of(run: &Trajectory) -> (usize, usize) {
     });
     let agree: Vec<bool> = agree.collect();
     (agree.len(), agree.iter().filter(|agree| **agree).count())
+}
+
+/// Whether a body with a height rocks in a way that can not be solved: whether its gaps open.
+fn rocking_square() -> Judged {
+    let case = past_settling(standard(|p| {
+        (p.a, p.b, p.f_o, p.t_end) = (0.2, 0.2, 0.1, 30.0);
+        p.inertia = natural_inertia(p.a, p.b);
+    }));
+    let run = run(&case)?;
+    let mut playback = Playback::new(&run);
+    let rocking = run.modes().iter().filter(|mode| mode.taut.len() > 1);
+    let (mut time, mut widest) = (0.0, 0.0_f64);
+    for mode in rocking {
+        time += mode.t_end - mode.t_start;
+        for k in 0..200 {
+            let t = mode.t_start + (mode.t_end - mode.t_start) * f64::from(k) / 200.0;
+            let state = playback.at(t).state;
+            let gaps = run
+                .system()
+                .cables
+                .iter()
+                .map(|cable| cable.gap(&state).abs());
+            widest = gaps.fold(widest, f64::max);
+        }
+    }
+    let solved = time > 0.0 && holds(widest);
+    Ok(Finding::of(!solved)
+        .values("size time", [case.a, time])
+        .value("gap", widest)
+        .found("solved", solved))
 }
 
 fn loss(of: &Material) -> Judged {

@@ -13,6 +13,8 @@ pub enum Verdict {
     Reproduced,
     /// It disagrees.
     NotReproduced,
+    /// It speaks of several families of cases, holds for some of them and fails for others.
+    Mixed,
     /// It hangs on motion past the horizon: starts that differ by 1e-12 disagree.
     NotDecidable,
 }
@@ -45,28 +47,35 @@ impl Verdict {
     /// Of a statement that holds if all its parts do. One part that surely fails decides it;
     /// without parts nothing was shown.
     pub(super) fn all(parts: impl IntoIterator<Item = Self>) -> Self {
-        let worse = |p, q| match (p, q) {
-            (Self::Reproduced, Self::Reproduced) => Self::Reproduced,
-            (Self::NotReproduced, _) | (_, Self::NotReproduced) => Self::NotReproduced,
-            _ => Self::NotDecidable,
-        };
-        parts
-            .into_iter()
-            .reduce(worse)
-            .unwrap_or(Self::NotReproduced)
+        let worst = [Self::NotReproduced, Self::Mixed, Self::NotDecidable];
+        Self::first_of(worst, parts).unwrap_or(Self::Reproduced)
     }
 
     /// Of a statement that holds if one of its parts does.
     pub(super) fn any(parts: impl IntoIterator<Item = Self>) -> Self {
-        let better = |p, q| match (p, q) {
-            (Self::Reproduced, _) | (_, Self::Reproduced) => Self::Reproduced,
-            (Self::NotReproduced, Self::NotReproduced) => Self::NotReproduced,
-            _ => Self::NotDecidable,
-        };
-        parts
-            .into_iter()
-            .reduce(better)
-            .unwrap_or(Self::NotReproduced)
+        let best = [Self::Reproduced, Self::Mixed, Self::NotDecidable];
+        Self::first_of(best, parts).unwrap_or(Self::NotReproduced)
+    }
+
+    /// Of a statement that speaks of several families of cases, or that can be taken in several
+    /// ways: mixed where it holds for one and fails for another.
+    pub(super) fn families(parts: impl IntoIterator<Item = Self>) -> Self {
+        let parts: Vec<Self> = parts.into_iter().collect();
+        let both = [Self::Reproduced, Self::NotReproduced];
+        if both.iter().all(|verdict| parts.contains(verdict)) {
+            Self::Mixed
+        } else {
+            Self::all(parts)
+        }
+    }
+
+    /// The first of three verdicts that is among some; the first of all of none.
+    fn first_of(order: [Self; 3], parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let parts: Vec<Self> = parts.into_iter().collect();
+        if parts.is_empty() {
+            return Some(Self::NotReproduced);
+        }
+        order.into_iter().find(|verdict| parts.contains(verdict))
     }
 
     /// How many came to this verdict.
@@ -82,6 +91,7 @@ impl Verdict {
         match self {
             Self::Reproduced => "reproduced",
             Self::NotReproduced => "not reproduced",
+            Self::Mixed => "mixed",
             Self::NotDecidable => "not decidable",
         }
     }
@@ -141,6 +151,16 @@ impl Finding {
         pairs.fold(self, |finding, (name, value)| finding.value(name, value))
     }
 
+    /// Gives numbers of which there is one list by start: each is told as it is where all starts
+    /// agree on the digits that its place asks for, and else from the least to the greatest.
+    pub(super) fn by_start<I>(self, name: &'static str, starts: impl IntoIterator<Item = I>) -> Self
+    where
+        I: IntoIterator<Item = f64>,
+    {
+        let starts = starts.into_iter().map(|list| list.into_iter().collect());
+        self.value(name, Value::ByStart(starts.collect()))
+    }
+
     /// Gives several numbers for one place.
     pub(super) fn list(self, name: &'static str, list: impl IntoIterator<Item = f64>) -> Self {
         self.value(name, Value::Numbers(list.into_iter().collect()))
@@ -186,22 +206,24 @@ pub struct Claim {
     pub verdict: Verdict,
     /// The figures on which the verdict rests.
     pub evidence: String,
+    /// By which measure, threshold and range, where that is a choice.
+    pub judged: String,
     /// Why we disagree, as far as it can be known; empty where we agree.
     pub remark: String,
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Verdict::{NotDecidable, NotReproduced, Reproduced};
+    use super::Verdict::{Mixed, NotDecidable, NotReproduced, Reproduced};
     use super::*;
 
-    const ALL: [Verdict; 3] = [Reproduced, NotReproduced, NotDecidable];
+    const ALL: [Verdict; 4] = [Reproduced, NotReproduced, Mixed, NotDecidable];
 
     fn opposite(verdict: Verdict) -> Verdict {
         match verdict {
             Reproduced => NotReproduced,
             NotReproduced => Reproduced,
-            NotDecidable => NotDecidable,
+            neither => neither,
         }
     }
 
@@ -238,6 +260,17 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn what_holds_for_some_families_and_fails_for_others_is_mixed() {
+        let families = |parts: &[Verdict]| Verdict::families(parts.iter().copied());
+        assert_eq!(families(&[Reproduced, NotReproduced]), Mixed);
+        assert_eq!(families(&[NotDecidable, NotReproduced, Reproduced]), Mixed);
+        assert_eq!(families(&[Reproduced, Reproduced]), Reproduced);
+        assert_eq!(families(&[NotReproduced]), NotReproduced);
+        assert_eq!(families(&[Reproduced, NotDecidable]), NotDecidable);
+        assert_eq!(families(&[]), NotReproduced);
     }
 
     #[test]

@@ -7,6 +7,8 @@
 //! not_reproduced.ends = "It holds of the ends of the range; steps the other way: {back} of 4."
 //! ```
 //!
+//! A key `judged` says, where that is a choice, by which measure, threshold and range it is judged.
+//!
 //! `{rotations:.3}` shows what the judge of the claim gives under that name, with three decimals.
 //! The last line is a remark: it stands beside the verdict "not reproduced", and only where the
 //! judge found that `ends` is so. Hence no remark outlives the figures from which it was written.
@@ -41,6 +43,9 @@ struct Entry {
     claim: String,
     /// What was found, with a place for each value.
     evidence: String,
+    /// By which measure, threshold and range it is judged, where that is a choice.
+    #[serde(default)]
+    judged: String,
     /// Remarks beside a verdict, by the name of what they take for granted.
     #[serde(flatten)]
     remarks: BTreeMap<Verdict, BTreeMap<String, String>>,
@@ -56,6 +61,8 @@ static ENTRIES: LazyLock<Result<Entries, toml::de::Error>> =
 pub(super) enum Value {
     Text(String),
     Numbers(Vec<f64>),
+    /// A list by start.
+    ByStart(Vec<Vec<f64>>),
 }
 
 impl Value {
@@ -67,6 +74,14 @@ impl Value {
         let numbers = match self {
             Self::Text(text) => return format.is_empty().then(|| text.clone()),
             Self::Numbers(numbers) => numbers,
+            Self::ByStart(starts) => {
+                let length = starts.iter().map(Vec::len).min().unwrap_or(0);
+                let column = |k: usize| starts.iter().map(|list| list[k]).collect();
+                let columns = (0..length).map(|k| Self::Numbers(column(k)));
+                let span = format!("span{format}");
+                let shown: Option<Vec<String>> = columns.map(|list| list.show(&span)).collect();
+                return shown.map(|shown| shown.join(", "));
+            }
         };
         let (kind, digits) = format.split_once('.').unwrap_or((format, ""));
         let decimals = digits.trim_end_matches('e').parse();
@@ -114,13 +129,14 @@ pub(super) fn tell(id: &str, finding: &Finding) -> Result<Claim, ReportError> {
     let (id, entry) = entries
         .get_key_value(id)
         .ok_or_else(|| fault("it has no words".to_owned()))?;
-    let [evidence, remark] = entry.tell(finding).map_err(fault)?;
+    let [evidence, judged, remark] = entry.tell(finding).map_err(fault)?;
     Ok(Claim {
         id,
         section: id.rsplit_once('-').map_or(id, |(section, _)| section),
         claim: &entry.claim,
         verdict: finding.verdict,
         evidence,
+        judged,
         remark,
     })
 }
@@ -142,22 +158,24 @@ pub(super) fn check_all(judged: &[&str]) -> Result<(), ReportError> {
 }
 
 impl Entry {
-    /// The evidence and the remarks of a finding.
-    fn tell(&self, finding: &Finding) -> Result<[String; 2], String> {
+    /// The evidence of a finding, how it is judged, and the remarks.
+    fn tell(&self, finding: &Finding) -> Result<[String; 3], String> {
         self.check(finding)?;
         let is_so = |name: &str| name == ALWAYS || finding.conditions.get(name) == Some(&true);
         let remarks = self.remarks.get(&finding.verdict).into_iter().flatten();
         let remarks = remarks.filter(|(name, _)| is_so(name));
         let remarks = remarks.map(|(_, remark)| fill(remark, &finding.values));
         let remarks: Vec<String> = remarks.collect::<Result<_, _>>()?;
-        Ok([fill(&self.evidence, &finding.values)?, remarks.join(" ")])
+        let [evidence, judged] = [&self.evidence, &self.judged].map(|t| fill(t, &finding.values));
+        Ok([evidence?, judged?, remarks.join(" ")])
     }
 
     /// Whether every value that the judge gives is told, and every remark but those that stand
     /// always is decided.
     fn check(&self, finding: &Finding) -> Result<(), String> {
         let remarks = || self.remarks.values().flatten();
-        let text = remarks().map(|(_, text)| &**text).collect::<String>() + &self.evidence;
+        let text = remarks().map(|(_, text)| &**text).collect::<String>();
+        let text = text + &self.evidence + &self.judged;
         let place = |name: &str, end: &str| text.contains(&format!("{{{name}{end}"));
         let told = |name: &str| place(name, "}") || place(name, ":");
         if let Some(name) = finding.values.keys().find(|name| !told(name)) {
@@ -214,6 +232,7 @@ mod tests {
         let words = "
             claim = 'both hold'
             evidence = '{holding} of {all:.1}'
+            judged = 'by one'
             not_reproduced = { fails = '{one} fails', rains = 'it rains' }
             not_decidable.always = 'by chance'
         ";
@@ -237,7 +256,7 @@ mod tests {
             (NotDecidable, "by chance"),
         ] {
             let told = entry()?.tell(&finding(verdict))?;
-            assert_eq!(told, ["1 of 2.0, 3.0", remark].map(str::to_owned));
+            assert_eq!(told, ["1 of 2.0, 3.0", "by one", remark].map(str::to_owned));
         }
         Ok(())
     }
@@ -291,6 +310,9 @@ mod tests {
         let numbers = Value::Numbers(vec![0.25, 0.5]);
         let shown = ["", ".2", ".0e", "span.1", "span", ".x", "wide.2"].map(|f| numbers.show(f));
         let [plain, two, powers, span, bare, odd, unknown] = shown.map(Option::unwrap_or_default);
+        let starts = Value::ByStart(vec![vec![0.251, 0.5], vec![0.254, 0.75]]);
+        let shown = starts.show(".2").unwrap_or_default();
+        assert_eq!(shown, "0.25, 0.50 to 0.75");
         assert_eq!(
             [plain, two, powers].join("; "),
             "0.25, 0.5; 0.25, 0.50; 2e-1, 5e-1"

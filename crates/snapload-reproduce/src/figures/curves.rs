@@ -3,10 +3,12 @@
 
 use super::{About, Lists, Source};
 use crate::ReportError;
-use crate::study::{Reading, Study};
+use crate::study::{Both, LARGEST, Reading, Study};
 use crate::tables::NORMS;
 use serde::Deserialize;
+use snapload::Outcome;
 use snapload_figures::{Axis, Colour, Dash, Layer, Plot, Point, Range, Shape, Stroke};
+use std::f64::consts::FRAC_PI_2;
 
 /// A curve of the study.
 #[derive(Deserialize)]
@@ -70,13 +72,13 @@ impl Curve {
             .iter()
             .any(|r| existing(*r).len() < points.of(*r).len())
         {
-            " Where a curve is missing no amplitude up to 1 exceeds them."
+            format!(" Where a curve is missing no amplitude up to {LARGEST} exceeds them.")
         } else {
-            ""
+            String::new()
         };
         let caption = format!(
             "Critical force against {name}, r = {r}: the smallest force amplitude, in steps of 0.01, \
-             whose run exceeds the limits.{gaps}"
+             whose run exceeds the limits, in doubles.{gaps}"
         );
         let plot = Plot {
             description: format!("Critical force against {name}"),
@@ -85,7 +87,8 @@ impl Curve {
             layers: Reading::BOTH.map(layer).to_vec(),
             ..Plot::default()
         };
-        let command = |reading| self.for_each("critical", hundredths, of, reading);
+        let verb = format!("critical --max {LARGEST}");
+        let command = |reading| self.for_each(&verb, hundredths, of, reading);
         Ok((plot, about(caption, ".f_cr", command)))
     }
 
@@ -114,12 +117,22 @@ impl Curve {
             layers.extend(markers(symbol, shape, values));
         }
         let what = &figure.what;
+        if figure.keys.iter().any(|key| key == "theta_max") {
+            layers.push(Layer::Horizontal(FRAC_PI_2, "π/2".to_owned()));
+            layers.extend(critical_lines(points, largest));
+        }
         let plot = Plot {
             description: format!("{what} against force amplitude"),
             x: Axis::new("*f*ₒ (nondimensional)", Range::AtLeast(0.0, 0.0)),
             // With room for a whole marker at the top.
             y: Axis::new(&figure.axis, Range::AtLeast(0.0, 1.08 * largest)),
             layers,
+            // The figures of both lengths are compared.
+            markers: study
+                .norms
+                .iter()
+                .map(|curve| curve.points.chapter.len())
+                .sum(),
             ..Plot::default()
         };
         let caption = format!(
@@ -150,6 +163,21 @@ impl Curve {
             "for k in $({hundredths}); do snapload {verb} --set r={r} --set {key}=${{k}}e-2{option} --json -; done"
         )
     }
+}
+
+/// A line at the critical force of each reading, which is the last amplitude.
+fn critical_lines(points: &Both<Vec<(f64, Outcome)>>, top: f64) -> impl Iterator<Item = Layer> {
+    let line = move |reading: Reading| {
+        let (f_cr, _) = points.of(reading).last()?;
+        let stroke = Stroke::new(colour(reading), 0.6, Dash::Dashed);
+        let words = reading.either("critical, chapter", "critical, sliding on");
+        Some(Layer::Line(
+            vec![vec![[*f_cr, 0.0], [*f_cr, top]]],
+            stroke,
+            words.to_owned(),
+        ))
+    };
+    Reading::BOTH.into_iter().filter_map(line)
 }
 
 /// The readings agree at most amplitudes: such a point is drawn once, or the second would hide the

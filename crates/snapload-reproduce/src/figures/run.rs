@@ -2,11 +2,11 @@
 
 use super::{About, Listed, Row, Shows, Source};
 use crate::ReportError;
-use crate::study::{CaseRuns, Reading, Study};
+use crate::study::{CaseRuns, Known, Reading, Study};
 use crate::tables::outcome;
 use serde::Deserialize;
-use snapload::{Case, named_case};
-use snapload_figures::{Plot, Range, RunPlot, RunPlots};
+use snapload::Mode;
+use snapload_figures::{Inset, Layer, Plot, Range, RunPlot, RunPlots};
 
 /// A figure of a run of Table 6.1.
 #[derive(Deserialize)]
@@ -19,6 +19,9 @@ pub(super) struct RunFigure {
     /// Whether the time axis differs from that of the row.
     #[serde(default)]
     own_time_axis: bool,
+    /// Whether the motion fills so little of the window that it is shown enlarged, too.
+    #[serde(default)]
+    enlarged: bool,
     #[serde(default)]
     remark: String,
 }
@@ -54,15 +57,22 @@ const WINDOW: [f64; 4] = [-0.8, 0.8, -0.05, 0.8];
 pub(super) struct Axes {
     t: f64,
     v_n: f64,
+    /// The most snaps of a figure, by which the size of markers is chosen.
+    snaps: usize,
 }
 
 impl Axes {
     pub(super) fn shared(study: &Study, row: &Row<Listed>) -> Result<Self, ReportError> {
-        let mut axes = Self { t: 0.0, v_n: 0.0 };
+        let mut axes = Self {
+            t: 0.0,
+            v_n: 0.0,
+            snaps: 0,
+        };
         for figure in &row.figures {
             if let Shows::Run(figure) = &figure.shows {
-                let run = &figure.case(study)?.runs.chapter;
+                let run = &figure.case(study)?.runs.chapter.run;
                 axes.v_n = axes.v_n.max(run.norms().rho1);
+                axes.snaps = axes.snaps.max(run.impacts().len());
                 if !figure.own_time_axis {
                     axes.t = axes.t.max(run.end().t);
                 }
@@ -93,7 +103,13 @@ impl RunFigure {
             ),
         };
         let case = self.case(study)?;
-        let mut plot = RunPlots::new(&case.runs.chapter).plot(plot);
+        let known = &case.runs.chapter;
+        let mut plot = RunPlots::new(&known.run)
+            .with_horizon(known.horizon)
+            .plot(plot);
+        if self.enlarged {
+            plot.inset = Some(Box::new(enlarged(&mut plot)));
+        }
         if self.view == View::Path {
             let [left, right, bottom, top] = WINDOW.map(|side| side * self.window);
             plot.x.range = Range::Fixed(left, right);
@@ -104,11 +120,18 @@ impl RunFigure {
         if self.view == View::Snaps {
             // With room for a whole marker at the top.
             plot.y.range = Range::AtLeast(0.0, 1.05 * axes.v_n);
+            plot.markers = axes.snaps;
         }
         let (p, code, remark) = (&case.parameters, case.code, &self.remark);
         let caption = format!(
-            "{what}, case {code}: r = {}, e = {}, a = {}, b = {}, f_o = {}, Ω = {}.{remark}",
-            p.r, p.e, p.a, p.b, p.f_o, p.omega
+            "{what}, case {code}: r = {}, e = {}, a = {}, b = {}, f_o = {}, Ω = {}.{remark}{}",
+            p.r,
+            p.e,
+            p.a,
+            p.b,
+            p.f_o,
+            p.omega,
+            beyond(known)
         );
         let option = Reading::Chapter.option();
         let command = format!("snapload run --case {code}{option} --out {name}");
@@ -124,6 +147,23 @@ impl RunFigure {
     }
 }
 
+/// A path by itself, with the letters of the plot, which then has none; the boundaries bear their names
+/// outside.
+fn enlarged(plot: &mut Plot) -> Inset {
+    let mut whole = plot.clone();
+    plot.layers
+        .retain(|layer| !matches!(layer, Layer::Letters(_)));
+    for layer in &mut whole.layers {
+        if let Layer::Boundary(_, name) = layer {
+            name.clear();
+        }
+    }
+    Inset {
+        plot: whole,
+        place: [0.3, 0.38, 0.985, 0.98],
+    }
+}
+
 /// The path of the sliding or the rocking example.
 #[derive(Deserialize)]
 pub(super) struct Example {
@@ -133,14 +173,24 @@ pub(super) struct Example {
 }
 
 impl Example {
-    pub(super) fn draw(&self, name: &str) -> Result<(Plot, About), ReportError> {
+    pub(super) fn draw(&self, study: &Study, name: &str) -> Result<(Plot, About), ReportError> {
         let Self { case, chapter } = self;
-        let run = Case::new(named_case(case)?.parameters)?.run();
+        let known = match case.as_str() {
+            "sliding-example" => &study.sliding,
+            "rocking-example" => &study.rocking,
+            other => return Err(ReportError::Missing(format!("the example {other}"))),
+        };
+        let (run, plots) = (&known.run, RunPlots::new(&known.run));
+        let still = match run.modes().last().map(|mode| mode.taut.mode()) {
+            Some(Mode::Rocking) => ", where it still rocks",
+            _ => "",
+        };
         let caption = format!(
             "Path of the body's centre in the {case} ({chapter}), the settling rule off: I start, S sliding \
              starts, G the other boundary is struck while one cable is taut, R rocking starts, E the end at \
-             t = {}, where it still rocks.",
-            run.end().t
+             t = {}{still}.{}",
+            run.end().t,
+            beyond(known)
         );
         let command = format!("snapload run --case {case} --out {name}");
         let about = About {
@@ -148,6 +198,17 @@ impl Example {
             numbers: Vec::new(),
             sources: Source::whole(command, View::Path.place()),
         };
-        Ok((RunPlots::new(&run).plot(RunPlot::Trajectory), about))
+        let plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
+        Ok((plot, about))
+    }
+}
+
+/// What is said of a picture of which a part is past the horizon of its run.
+fn beyond(known: &Known) -> String {
+    match known.horizon {
+        Some(t) => format!(
+            " In doubles the motion is known up to t = {t:.2}; what is later is drawn as such."
+        ),
+        None => String::new(),
     }
 }

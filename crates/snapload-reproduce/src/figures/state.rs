@@ -3,11 +3,9 @@
 use super::{About, Source};
 use crate::ReportError;
 use crate::source::Number;
-use crate::study::Study;
+use crate::study::{Known, Study};
 use serde::Deserialize;
-use snapload::{
-    Case, ModeInterval, Motion, Playback, System, TautSet, Trajectory, Vector2, named_case,
-};
+use snapload::{ModeInterval, Motion, Playback, System, TautSet, Trajectory, Vector2, named_case};
 use snapload_figures::{Axis, Colour, Dash, Layer, Mark, Plot, Point, Range, Shape, Stroke};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -86,8 +84,9 @@ impl StateFigure {
             parameters.f_o = f_o;
             case += &format!(" --set f_o={f_o}");
         }
-        let run = Case::new(parameters)?.run();
-        let t = self.at.of(&run);
+        let known = Known::new(parameters)?;
+        let run = &known.run;
+        let t = self.at.of(run);
         let t = t.ok_or_else(|| ReportError::Missing(format!("a slide in the run of {case}")))?;
         // A time that one would write.
         let t = (1000.0 * t).round() / 1000.0;
@@ -98,10 +97,9 @@ impl StateFigure {
         };
         let command = format!("snapload run --case {case} --sample {t} --json -");
         let number = |name, value: f64, key: &str| {
-            (
-                name,
-                Number::new(value, 3, &command, format!(".motion[1].{key}")),
-            )
+            let number = Number::new(value, 3, &command, format!(".motion[1].{key}"));
+            let known = known.is_known_at(t);
+            (name, if known { number } else { number.doubtful() })
         };
         let motion = &drawing.motion;
         let mut numbers = vec![number("θ = ", motion.state.theta, "theta")];
@@ -136,7 +134,7 @@ impl StateFigure {
     /// Whether a box of Table 6.1 slides so in a run of ours.
     fn tabled(&self, study: &Study) -> bool {
         let boxes = study.cases.iter().filter(|case| case.parameters.b > 0.0);
-        let mut modes = boxes.flat_map(|case| case.runs.sliding_on.modes());
+        let mut modes = boxes.flat_map(|case| case.runs.sliding_on.run.modes());
         modes.any(|mode| matches!(self.at, Instant::LongestSlide(cable) if mode.taut == TautSet::only(cable)))
     }
 }

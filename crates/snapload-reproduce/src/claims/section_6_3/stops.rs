@@ -1,14 +1,16 @@
 //! Sections 6.3.1 and 6.3.2: the stop rules, and the start of the standard case.
 
 use crate::ReportError;
-use crate::claims::numbers::{max, min};
+use crate::claims::motions::{ending, exceeds, places};
+use crate::claims::numbers::{max, min, span};
 use crate::claims::runs::{
-    FEW, MANY, Tabled, case, chapter, each, ending, exceeds, first_rocking, from_starts, near,
-    outcome, past_settling, places, run, shapes_under, standard,
+    FEW, MANY, SAME, Tabled, case, chapter, critical_force, each, first_rocking, from_starts, near,
+    outcome, past_settling, run, shapes_under, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::many_digits::Run;
 use snapload::analysis::in_parallel;
-use snapload::{Case, CaseError, Outcome, Parameters, State, Stop, Trajectory};
+use snapload::{Case, CaseError, Outcome, Parameters, Playback, State, Stop, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.3.1-01", rotates_easily),
@@ -18,12 +20,17 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.3.1-05", slides_for_a_while),
     ("6.3.2-01", |tabled| {
         let strong = case(tabled.study, "1910001000-559")?.parameters;
-        let runs = near(&chapter(strong), MANY, run)?;
+        let runs = near(&chapter(strong), MANY, Run::of_doubles)?;
         Ok(Finding::robust(&runs, exceeds)
-            .value("ending", ending(&runs[0]))
-            .value("impacts", runs[0].impacts().len()))
+            .value(
+                "ending",
+                ending(case(tabled.study, "1910001000-559")?.exact.end()),
+            )
+            .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
     ("6.3.2-02", |_| initial_spin()),
+    ("6.3.1-06", below_critical),
+    ("6.3.1-07", |_| ellipse_turns()),
 ];
 
 /// A case with the initial spins -6, -4 … 6.
@@ -53,8 +60,18 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
     let cases = tabled.cases.len();
     Ok(Finding::robust(&members, more)
         .values("cases spins", [cases, forced.len() - cases])
-        .values("rest_forced spin_forced", members[0][0])
-        .values("rest_free spin_free", members[0][1]))
+        .by_start(
+            "forced",
+            members
+                .iter()
+                .map(|[forced, _]| forced.map(|count| count as f64)),
+        )
+        .by_start(
+            "free",
+            members
+                .iter()
+                .map(|[_, free]| free.map(|count| count as f64)),
+        ))
 }
 
 fn parts_pass_first(tabled: &Tabled) -> Judged {
@@ -84,24 +101,21 @@ const FAR: f64 = 0.1;
 
 /// What becomes of a case that has settled in another 20 T: whether it stays low, over its members,
 /// and how it goes in words.
-fn gone_on(
-    code: &str,
-    case: Parameters,
-    settled: &Trajectory,
-) -> Result<(Verdict, String), CaseError> {
+fn gone_on(code: &str, case: Parameters, settled: &Run) -> Result<(Verdict, String), CaseError> {
     let from = settled.end().t;
     let mut case = past_settling(case);
     case.t_end = from + 20.0;
     let runs = near(&case, FEW, run)?;
     let highest = |run: &Trajectory| {
-        let points = places(run, (from, run.end().t), 0.05);
+        let mut playback = Playback::new(run);
+        let points = places(|t| playback.at(t).state, (from, run.end().t), 0.05);
         max(points.iter().map(|p| p[1]))
     };
-    let low = runs.iter().map(|run| !exceeds(run) && highest(run) < FAR);
-    let words = if exceeds(&runs[0]) {
-        format!("{code} {}", ending(&runs[0]))
-    } else {
-        format!("{code} rises to {:.3}", highest(&runs[0]))
+    let beyond = |run: &Trajectory| run.end().reason.exceeds();
+    let low = runs.iter().map(|run| !beyond(run) && highest(run) < FAR);
+    let words = match runs.iter().filter(|run| beyond(run)).count() {
+        0 => format!("{code} rises to {}", span(runs.iter().map(highest), 3)),
+        count => format!("{code} exceeds from {count} of {} starts", runs.len()),
     };
     Ok((Verdict::robust(low), words))
 }
@@ -167,4 +181,69 @@ fn initial_spin() -> Judged {
     Ok(finding
         .value("spins", format!("{:?}", spins[0]))
         .values("rest members", [rest, spins.len()]))
+}
+
+/// Whether a run that settles does so under a force below the critical one of its body and cables.
+fn below_critical(tabled: &Tabled) -> Judged {
+    let settled: Vec<usize> = (0..tabled.codes.len())
+        .filter(|k| tabled.own()[*k].end().reason == Stop::Settled)
+        .collect();
+    let first = in_parallel(settled.len(), |k| {
+        let case = &tabled.cases[settled[k]];
+        near(case, FEW, critical_force)
+    })?;
+    let below = settled.iter().zip(&first).map(|(k, first)| {
+        Verdict::robust(first.iter().map(|f_cr| tabled.cases[*k].f_o < f_cr - SAME))
+    });
+    let below: Vec<Verdict> = below.collect();
+    let rows = settled.iter().zip(&below).zip(&first);
+    let above = rows.filter(|((_, below), _)| **below != Verdict::Reproduced);
+    let words = above.map(|((k, _), first)| {
+        let (f_o, code) = (tabled.cases[*k].f_o, tabled.codes[*k]);
+        format!(
+            "{code} ({f_o} against {})",
+            shown_span(first.iter().copied())
+        )
+    });
+    Ok(Finding::new(Verdict::families(below.iter().copied()))
+        .values(
+            "cases below",
+            [
+                settled.len(),
+                Verdict::Reproduced.count(below.iter().copied()),
+            ],
+        )
+        .value("above", words.collect::<Vec<_>>().join(", ")))
+}
+
+/// Whether a force that turns on an ellipse leads to the rotation limit at more amplitudes than one
+/// along the horizontal.
+fn ellipse_turns() -> Judged {
+    let amplitudes = || (1..=100).map(|k| f64::from(k) / 100.0);
+    let with = |r: f64, nu: f64| {
+        let cases =
+            amplitudes().map(|f_o| chapter(standard(|p| (p.r, p.nu, p.f_o) = (r, nu, f_o))));
+        let cases: Vec<Parameters> = cases.collect();
+        let limit = |case: &Parameters| Ok(outcome(case)?.end.reason == Stop::RotationLimit);
+        let reached = from_starts(&cases, FEW, limit)?;
+        let count = |reached: &Vec<bool>| reached.iter().filter(|reached| **reached).count();
+        Ok::<Vec<usize>, CaseError>(reached.iter().map(count).collect())
+    };
+    let mut verdicts = Vec::new();
+    let mut words = Vec::new();
+    for r in [1.5, 2.5] {
+        let (ellipse, line) = (with(r, Parameters::STANDARD.nu)?, with(r, 0.0)?);
+        let more = ellipse
+            .iter()
+            .zip(&line)
+            .map(|(ellipse, line)| ellipse > line);
+        verdicts.push(Verdict::robust(more));
+        let text = |counts: &[usize]| span(counts.iter().map(|count| *count as f64), 0);
+        words.push(format!(
+            "r = {r}: {} against {}",
+            text(&ellipse),
+            text(&line)
+        ));
+    }
+    Ok(Finding::new(Verdict::families(verdicts)).value("counts", words.join("; ")))
 }

@@ -1,9 +1,12 @@
 //! Section 6.4.1: cable length, and the region in which the body moves.
 
+use crate::ReportError;
+use crate::claims::motions::{endings, exceeds, places};
 use crate::claims::numbers::{max, min};
-use crate::claims::runs::{Tabled, endings, exceeds, places, row};
+use crate::claims::runs::{Tabled, row};
 use crate::claims::verdict::{Finding, Judged, Judges};
-use snapload::{Stop, Trajectory, anchor_height};
+use crate::many_digits::Run;
+use snapload::{Stop, anchor_height};
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-01", |_| {
@@ -15,7 +18,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-02", wider),
     ("6.4.1-03", |tabled| {
         let members = tabled.of(["2910001000-359", "1910001000-359"])?;
-        let reasons = |runs: &[&Trajectory; 2]| runs.map(|run| run.end().reason);
+        let reasons = |runs: &[&Run; 2]| runs.map(|run| run.end().reason);
         let as_said = [Stop::RotationLimit, Stop::Settled];
         Ok(Finding::robust(&members, |runs| reasons(runs) == as_said)
             .value("endings", endings(&members)))
@@ -52,7 +55,21 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         Ok(Finding::of(count == flatter.len() && count > 0)
             .values("flatter shapes", [count, flatter.len()]))
     }),
-    ("6.4.1-08", out_of_frame),
+    ("6.4.1-08", |tabled| {
+        let frames = frames(tabled)?;
+        let finding = Finding::robust(&frames, |[others, last]| !within(*last, *others, 1.0));
+        Ok(finding
+            .by_start("others", frames.iter().map(|f| f[0]))
+            .by_start("last", frames.iter().map(|f| f[1])))
+    }),
+    ("6.4.1-40", |tabled| {
+        let frames = frames(tabled)?;
+        let finding = Finding::robust(&frames, |[others, last]| within(*last, *others, 2.0));
+        let times = frames
+            .iter()
+            .map(|[others, last]| [0, 1].map(|k| last[k] / others[k]));
+        Ok(finding.by_start("times", times))
+    }),
 ];
 
 /// The height at which the width of the region is taken: half of that of the start.
@@ -114,13 +131,13 @@ fn measures(bottoms: &[Bottom]) -> String {
 }
 
 /// The points of a run up to a time.
-fn points(run: &Trajectory, until: f64) -> Vec<[f64; 2]> {
-    places(run, (0.0, until), 0.005)
+fn points(run: &Run, until: f64) -> Vec<[f64; 2]> {
+    places(|t| run.at(t), (0.0, until), 0.005)
 }
 
 fn wider(tabled: &Tabled) -> Judged {
     let members = tabled.of(["1910001000-359", "2910001000-359"])?;
-    let until = |runs: &[&Trajectory; 2]| min(runs.map(|run| run.end().t));
+    let until = |runs: &[&Run; 2]| min(runs.map(|run| run.end().t));
     // The range of x of both runs, and that of y in parts of it.
     let ranges = members.iter().map(|runs| {
         let points = runs.map(|run| points(run, until(runs)));
@@ -134,12 +151,14 @@ fn wider(tabled: &Tabled) -> Judged {
     Ok(Finding::robust(&ranges, |(x, flatness)| {
         x[1] > x[0] && flatness[1] < flatness[0]
     })
-    .value("until", until(&members[0]))
-    .list("x", ranges[0].0)
-    .list("flatness", ranges[0].1))
+    .by_start("until", members.iter().map(|runs| [until(runs)]))
+    .by_start("x", ranges.iter().map(|of| of.0))
+    .by_start("flatness", ranges.iter().map(|of| of.1)))
 }
 
-fn out_of_frame(tabled: &Tabled) -> Judged {
+/// Half-width and height of the frame that just holds the motions of Figs 6.1-6.5, and of the one
+/// that holds that of Fig. 6.6, by start.
+fn frames(tabled: &Tabled) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
     // Figs 6.1-6.6.
     let members = tabled.of([
         "1910001000-359",
@@ -149,20 +168,24 @@ fn out_of_frame(tabled: &Tabled) -> Judged {
         "1921001000-359",
         "2921001000-359",
     ])?;
-    let extent = |run: &Trajectory| {
+    let extent = |run: &Run| {
         let points = points(run, run.end().t);
         let x = points.iter().map(|p| p[0].abs());
         [max(x), max(points.iter().map(|p| p[1]))]
     };
-    // The frame of the others, and what the last needs.
     let frames = members.iter().map(|runs| {
         let [others @ .., last] = runs.map(extent);
-        let [x, y] = [0, 1].map(|k| max(others.map(|p| p[k])));
-        [x, y, last[0], last[1]]
+        [[0, 1].map(|k| max(others.map(|p| p[k]))), last]
     });
-    let frames: Vec<[f64; 4]> = frames.collect();
-    let finding = Finding::robust(&frames, |[x, y, last_x, last_y]| last_x > x || last_y > y);
-    Ok(finding.values("x y last_x last_y", frames[0]))
+    Ok(frames.collect())
+}
+
+/// Whether a motion stays within a frame that is so many times as large.
+fn within(extent: [f64; 2], frame: [f64; 2], times: f64) -> bool {
+    extent
+        .iter()
+        .zip(frame)
+        .all(|(extent, side)| *extent <= times * side)
 }
 
 #[cfg(test)]
@@ -176,6 +199,7 @@ mod tests {
         let below = anchor_height(r, 0.0) - HEIGHT;
         let lens = (r * r - below * below).sqrt() - 1.0;
         assert!((Bottom::of(r, [0.0; 2]).reach - lens).abs() < 1e-12);
+        assert!(within([1.9, 1.0], [1.0, 1.0], 2.0) && !within([1.9, 2.1], [1.0, 1.0], 2.0));
         let widths = by_width(r, 0.0);
         let narrowing: Vec<Bottom> = widths.iter().rev().copied().collect();
         assert!(flattens(&widths) && !flattens(&narrowing) && !flattens(&widths[..1]));

@@ -1,19 +1,25 @@
 //! Section 6.4.1: the rotations of larger and smaller bodies.
 
-use crate::claims::numbers::{falling, list, max, mean, min, rising, span, spearman};
+use crate::claims::motions::{LARGE, Swing, ending, rotation, swings, turns};
+use crate::claims::numbers::{falling, max, mean, min, rising, span, spearman};
 use crate::claims::runs::{
-    FEW, LARGE_SWING, MANY, Tabled, by_case, case, chapter, ending, first_rocking, from_starts,
-    measured, past_settling, rotation, run, standard, swings, turns,
+    FEW, MANY, Tabled, by_case, case, chapter, first_rocking, from_starts, measured, of_runs,
+    past_settling, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use snapload::{Impact, Parameters, Trajectory, natural_inertia};
+use crate::many_digits::Run;
+use snapload::{Impact, Parameters, natural_inertia};
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-09", |tabled| {
         let shapes = tabled.of(SHAPES.map(|(_, code)| code))?;
-        let found = with_rotation(&shapes, |[a, b]| a + b);
-        let rotations = shapes[0].map(rotation);
-        Ok(Finding::measured("rho", found, |rho| rho <= -RULE).list("rotations", rotations))
+        let of_sizes = SIZES.map(|(_, size)| with_rotation(&shapes, size));
+        let words = SIZES.iter().zip(&of_sizes);
+        let words = words.map(|((name, _), rho)| format!("{name} {}", span(rho.clone(), 2)));
+        Ok(Finding::new(smaller_rotate_more(&of_sizes))
+            .value("rho", words.collect::<Vec<_>>().join(", "))
+            .value("rule", -RULE)
+            .by_start("rotations", shapes.iter().map(|runs| runs.map(rotation))))
     }),
     ("6.4.1-35", |tabled| {
         let shapes = tabled.of(SHAPES.map(|(_, code)| code))?;
@@ -24,7 +30,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
                 && rotation(shapes[0][k]) > rotation(shapes[0][k + 3])
         });
         let rule = Finding::measured("rho", found, |rho| rho <= -RULE);
-        Ok(rule.found("circles_against", against))
+        Ok(rule.found("circles_against", against).value("rule", -RULE))
     }),
     ("6.4.1-37", |_| resisting()),
     ("6.4.1-10", |tabled| {
@@ -35,14 +41,18 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-38", |tabled| {
         /// The fewest that are several.
         const SEVERAL: f64 = 2.0;
-        let boxes = tabled.of(RECTANGLES)?;
-        let costly = by_case(&boxes, |run| {
-            mean_loss(run, true) > SEVERAL * mean_loss(run, false)
-        });
-        Ok(Finding::new(Verdict::all(costly))
-            .value("size", LARGE_SWING)
-            .list("large", boxes[0].map(|run| mean_loss(run, true)))
-            .list("small", boxes[0].map(|run| mean_loss(run, false))))
+        // The cases that have large swings at all.
+        let with = |k: &usize| swings(&tabled.own()[*k]).into_iter().any(Swing::is_large);
+        let places: Vec<usize> = (0..tabled.codes.len()).filter(with).collect();
+        let costly = |run: &Run| mean_loss(run, true) > SEVERAL * mean_loss(run, false);
+        let of_case = |k: &usize| Verdict::robust(tabled.members().map(|runs| costly(&runs[*k])));
+        let verdicts: Vec<Verdict> = places.iter().map(of_case).collect();
+        let mean_of = |large| mean(places.iter().map(|k| mean_loss(&tabled.own()[*k], large)));
+        Ok(Finding::new(Verdict::families(verdicts.iter().copied()))
+            .values("angle several", [LARGE, SEVERAL])
+            .values("large small", [mean_of(true), mean_of(false)])
+            .value("costly", Verdict::Reproduced.count(verdicts))
+            .values("with cases", [places.len(), tabled.codes.len()]))
     }),
     ("6.4.1-12", |tabled| {
         /// The last rotation over the largest, if the rotations get smaller.
@@ -54,7 +64,7 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let ratios: Vec<[f64; 3]> = ratios.collect();
         let all = || ratios.iter().flatten().copied();
         Ok(Finding::robust(&ratios, |of| max(*of) < SMALLER)
-            .values("least most", [min(all()), max(all())]))
+            .values("least most smaller", [min(all()), max(all()), SMALLER]))
     }),
     ("6.4.1-13", more_frequent),
     ("6.4.1-14", close_to_rocking),
@@ -77,13 +87,30 @@ const RECTANGLES: [&str; 3] = ["1911001000-359", "1921001000-359", "1931001000-3
 /// A rank correlation from which on one speaks of a rule.
 const RULE: f64 = 0.5;
 
+/// A measure of a shape, by its half-sizes.
+type Measure = fn([f64; 2]) -> f64;
+
+/// What a size may be.
+const SIZES: [(&str, Measure); 3] = [
+    ("a + b", |[a, b]| a + b),
+    ("half the diagonal", |[a, b]| a.hypot(b)),
+    ("half the width", |[a, _]| a),
+];
+
+/// Whether smaller bodies rotate more, by the rank correlations of each measure of size with the
+/// rotation from all starts: mixed where that hangs on the measure.
+fn smaller_rotate_more(of_sizes: &[Vec<f64>]) -> Verdict {
+    let rule = |rho: &Vec<f64>| Verdict::robust(rho.iter().map(|rho| *rho <= -RULE));
+    Verdict::families(of_sizes.iter().map(rule))
+}
+
 fn inertia([a, b]: [f64; 2]) -> f64 {
     natural_inertia(a, b).unwrap_or(0.0)
 }
 
 /// Rank correlation of a measure of the shapes with their rotation, by start.
-fn with_rotation(shapes: &[[&Trajectory; 8]], measure: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
-    let of = |runs: &[&Trajectory; 8]| {
+fn with_rotation(shapes: &[[&Run; 8]], measure: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    let of = |runs: &[&Run; 8]| {
         let points = SHAPES.iter().zip(runs);
         let points = points.map(|((size, _), run)| (measure(*size), rotation(run)));
         spearman(&points.collect::<Vec<_>>())
@@ -100,52 +127,56 @@ fn resisting() -> Judged {
         })
     });
     let cases: Vec<Parameters> = cases.collect();
-    let rotations = from_starts(&cases, FEW, |case| Ok(rotation(&run(case)?)))?;
+    let rotations = of_runs(&cases, FEW, rotation)?;
     let reduced = rotations.iter().map(|all| {
         let doublings = all.chunks(3).flat_map(|shape| shape.windows(2));
         doublings.filter(|pair| falling(pair)).count() as f64
     });
     // As a rule: in three quarters of the doublings.
     let doublings = 2 * SHAPES.len();
-    let finding = Finding::measured("reduced", reduced, |count| count >= 0.75 * doublings as f64);
-    Ok(finding.value("doublings", doublings))
+    let rule = 0.75 * doublings as f64;
+    let finding = Finding::measured("reduced", reduced, |count| count >= rule);
+    Ok(finding.value("doublings", doublings).value("rule", rule))
 }
 
 fn rarer_swings(tabled: &Tabled) -> Judged {
     let boxes = tabled.of(RECTANGLES)?;
-    // What is large is a matter of taste: it holds around the chosen size, too, or not at all.
-    let sizes = [0.9 * LARGE_SWING, LARGE_SWING, 1.1 * LARGE_SWING];
-    // Swings above some size per unit time.
-    let rates = |runs: &[&Trajectory; 3], size: f64| {
-        runs.map(|run| {
-            let large = swings(run).into_iter().filter(|swing| *swing > size);
-            large.count() as f64 / run.end().t
-        })
+    let large = |run: &Run| {
+        swings(run)
+            .into_iter()
+            .filter(|swing| swing.is_large())
+            .count()
     };
-    let words = sizes.map(|size| {
-        let rates = list(&rates(&boxes[0], size), 3);
-        format!("above {size:.2} rad {rates}")
-    });
-    let rarer = |runs: &_| sizes.iter().all(|size| falling(&rates(runs, *size)));
-    Ok(Finding::robust(&boxes, rarer)
-        .value("rates", words.join("; "))
+    let rates = |runs: &[&Run; 3]| runs.map(|run| large(run) as f64 / run.end().t);
+    let counts = boxes[0].map(|run| large(run) as f64);
+    let none = boxes.iter().flatten().all(|run| large(run) == 0);
+    Ok(Finding::robust(&boxes, |runs| falling(&rates(runs)))
+        .value("angle", LARGE)
+        .list("counts", counts)
+        .by_start("widest", boxes.iter().map(|runs| runs.map(widest)))
+        .found("none", none)
         .list("inertia", [0.1, 0.2, 0.3].map(|a| inertia([a, 0.1]))))
 }
 
-/// Mean energy lost in the impacts of a large swing, or of a smaller one.
-fn mean_loss(run: &Trajectory, large: bool) -> f64 {
-    let turns = turns(run);
-    let swings = turns.windows(2).map(|pair| (pair[0], pair[1]));
-    let some = swings.filter(|(p, q)| ((q.1 - p.1).abs() > LARGE_SWING) == large);
-    mean(some.map(|(p, q)| {
-        let within = |hit: &&Impact| p.0 < hit.t && hit.t <= q.0;
+/// The widest swing of a run.
+fn widest(run: &Run) -> f64 {
+    max(swings(run).into_iter().map(Swing::size))
+}
+
+/// Mean energy lost in the impacts of a large swing, or of another one.
+fn mean_loss(run: &Run, large: bool) -> f64 {
+    let some = swings(run)
+        .into_iter()
+        .filter(|swing| swing.is_large() == large);
+    mean(some.map(|swing| {
+        let within = |hit: &&Impact| swing.from.0 < hit.t && hit.t <= swing.to.0;
         let hits = run.impacts().iter().filter(within);
         hits.map(|hit| hit.energy_lost).sum()
     }))
 }
 
 /// |θ| at the turns of a quarter of the run, 0 to 3.
-fn quarter(run: &Trajectory, which: u8) -> Vec<f64> {
+fn quarter(run: &Run, which: u8) -> Vec<f64> {
     let at = |k: u8| run.end().t * f64::from(k) / 4.0;
     let mut turns = turns(run);
     turns.retain(|turn| turn.0 >= at(which) && (turn.0 < at(which + 1) || which == 3));
@@ -153,7 +184,7 @@ fn quarter(run: &Trajectory, which: u8) -> Vec<f64> {
 }
 
 /// Largest rotation in the last quarter over that in the strongest.
-fn last_to_largest(run: &Trajectory) -> f64 {
+fn last_to_largest(run: &Run) -> f64 {
     let largest = |which: u8| quarter(run, which).into_iter().fold(0.0, f64::max);
     let most = (0..4).map(largest).fold(0.0, f64::max);
     if most > 0.0 { largest(3) / most } else { 1.0 }
@@ -161,7 +192,7 @@ fn last_to_largest(run: &Trajectory) -> f64 {
 
 fn more_frequent(tabled: &Tabled) -> Judged {
     let boxes = tabled.of(RECTANGLES)?;
-    let counts = |run: &Trajectory| [0, 3].map(|which| quarter(run, which).len());
+    let counts = |run: &Run| [0, 3].map(|which| quarter(run, which).len());
     let verdicts = by_case(&boxes, |run| counts(run)[0] < counts(run)[1]);
     let words = boxes[0].map(|run| counts(run).map(|count| count.to_string()).join(" then "));
     let sure = verdicts.iter().zip([0.1, 0.2, 0.3]);
@@ -173,7 +204,10 @@ fn more_frequent(tabled: &Tabled) -> Judged {
 }
 
 fn close_to_rocking(tabled: &Tabled) -> Judged {
-    /// How long after the end rocking is still close to it.
+    /// A run that rocks within this time after its end was close to it: a seventh of the period of
+    /// the forcing.
+    const CLOSE: f64 = 1.0;
+    /// How long it is looked for.
     const AFTER: f64 = 10.0;
     let own = tabled.of(RECTANGLES)?[0];
     let mut cases = Vec::new();
@@ -183,11 +217,60 @@ fn close_to_rocking(tabled: &Tabled) -> Judged {
         cases.push(Parameters { t_end, ..case });
     }
     let starts = from_starts(&cases, MANY, first_rocking)?;
-    let of = |k: usize| starts.iter().map(move |all| all[k]);
-    let rocks = (0..own.len()).map(|k| Verdict::robust(of(k).map(|t| t.is_some())));
-    let words = [0, 1, 2].map(|k| {
-        let times = span(of(k).flatten(), 2);
-        format!("{}, rocks from {times}", ending(own[k]))
+    // How long after the end the first rocking begins.
+    let waits = [0, 1, 2].map(|k| {
+        let of_starts = starts.iter().map(|all| all[k].map(|t| t - own[k].end().t));
+        of_starts.collect::<Vec<_>>()
     });
-    Ok(Finding::new(Verdict::all(rocks)).value("runs", words.join("; ")))
+    let words = [0, 1, 2].map(|k| {
+        let known = span(waits[k].iter().flatten().copied(), 2);
+        let never = waits[k].iter().filter(|wait| wait.is_none()).count();
+        let never = if never > 0 {
+            format!(" ({never} not within {AFTER})")
+        } else {
+            String::new()
+        };
+        format!("{}, rocks {known} later{never}", ending(own[k].end()))
+    });
+    Ok(Finding::new(soon(&waits, CLOSE))
+        .value("runs", words.join("; "))
+        .value("close", CLOSE))
+}
+
+/// Whether all of some cases come to rock within a time, by their waits from each start; mixed where
+/// some do and some do not.
+fn soon(waits: &[Vec<Option<f64>>], close: f64) -> Verdict {
+    let near = |wait: &Option<f64>| wait.is_some_and(|wait| wait <= close);
+    Verdict::families(
+        waits
+            .iter()
+            .map(|all| Verdict::robust(all.iter().map(near))),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rule_that_hangs_on_the_measure_of_size_is_mixed() {
+        let starts = |rho: f64| vec![rho; 3];
+        let [strong, weak] = [starts(-0.7), starts(-0.3)];
+        let judged = |all: &[&Vec<f64>]| {
+            let all: Vec<Vec<f64>> = all.iter().copied().cloned().collect();
+            smaller_rotate_more(&all)
+        };
+        assert_eq!(judged(&[&strong, &strong]), Verdict::Reproduced);
+        assert_eq!(judged(&[&strong, &weak]), Verdict::Mixed);
+        assert_eq!(judged(&[&weak, &weak]), Verdict::NotReproduced);
+    }
+
+    #[test]
+    fn rocking_long_after_the_end_is_not_close_to_it() {
+        let waits = |all: [f64; 2]| all.map(|wait| vec![Some(wait); 2]).to_vec();
+        assert_eq!(soon(&waits([0.1, 0.9]), 1.0), Verdict::Reproduced);
+        assert_eq!(soon(&waits([0.1, 8.0]), 1.0), Verdict::Mixed);
+        assert_eq!(soon(&waits([3.0, 8.0]), 1.0), Verdict::NotReproduced);
+        assert_eq!(soon(&[vec![None, None]], 1.0), Verdict::NotReproduced);
+    }
 }

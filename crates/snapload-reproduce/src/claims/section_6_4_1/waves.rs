@@ -1,11 +1,11 @@
 //! Section 6.4.1: the frequency of the forcing, and the snaps of the two cables.
 
+use crate::claims::motions::{CLEAR, attachment_speed, clear, endings, exceeds, push, rotation};
 use crate::claims::numbers::{list, marked_over_others, max, mean, min, rising, span, spearman};
-use crate::claims::runs::{
-    CLEAR, attachment_speed, by_case, clear, endings, exceeds, measured, push, rotation,
-};
+use crate::claims::runs::{by_case, measured};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use snapload::{Impact, Trajectory};
+use crate::many_digits::Run;
+use snapload::Impact;
 
 /// Figs 6.22-6.26: Ω = 0.5, 0.75, 0.9, 1.5, 2.0.
 pub(super) const FREQUENCIES: [&str; 5] = [
@@ -15,7 +15,7 @@ pub(super) const FREQUENCIES: [&str; 5] = [
     "1910001000-3515",
     "1910001000-3520",
 ];
-type Runs<'a> = [&'a Trajectory; 5];
+type Runs<'a> = [&'a Run; 5];
 /// Of these the figures with stretches of one mark.
 const STRETCHES: [usize; 3] = [0, 2, 4];
 /// The figures that are likened to braids.
@@ -40,12 +40,15 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
             let with = STRETCHES.map(|k| longest(runs[k], above));
             with.iter().min() > [1, 3].map(|k| longest(runs[k], above)).iter().max()
         };
-        let lengths = |above: f64| members[0].map(|run| longest(run, above) as f64);
+        let lengths = |above: f64| {
+            let of = move |runs: &Runs| runs.map(|run| longest(run, above) as f64);
+            members.iter().map(of).collect::<Vec<_>>()
+        };
         let finding = Finding::robust(members, |runs| longer(runs, CLEAR) && longer(runs, PLAIN));
         Ok(finding
             .values("plain_above clear_above", [PLAIN, CLEAR])
-            .list("plain", lengths(PLAIN))
-            .list("clear", lengths(CLEAR)))
+            .by_start("plain", lengths(PLAIN))
+            .by_start("clear", lengths(CLEAR)))
     }),
     ("6.4.1-29", down_a_boundary),
     ("6.4.1-30", |members| {
@@ -54,15 +57,18 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
         let by_start = members.iter().map(|runs| share(runs[0]));
         let throughout = |share: f64| share.max(100.0 - share) >= THROUGHOUT;
         Ok(Finding::measured("by_start", by_start, throughout)
-            .list("by_figure", members[0].map(share)))
+            .by_start("by_figure", members.iter().map(|runs| runs.map(share)))
+            .value("throughout", THROUGHOUT))
     }),
     ("6.4.1-31", |members| {
         let found = members.iter().map(|runs| harder_and_other(runs[0]));
         let found: Vec<[[f64; 2]; 2]> = found.collect();
         let grazes = |[hard, soft]: &[[f64; 2]; 2]| soft[0] < 0.6 * hard[0] && soft[1] < hard[1];
-        let [[hard, direct], [soft, grazing]] = found[0];
+        let speeds = found.iter().map(|[hard, soft]| [hard[0], soft[0]]);
+        let shares = found.iter().map(|[hard, soft]| [hard[1], soft[1]]);
         Ok(Finding::robust(&found, grazes)
-            .values("hard soft direct grazing", [hard, soft, direct, grazing]))
+            .by_start("speeds", speeds)
+            .by_start("shares", shares))
     }),
     ("6.4.1-32", |members| {
         let lines: Vec<Vec<f64>> = members.iter().map(|runs| difference(runs[3]).0).collect();
@@ -82,20 +88,20 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
 ];
 
 /// Stretches of impacts above some velocity on one cable.
-fn stretches(run: &Trajectory, above: f64) -> Vec<Vec<&Impact>> {
+fn stretches(run: &Run, above: f64) -> Vec<Vec<&Impact>> {
     let hits: Vec<&Impact> = run.impacts().iter().filter(|hit| hit.v_n > above).collect();
     hits.chunk_by(|p, q| p.cable == q.cable)
         .map(<[_]>::to_vec)
         .collect()
 }
 
-fn longest(run: &Trajectory, above: f64) -> usize {
+fn longest(run: &Run, above: f64) -> usize {
     let lengths = stretches(run, above).into_iter().map(|hits| hits.len());
     lengths.max().unwrap_or(0)
 }
 
 /// By how much the body rises over each stretch of at least five clear snaps.
-fn rises(run: &Trajectory) -> Vec<f64> {
+fn rises(run: &Run) -> Vec<f64> {
     let long = stretches(run, CLEAR)
         .into_iter()
         .filter(|hits| hits.len() >= 5);
@@ -123,7 +129,7 @@ fn down_a_boundary(members: &[Runs]) -> Judged {
 
 /// Difference of the snap velocities of cables 1 and 2, each a line through its clear impacts, at
 /// times evenly spread over the span that they share; and that span.
-fn difference(run: &Trajectory) -> (Vec<f64>, f64) {
+fn difference(run: &Run) -> (Vec<f64>, f64) {
     let line = |cable: usize| -> Vec<(f64, f64)> {
         let own = clear(run).filter(|hit| hit.cable == cable);
         own.map(|hit| (hit.t, hit.v_n)).collect()
@@ -157,7 +163,7 @@ fn crossings(values: &[f64]) -> usize {
 }
 
 /// Crossings of the two lines per unit time.
-fn crossing_rate(run: &Trajectory) -> f64 {
+fn crossing_rate(run: &Run) -> f64 {
     let (values, span) = difference(run);
     if span > 0.0 {
         crossings(&values) as f64 / span
@@ -167,14 +173,14 @@ fn crossing_rate(run: &Trajectory) -> f64 {
 }
 
 /// Share of the time, in per cent, in which cable 1 snaps harder.
-fn share(run: &Trajectory) -> f64 {
+fn share(run: &Run) -> f64 {
     let (values, _) = difference(run);
     100.0 * mean(values.iter().map(|d| f64::from(u8::from(*d > 0.0))))
 }
 
 /// Mean snap velocity, and mean share of it in the speed of the attachment, at the clear impacts of
 /// the harder cable, then of the other.
-fn harder_and_other(run: &Trajectory) -> [[f64; 2]; 2] {
+fn harder_and_other(run: &Run) -> [[f64; 2]; 2] {
     let of = |cable: usize| {
         let own = clear(run).filter(|hit| hit.cable == cable);
         let share = own.clone();
@@ -207,7 +213,7 @@ fn approaches(extremes: &[f64]) -> usize {
 
 /// Mean snap velocity where the force pushes towards the struck cable over that where it does not;
 /// by the force at the instant of the impact, and by its mean since the impact before.
-fn with_over_against(run: &Trajectory) -> [f64; 2] {
+fn with_over_against(run: &Run) -> [f64; 2] {
     let system = run.system();
     let pairs = run.impacts().windows(2).filter(|pair| pair[1].v_n > CLEAR);
     let pushes: Vec<([f64; 2], f64)> = pairs
@@ -223,7 +229,7 @@ fn with_over_against(run: &Trajectory) -> [f64; 2] {
 }
 
 /// Rank correlation of a snap velocity with the one before it on the same cable.
-fn memory(run: &Trajectory) -> f64 {
+fn memory(run: &Run) -> f64 {
     let pairs = [0, 1].map(|cable| {
         let own = clear(run).filter(move |hit| hit.cable == cable);
         let later = own.clone().skip(1);

@@ -1,14 +1,15 @@
 //! The curves of critical force, Figs 6.27-6.30.
 
 use crate::ReportError;
+use crate::claims::motions::clear;
 use crate::claims::numbers::{mean, span, spearman};
 use crate::claims::runs::{
-    FEW, NEVER, SAME, chapter, clear, critical_force, each, ensemble, from_starts, run, shown,
-    standard,
+    FEW, NEVER, SAME, chapter, critical_force, each, ensemble, of_runs, shown, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::study::{CriticalCurve, Reading, Study};
-use snapload::{CaseError, Parameters, Trajectory};
+use crate::many_digits::Run;
+use crate::study::{CriticalCurve, LARGEST, Reading, Study};
+use snapload::{CaseError, Parameters};
 
 pub(super) const JUDGES: &Judges<fn(&Study) -> Judged> = &[
     ("6.4.2-11", |study| trend(study, "e", 1.5, -1.0)),
@@ -23,14 +24,40 @@ pub(super) const JUDGES: &Judges<fn(&Study) -> Judged> = &[
 /// Points of a curve: the value of its key, and f_cr.
 type Points = Vec<(f64, f64)>;
 
-/// The part of a curve over which the key varies in Table 6.1.
-fn tabled(curve: &CriticalCurve, reading: Reading) -> Points {
-    let to = if curve.key == "e" { 1.0 } else { 2.0 };
+/// A curve between two values of its key.
+fn between(curve: &CriticalCurve, reading: Reading, [from, to]: [f64; 2]) -> Points {
     let points = curve.points.of(reading).iter();
-    let inside = points.filter(|p| (0.5 - 1e-9..=to + 1e-9).contains(&p.0));
+    let inside = points.filter(|p| (from - 1e-9..=to + 1e-9).contains(&p.0));
     inside
         .map(|(value, f_cr)| (*value, f_cr.unwrap_or(NEVER)))
         .collect()
+}
+
+/// The values over which a key varies in Table 6.1.
+fn of_table_6_1(key: &str) -> [f64; 2] {
+    [0.5, if key == "e" { 1.0 } else { 2.0 }]
+}
+
+/// The part of a curve over which the key varies in Table 6.1.
+fn tabled(curve: &CriticalCurve, reading: Reading) -> Points {
+    between(curve, reading, of_table_6_1(curve.key))
+}
+
+/// The parts of a curve: that over which the key varies in Table 6.1, and what is drawn below and
+/// above it, where that is enough to tell a trend from.
+fn parts(curve: &CriticalCurve) -> Vec<[f64; 2]> {
+    /// The fewest points that tell a trend.
+    const ENOUGH: usize = 10;
+    let [from, to] = of_table_6_1(curve.key);
+    let values = || curve.points.chapter.iter().map(|p| p.0);
+    let (below, above) = (|v: &f64| *v < from - 1e-9, |v: &f64| *v > to + 1e-9);
+    let rest = [
+        values().filter(below).collect(),
+        values().filter(above).collect(),
+    ];
+    let rest = rest.iter().filter(|part: &&Vec<f64>| part.len() >= ENOUGH);
+    let rest = rest.map(|part| [part[0], part[part.len() - 1]]);
+    std::iter::once([from, to]).chain(rest).collect()
 }
 
 /// The curves of neighbouring starts over some values of its key.
@@ -54,30 +81,54 @@ fn neighbours(curve: &CriticalCurve, values: &[f64]) -> Result<Vec<Points>, Case
 /// A rank correlation that one sees as a trend.
 const TREND: f64 = 0.5;
 
-/// Whether a curve rises (1) or falls (-1).
+/// Whether points rise (1) or fall (-1).
+fn goes(points: &Points, sign: f64) -> bool {
+    match (points.first(), points.last()) {
+        (Some(first), Some(last)) => {
+            sign * spearman(points) >= TREND && sign * (last.1 - first.1) > 0.0
+        }
+        _ => false,
+    }
+}
+
+/// Whether a curve rises (1) or falls (-1), in each of its parts.
 fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
     let mut curves = study.curves.iter();
     let curve = curves
         .find(|curve| curve.key == key && curve.r == r)
         .ok_or_else(|| ReportError::Claim(format!("no curve over {key} at r = {r}")))?;
-    let own = tabled(curve, Reading::Chapter);
-    let coarse: Vec<f64> = own.iter().step_by(5).map(|p| p.0).collect();
-    let mut all = vec![own, tabled(curve, Reading::SlidingOn)];
-    all.extend(neighbours(curve, &coarse)?);
-    let ends = |points: &Points| [points[0].1, points[points.len() - 1].1];
-    let holds = |points: &Points| {
-        let [first, last] = ends(points);
-        sign * spearman(points) >= TREND && sign * (last - first) > 0.0
-    };
-    let [left, right] = ends(&all[0]).map(shown);
-    Ok(Finding::robust(&all, holds)
-        .values("left right", [left, right])
-        .list("rho", all.iter().map(|points| spearman(points))))
+    let mut verdicts = Vec::new();
+    let mut texts = Vec::new();
+    for part in parts(curve) {
+        let own = between(curve, Reading::Chapter, part);
+        let step = (own.len() / 10).max(1);
+        let coarse: Vec<f64> = own.iter().step_by(step).map(|p| p.0).collect();
+        let mut all = vec![own, between(curve, Reading::SlidingOn, part)];
+        all.extend(neighbours(curve, &coarse)?);
+        verdicts.push(Verdict::robust(all.iter().map(|points| goes(points, sign))));
+        let ends = |k: fn(&Points) -> Option<&(f64, f64)>| {
+            shown_span(all.iter().filter_map(k).map(|p| p.1))
+        };
+        let rho = span(all.iter().map(|points| spearman(points)), 2);
+        texts.push(format!(
+            "from {} to {}: {} at the left end, {} at the right, rank correlation {rho}",
+            part[0],
+            part[1],
+            ends(|points| points.first()),
+            ends(|points| points.last())
+        ));
+    }
+    Ok(Finding::new(Verdict::families(verdicts))
+        .value("parts", texts.join("; "))
+        .values("trend largest", [TREND, LARGEST]))
 }
 
+/// The part of a motion whose impacts are counted.
+const EARLY: f64 = 5.0;
+
 /// Clear impacts per unit time, early in the motion.
-fn impact_rate(run: &Trajectory) -> f64 {
-    let until = run.end().t.min(5.0);
+fn impact_rate(run: &Run) -> f64 {
+    let until = run.end().t.min(EARLY);
     clear(run).filter(|hit| hit.t <= until).count() as f64 / until
 }
 
@@ -88,10 +139,15 @@ fn impact_rates() -> Judged {
         let steps = (0..=20).map(|k| 0.5 + 0.075 * f64::from(k));
         let with = |omega| chapter(standard(|p| (p.r, p.f_o, p.omega) = (2.5, f_o, omega)));
         let cases: Vec<Parameters> = steps.map(with).collect();
-        let rates = from_starts(&cases, FEW, |case| {
-            Ok((case.omega, impact_rate(&run(case)?)))
-        })?;
-        let ranks: Vec<f64> = rates.iter().map(|rates| spearman(rates)).collect();
+        let rates = of_runs(&cases, FEW, impact_rate)?;
+        let rank = |rates: &Vec<f64>| {
+            let points = cases
+                .iter()
+                .zip(rates)
+                .map(|(case, rate)| (case.omega, *rate));
+            spearman(&points.collect::<Vec<_>>())
+        };
+        let ranks: Vec<f64> = rates.iter().map(rank).collect();
         verdicts.push(Verdict::robust(ranks.iter().map(|rho| *rho <= -TREND)));
         texts.push(format!("{} at f_o = {f_o}", span(ranks, 2)));
     }
@@ -99,7 +155,8 @@ fn impact_rates() -> Judged {
     let travel = |omega: f64| 0.09 / (omega * omega);
     Ok(Finding::new(Verdict::all(verdicts))
         .value("ranks", texts.join(", "))
-        .values("slow fast", [travel(0.5), travel(2.0)]))
+        .values("slow fast", [travel(0.5), travel(2.0)])
+        .values("trend early", [-TREND, EARLY]))
 }
 
 /// By how much the second of three points stands out, up (1) or down (-1).
@@ -174,4 +231,36 @@ fn jumps(study: &Study) -> Judged {
             [curve.key.to_owned(), shown(p.1), shown(q.1)],
         )
         .values("from to r mean", [p.0, q.0, curve.r, typical]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Both;
+
+    #[test]
+    fn a_curve_that_turns_beyond_the_range_of_the_table_is_mixed() {
+        // Falls up to 2, rises from there on.
+        let point = |k: i32| {
+            let omega = 0.5 + 0.02 * f64::from(k);
+            (omega, Some(0.2 + 0.1 * (omega - 2.0).abs()))
+        };
+        let points: Vec<(f64, Option<f64>)> = (0..=95).map(point).collect();
+        let curve = CriticalCurve {
+            r: 1.5,
+            key: "omega",
+            points: Both {
+                chapter: points.clone(),
+                sliding_on: points,
+            },
+        };
+        let parts = parts(&curve);
+        assert_eq!(parts.len(), 2);
+        let falls = parts
+            .iter()
+            .map(|part| goes(&between(&curve, Reading::Chapter, *part), -1.0));
+        let verdicts: Vec<Verdict> = falls.map(Verdict::of).collect();
+        assert_eq!(verdicts, [Verdict::Reproduced, Verdict::NotReproduced]);
+        assert_eq!(Verdict::families(verdicts), Verdict::Mixed);
+    }
 }

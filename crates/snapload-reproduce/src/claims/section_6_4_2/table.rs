@@ -1,44 +1,28 @@
-//! Table 6.2 with the neighbours of each entry.
+//! Table 6.2 as it is proved, with what neighbours of its runs do.
 
 use crate::ReportError;
-use crate::claims::numbers::{max, min, spearman};
-use crate::claims::runs::{NEVER, SAME, chapter, each, ensemble, outcome, shown};
+use crate::claims::numbers::spearman;
+use crate::claims::runs::{NEVER, SAME, shown};
 use crate::claims::verdict::Verdict;
-use crate::study::{CriticalRow, Study, first_exceeding};
-use snapload::analysis::{ForceScan, in_parallel};
-use snapload::{CaseError, Parameters, Stop, natural_inertia};
+use crate::critical_row::CriticalRow;
+use crate::study::Study;
+use snapload::natural_inertia;
 
-/// Neighbours of an entry.
-const NEIGHBOURS: usize = 4;
-
-/// An entry of Table 6.2 with its neighbours.
+/// An entry of Table 6.2.
 pub(super) struct Entry<'a> {
     pub(super) row: &'a CriticalRow,
-    /// f_cr and its reason, the case itself first.
-    pub(super) members: Vec<Option<(f64, Stop)>>,
-    /// Whether the published amplitude exceeds.
-    at_published: Vec<bool>,
-    /// Whether there is one amplitude below the published one that exceeds from all starts.
-    smaller_exceeds: bool,
+    /// The critical force that is proved; then the first amplitudes at which 5, 50 and 95 % of the
+    /// neighbours exceed.
+    pub(super) members: [f64; 4],
 }
 
 impl<'a> Entry<'a> {
-    fn new(row: &'a CriticalRow) -> Result<Self, CaseError> {
-        let all = ensemble(&chapter(row.parameters()), NEIGHBOURS);
-        let first = row.computed.chapter.first.map(|x| (x.f_o, x.reason));
-        let others = each(&all[1..], |member| {
-            first_exceeding(member, ForceScan::default())
-        })?;
-        let mut entry = Self {
-            row,
-            members: [vec![first], others].concat(),
-            at_published: exceed(&all, row.published)?,
-            smaller_exceeds: false,
-        };
-        let largest = max(entry.critical());
-        entry.smaller_exceeds =
-            largest < row.published - SAME && exceed(&all, largest)?.iter().all(|exceeds| *exceeds);
-        Ok(entry)
+    fn new(row: &'a CriticalRow) -> Self {
+        let first = row.first().map(|(f_o, _)| f_o);
+        let passes = [0.05, 0.5, 0.95].map(|part| row.probable.passes(part));
+        let [p05, p50, p95] = passes;
+        let members = [first, p05, p50, p95].map(|f_o| f_o.unwrap_or(NEVER));
+        Self { row, members }
     }
 
     pub(super) fn name(&self) -> String {
@@ -46,71 +30,46 @@ impl<'a> Entry<'a> {
         format!("r = {r}, {a} x {b}")
     }
 
-    /// f_cr of every member.
-    pub(super) fn critical(&self) -> impl Iterator<Item = f64> {
-        let members = self.members.iter();
-        members.map(|found| found.map_or(NEVER, |x| x.0))
-    }
-
-    /// f_cr of the case itself.
+    /// The critical force that is proved.
     pub(super) fn own(&self) -> f64 {
-        self.critical().next().unwrap_or(NEVER)
+        self.members[0]
     }
 
-    /// Whether the published amplitude exceeds from no start.
-    pub(super) fn settles_at_published(&self) -> bool {
-        self.at_published.iter().all(|exceeds| !exceeds)
-    }
-
-    /// Whether the published value is that of all members, of none for a reason that is sure, or
-    /// open.
-    pub(super) fn verdict(&self) -> Verdict {
-        let equal = |f_cr: f64| (f_cr - self.row.published).abs() < SAME;
-        let sure = self.settles_at_published() || self.smaller_exceeds;
-        match Verdict::robust(self.critical().map(equal)) {
-            Verdict::NotReproduced if !sure => Verdict::NotDecidable,
-            verdict => verdict,
-        }
-    }
-
-    /// f_cr over the starts, in words.
+    /// The same in words.
     pub(super) fn text(&self) -> String {
-        let (low, high) = (min(self.critical()), max(self.critical()));
-        if high - low < SAME {
-            shown(low)
-        } else {
-            format!("{}-{}", shown(low), shown(high))
-        }
+        shown(self.own())
     }
-}
 
-/// Which members of an ensemble exceed at an amplitude.
-fn exceed(members: &[Parameters], f_o: f64) -> Result<Vec<bool>, CaseError> {
-    each(members, |member| {
-        Ok(outcome(&Parameters { f_o, ..*member })?.exceeds())
-    })
+    /// Whether a smaller amplitude than the published one is proved to exceed.
+    pub(super) fn smaller_exceeds(&self) -> bool {
+        self.own() < self.row.published - SAME
+    }
+
+    pub(super) fn verdict(&self) -> Verdict {
+        self.row.verdict()
+    }
 }
 
 /// A value for each entry of the table.
 pub(super) type Column = Vec<f64>;
 
-/// Table 6.2 with the neighbours of each entry.
+/// The table.
 pub(super) struct Table<'a> {
     pub(super) entries: Vec<Entry<'a>>,
-    /// The critical forces by member of the ensembles, and the published ones.
+    /// The critical forces that are proved; the first crossings by part of the neighbours.
     pub(super) columns: Vec<Column>,
     pub(super) published: Column,
 }
 
 impl<'a> Table<'a> {
-    pub(super) fn new(study: &'a Study) -> Result<Self, CaseError> {
-        let entries = in_parallel(study.critical.len(), |k| Entry::new(&study.critical[k]))?;
-        let of_start = |k| entries.iter().filter_map(|e| e.critical().nth(k)).collect();
-        Ok(Self {
-            columns: (0..=NEIGHBOURS).map(of_start).collect(),
+    pub(super) fn new(study: &'a Study) -> Self {
+        let entries: Vec<Entry> = study.critical.iter().map(Entry::new).collect();
+        let column = |k: usize| entries.iter().map(|entry| entry.members[k]).collect();
+        Self {
+            columns: (0..4).map(column).collect(),
             published: entries.iter().map(|e| e.row.published).collect(),
             entries,
-        })
+        }
     }
 
     fn place(&self, r: f64, size: [f64; 2]) -> Option<usize> {
@@ -177,41 +136,78 @@ impl<'a> Table<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::critical_row::NEIGHBOURS;
+    use crate::proved::{Proved, amplitudes};
     use crate::study::Both;
-    use snapload::analysis::{CriticalForce, ExceedanceCurve, unwatched};
+    use snapload::analysis::{CriticalForce, ExceedanceCurve, Exceeding, ForceScan, Share};
+    use snapload::{CaseError, Stop};
 
-    /// The standard case as a row that publishes this value, from few amplitudes.
-    fn row(published: f64) -> Result<CriticalRow, CaseError> {
-        let force = ForceScan::new(0.01, 0.4)?;
-        let scan = || {
-            let found = CriticalForce::scan(&chapter(Parameters::STANDARD), force, &unwatched);
-            found.map_err(|_| CaseError::value("f_o", "", "a legal case"))
+    /// A row that publishes a value: proved ends of amplitudes up to 0.4, of which those from 0.31 on
+    /// exceed, and how many of all neighbours exceed at two of them.
+    fn row(published: f64, at: [(f64, usize); 2]) -> Result<CriticalRow, CaseError> {
+        let none = || CriticalForce {
+            first: None,
+            exceeding: Vec::new(),
         };
-        let none = || ExceedanceCurve { points: Vec::new() };
+        let share = |f_o: f64| {
+            let of = NEIGHBOURS as usize;
+            let known = at.iter().find(|(force, _)| *force == f_o);
+            let count = known.map_or(if f_o < 0.305 { 0 } else { of }, |(_, count)| *count);
+            Exceeding {
+                f_o,
+                share: Share {
+                    count,
+                    of,
+                    clear: false,
+                },
+                certain: false,
+            }
+        };
+        let proof = |f_o: f64| Proved {
+            reason: if f_o < 0.305 {
+                Stop::Settled
+            } else {
+                Stop::RotationLimit
+            },
+            t: "20.0".to_owned(),
+            impacts: 9,
+        };
+        let parameters = CriticalRow::published()[0].0;
+        let mut proved = amplitudes(&parameters, |case| Some(proof(case.f_o)), published);
+        proved.truncate(40);
         Ok(CriticalRow {
             r: 1.5,
             shape: "circle",
             size: [0.1, 0.0],
             published,
             computed: Both {
-                chapter: scan()?,
-                sliding_on: scan()?,
-            },
-            probable: Both {
                 chapter: none(),
                 sliding_on: none(),
             },
+            limits_alone: None,
+            probable: ExceedanceCurve {
+                points: ForceScan::new(0.01, 0.4)?.amplitudes().map(share).collect(),
+            },
+            proved,
         })
     }
 
     #[test]
     fn an_altered_published_value_is_not_reproduced() -> Result<(), CaseError> {
-        assert_eq!(Entry::new(&row(0.31)?)?.verdict(), Verdict::Reproduced);
+        let agreed = [(0.31, 100), (0.2, 0)];
+        assert_eq!(row(0.31, agreed)?.verdict(), Verdict::Reproduced);
         // One that settles, and one that exceeds though it is not the first.
         for published in [0.25, 0.33] {
-            let row = row(published)?;
-            assert_eq!(Entry::new(&row)?.verdict(), Verdict::NotReproduced);
+            assert_eq!(row(published, agreed)?.verdict(), Verdict::NotReproduced);
         }
+        // Five of a hundred neighbours exceed below, or do not at it: nothing is sure.
+        for at in [[(0.3, 5), (0.2, 0)], [(0.31, 95), (0.2, 0)]] {
+            assert_eq!(row(0.31, at)?.verdict(), Verdict::NotDecidable);
+        }
+        // It crosses at t = 20, so a run that ends before does not exceed.
+        let row = row(0.31, agreed)?;
+        assert_eq!(row.first().map(|first| first.0), Some(0.31));
+        assert!(row.first_by(18.0).is_none());
         Ok(())
     }
 }

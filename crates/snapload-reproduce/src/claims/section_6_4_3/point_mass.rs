@@ -3,10 +3,10 @@
 use super::{STEADY, Sweeps, spread};
 use crate::claims::numbers::{min, spearman};
 use crate::claims::runs::{chapter, each, run, standard};
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use crate::study::first_exceeding;
 use snapload::analysis::ForceScan;
-use snapload::{Case, CaseError, Parameters, Playback, Trajectory};
+use snapload::{Case, CaseError, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     ("6.4.3-06", |sweeps| {
@@ -33,6 +33,24 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .values("short long", [short, long])
             .values("rigid_short rigid_long", [rigid_short, rigid_long]))
     }),
+    ("6.4.3-22", |_| {
+        let scan = ForceScan::new(0.01, 3.0)?;
+        let by_bound = [1.5, 2.5].map(|r| {
+            let case = standard(|p| p.r = r);
+            Ok::<_, CaseError>([
+                first_at_bound(&chapter(case), scan)?,
+                first_at_bound(&point(case), scan)?,
+            ])
+        });
+        let [short, long] = by_bound;
+        let [short, long] = [short?, long?];
+        let not_lower = |[rigid, point]: [f64; 2]| Verdict::of(rigid >= point);
+        let words = |[rigid, point]: [f64; 2]| format!("{rigid:.2} (rigid), {point:.2} (point)");
+        Ok(
+            Finding::new(Verdict::families([short, long].map(not_lower)))
+                .values("short long", [short, long].map(words)),
+        )
+    }),
     ("6.4.3-21", |sweeps| {
         // A moment of inertia that no impact turns.
         let heavy = |case| Parameters {
@@ -56,6 +74,25 @@ fn point(parameters: Parameters) -> Parameters {
         inertia: None,
         ..chapter(parameters)
     }
+}
+
+/// The first amplitude at which a body reaches the upper bound, at whatever rotation.
+fn first_at_bound(parameters: &Parameters, scan: ForceScan) -> Result<f64, CaseError> {
+    for f_o in scan.amplitudes() {
+        let simulation = Case::new(Parameters { f_o, ..*parameters })?.into_simulation();
+        let rules = Rules {
+            rotation_limit: None,
+            ..*simulation.rules()
+        };
+        let (system, start) = (simulation.system().clone(), *simulation.state());
+        let mut simulation = Simulation::new(system, rules, 0.0, start)
+            .map_err(|_| CaseError::value("f_o", f_o, "a legal start"))?;
+        while simulation.step().is_some() {}
+        if simulation.stop() == Some(Stop::UpperBound) {
+            return Ok(f_o);
+        }
+    }
+    Ok(f64::INFINITY)
 }
 
 /// The force amplitude and ρ1 of a body.

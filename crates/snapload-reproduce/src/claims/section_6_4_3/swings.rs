@@ -1,13 +1,14 @@
 //! The swings of the rotation over the force amplitude.
 
-use super::{Run, SUMS, Sweep, Sweeps, below_critical, figure, halves, over_force, place};
-use crate::claims::numbers::{max, min, spearman};
+use super::{SUMS, Sweep, Sweeps, Swept, below_critical, figure, halves, over_force, place};
+use crate::claims::motions::LARGE;
+use crate::claims::numbers::{max, min, span, spearman};
 use crate::claims::verdict::{Finding, Judged, Judges};
 
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     ("6.4.3-11", |sweeps| {
-        let figures: [fn(&Run) -> f64; 2] = [
-            |run: &Run| run.largest_swing,
+        let figures: [fn(&Swept) -> f64; 2] = [
+            |run: &Swept| run.largest_swing,
             |run| run.large_swings.len() as f64,
         ];
         // Their means in both halves of the amplitudes, and their rank correlation with those.
@@ -23,29 +24,31 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         });
         let measured: Vec<[[f64; 3]; 2]> = measured.collect();
         let grows = |[low, high, rho]: &[f64; 3]| *high > 2.0 * low && *rho > 0.8;
-        let text = |[low, high, rho]: [f64; 3]| {
-            format!("{low:.2} then {high:.2} on the mean (rank correlation {rho:.2})")
+        let text = |figure: usize| {
+            let of = |k: usize| span(measured.iter().map(|all| all[figure][k]), 2);
+            format!(
+                "{} then {} on the mean (rank correlation {})",
+                of(0),
+                of(1),
+                of(2)
+            )
         };
         let finding = Finding::robust(&measured, |figures| figures.iter().all(grows));
-        Ok(finding.values("size number", measured[0].map(text)))
+        Ok(finding
+            .values("size number", [0, 1].map(text))
+            .value("angle", LARGE))
     }),
     ("6.4.3-12", |sweeps| {
-        /// A rank correlation that one calls an association.
-        const ASSOCIATION: f64 = 0.4;
-        let rotations: [fn(&Run) -> f64; 2] = [
-            |run: &Run| run.large_swings.iter().sum(),
-            |run| run.norms.theta_max,
-        ];
-        // Of ρ2 and ρ3, with the sum of the large swings and with the largest rotation.
-        let correlations = sweeps.short.iter().map(|sweep| {
-            [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(sum, rotation)| {
-                let runs = below_critical(sweep).iter();
-                let points = runs.map(|run| (rotations[rotation](run), SUMS[sum](run)));
-                spearman(&points.collect::<Vec<_>>())
-            })
-        });
-        let found: Vec<[f64; 4]> = correlations.collect();
-        Ok(Finding::robust(&found, |all| max(*all) < -ASSOCIATION).list("rho", found.concat()))
+        let found = sweeps
+            .short
+            .iter()
+            .map(|sweep| associations(below_critical(sweep)));
+        let found: Vec<[[f64; 2]; 4]> = found.collect();
+        let of = |k: usize| found.iter().flatten().map(move |rho| rho[k]);
+        Ok(Finding::robust(&found, is_associated)
+            .list("rho", of(0))
+            .list("given", of(1))
+            .value("association", -ASSOCIATION))
     }),
     ("6.4.3-14", |sweeps| {
         /// A change that one sees in a plot.
@@ -58,10 +61,47 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
                 "but_the_last",
                 changes.iter().all(|[p, q, _]| p.min(*q) > SEEN),
             )
-            .list("swings", swings(&sweeps.long[0]))
+            .by_start("swings", sweeps.long.iter().map(swings))
+            .value("seen", 100.0 * SEEN)
             .list("last", changes.iter().map(|all| 100.0 * all[2])))
     }),
 ];
+
+/// A rank correlation that one calls an association.
+const ASSOCIATION: f64 = 0.4;
+
+/// Rank correlations of ρ2 and of ρ3 with the sum of the large swings and with the largest rotation:
+/// each as it is, and of what the force amplitude leaves of both.
+fn associations(sweep: &[Swept]) -> [[f64; 2]; 4] {
+    let rotations: [fn(&Swept) -> f64; 2] = [
+        |run: &Swept| run.large_swings.iter().sum(),
+        |run| run.norms.theta_max,
+    ];
+    let force: fn(&Swept) -> f64 = |run| run.f_o;
+    let rho = |p: fn(&Swept) -> f64, q: fn(&Swept) -> f64| {
+        spearman(&sweep.iter().map(|run| (p(run), q(run))).collect::<Vec<_>>())
+    };
+    [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(sum, rotation)| {
+        let (sum, rotation) = (SUMS[sum], rotations[rotation]);
+        let plain = rho(rotation, sum);
+        [plain, given(plain, rho(rotation, force), rho(sum, force))]
+    })
+}
+
+/// Whether more rotation goes with smaller sums beyond what the force alone brings about.
+fn is_associated(all: &[[f64; 2]; 4]) -> bool {
+    max(all.iter().map(|rho| rho[1])) < -ASSOCIATION
+}
+
+/// The partial correlation of two quantities given a third, from the three correlations.
+fn given(of_two: f64, with_first: f64, with_second: f64) -> f64 {
+    let left = (1.0 - with_first * with_first) * (1.0 - with_second * with_second);
+    if left > 0.0 {
+        (of_two - with_first * with_second) / left.sqrt()
+    } else {
+        0.0
+    }
+}
 
 /// By how much swings rise, fall and rise again, in parts of where they come from; nothing if there
 /// are too few.
@@ -77,6 +117,15 @@ fn ups_and_downs(swings: &[f64]) -> Option<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_the_force_brings_about_is_no_association() {
+        // Both follow a third quantity and nothing else.
+        assert!(given(0.64, 0.8, 0.8).abs() < 1e-12);
+        assert!((given(-0.66, 0.0, 0.0) + 0.66).abs() < 1e-12);
+        assert_eq!(given(0.5, 1.0, 0.5), 0.0);
+        assert!(!is_associated(&[[-0.66, -0.08]; 4]) && is_associated(&[[-0.66, -0.5]; 4]));
+    }
 
     #[test]
     fn a_rise_that_is_missing_is_seen() {

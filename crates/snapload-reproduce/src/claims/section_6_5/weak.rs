@@ -2,8 +2,8 @@
 
 use super::Material;
 use super::example::{LOW, Rocking};
+use crate::claims::motions::CLEAR;
 use crate::claims::numbers::{max, mean, min, spearman};
-use crate::claims::runs::CLEAR;
 use crate::claims::verdict::{Finding, Judged, Judges};
 use snapload::{Motion, State, System};
 
@@ -40,7 +40,20 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
                 [min(waits.iter().copied()), max(waits.iter().copied())],
             ))
     }),
-    ("6.5.2.2-08", horizontal),
+    ("6.5.2.2-08", |of| {
+        let forces = Forces::of(&of.weak[0]);
+        Ok(Finding::of(forces.wave_is_horizontal()).values(
+            "ratio little",
+            [forces.vertical / forces.horizontal, LITTLE],
+        ))
+    }),
+    ("6.5.2.2-15", |of| {
+        let forces = Forces::of(&of.weak[0]);
+        let ratio = forces.weight / forces.horizontal;
+        Ok(Finding::of(forces.horizontal_controls())
+            .value("ratio", ratio)
+            .found("weight_counts", ratio >= 1.0))
+    }),
     ("6.5.2.2-09", |of| {
         let impacts = above_arc(&of.weak[0]);
         let clear = impacts.iter().filter(|impact| impact.clear);
@@ -128,20 +141,44 @@ fn on_arc(system: &System, given: usize, value: f64) -> State {
     at(place)
 }
 
-fn horizontal(of: &Material) -> Judged {
-    /// The part of the vertical force that does not count.
-    const LITTLE: f64 = 0.2;
-    let forcing = &of.weak[0].run.system().forcing;
-    let (mut along, mut up) = (0.0, 0.0);
-    let turning = |now: &&Motion| now.state.vtheta.abs() > 1e-3;
-    for now in of.weak[0].motion.iter().filter(turning) {
-        let ([f_x, f_y], state) = (forcing.at(now.t).components(), &now.state);
-        along += (f_x * state.vx / state.vtheta).powi(2);
-        up += ((f_y - forcing.constant.y) * state.vy / state.vtheta).powi(2);
-    }
-    let ratio = (up / along).sqrt();
-    Ok(Finding::of(ratio < LITTLE).value("ratio", ratio))
+/// Generalised forces on the rotation while the body rocks, as root mean squares: of the horizontal
+/// and of the vertical part of the wave, and of the weight.
+#[derive(Clone, Copy)]
+struct Forces {
+    horizontal: f64,
+    vertical: f64,
+    weight: f64,
 }
+
+impl Forces {
+    fn of(rocking: &Rocking) -> Self {
+        let forcing = &rocking.run.system().forcing;
+        let turning = |now: &&Motion| now.state.vtheta.abs() > 1e-3;
+        let squares = |force: &dyn Fn(&Motion) -> f64| {
+            let moving = rocking.motion.iter().filter(turning);
+            mean(moving.map(|now| (force(now) / now.state.vtheta).powi(2))).sqrt()
+        };
+        let weight = forcing.constant.y;
+        Self {
+            horizontal: squares(&|now| forcing.at(now.t).x * now.state.vx),
+            vertical: squares(&|now| (forcing.at(now.t).y - weight) * now.state.vy),
+            weight: squares(&|now| weight * now.state.vy),
+        }
+    }
+
+    /// Whether of the wave's two parts the horizontal one is what counts.
+    fn wave_is_horizontal(self) -> bool {
+        self.vertical < LITTLE * self.horizontal
+    }
+
+    /// Whether the horizontal force outdoes the weight, too.
+    fn horizontal_controls(self) -> bool {
+        self.wave_is_horizontal() && self.weight < self.horizontal
+    }
+}
+
+/// The part of a force that does not count.
+const LITTLE: f64 = 0.2;
 
 /// Radius of the circle x² + y² = 2my + c nearest to the arc, and its largest miss over the radius.
 /// The arc is symmetric, so the centre has x = 0.
@@ -156,4 +193,21 @@ fn fit_circle(system: &System, widest: f64) -> (f64, f64) {
     let radius = (s - slope * y + centre * centre).sqrt();
     let miss = |p: &State| (p.x.hypot(p.y - centre) - radius).abs() / radius;
     (radius, max(points.iter().map(miss)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_the_weight_outdoes_does_not_control() {
+        let with = |vertical, weight| Forces {
+            horizontal: 1.0,
+            vertical,
+            weight,
+        };
+        assert!(with(0.1, 0.5).horizontal_controls());
+        assert!(with(0.1, 2.1).wave_is_horizontal() && !with(0.1, 2.1).horizontal_controls());
+        assert!(!with(0.3, 0.5).wave_is_horizontal());
+    }
 }

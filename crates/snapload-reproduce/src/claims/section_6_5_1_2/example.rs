@@ -1,7 +1,7 @@
 //! The sliding example (eq. 6.57).
 
+use crate::claims::motions::{CLEAR, attachment_speed, places};
 use crate::claims::numbers::{max, min};
-use crate::claims::runs::{CLEAR, attachment_speed, places};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use snapload::{Impact, ModeInterval, Motion, Playback, TautSet, Trajectory};
 
@@ -41,34 +41,52 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .found("never", going_on == 0))
     }),
     ("6.5.1.2-10", |of| {
-        /// The fewest that are many.
-        const SEVERAL: usize = 3;
-        let clear = |s: &Story| s.hits.iter().filter(|hit| hit.v_n > CLEAR).count() as f64;
+        let clear = |s: &Story| s.hits.iter().filter(|hit| hit.v_n > CLEAR).count();
+        let all = |s: &Story| s.hits.len() as f64;
         Ok(of
-            .robust(|s| s.hits.len() >= SEVERAL)
-            .list("hits", of.stories.iter().map(|s| s.hits.len() as f64))
-            .list("clear", of.stories.iter().map(clear))
-            .value("above", CLEAR))
+            .robust(|s| is_many(clear(s)))
+            .list("hits", of.stories.iter().map(all))
+            .list("clear", of.stories.iter().map(|s| clear(s) as f64))
+            .value("above", CLEAR)
+            .value("many", MANY_HITS)
+            .found(
+                "small_ones",
+                of.stories.iter().all(|s| is_many(s.hits.len())),
+            ))
     }),
     ("6.5.1.2-11", |of| {
-        /// Up and down by more than this is clearly so; a gap below this is at the boundary.
-        const CLEARLY: f64 = 0.005;
-        const NEAR: f64 = 0.01;
-        let clearly = |[up, down]: [f64; 2]| up > CLEARLY && down > CLEARLY;
-        let bounces = |s: &Story| s.rise_and_fall().is_some_and(clearly) && s.widest() < NEAR;
+        let turning = |s: &Story| s.slides.iter().filter(|slide| turns_back(slide)).count();
         let moves: Vec<[f64; 2]> = of.stories.iter().filter_map(Story::rise_and_fall).collect();
+        let none = of.stories.iter().all(|s| turning(s) == 0);
         Ok(of
-            .robust(bounces)
+            .robust(|s| turning(s) > 0)
+            .list("turning", of.stories.iter().map(|s| turning(s) as f64))
+            .list("slides", of.stories.iter().map(|s| s.slides.len() as f64))
             .list("up", moves.iter().map(|m| m[0]))
             .list("down", moves.iter().map(|m| m[1]))
-            .value("gap", max(of.stories.iter().map(Story::widest))))
+            .value("shortest", SHORTEST)
+            .found("in_flight", none && !moves.is_empty()))
+    }),
+    ("6.5.1.2-17", |of| {
+        let down = |s: &Story| {
+            let end = s.run.at(s.first.t_end.next_down()).state.y;
+            s.start.state.y - end
+        };
+        let both = |s: &Story| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
+        Ok(of
+            .robust(|s| down(s) > 0.0 && both(s))
+            .list("down", of.stories.iter().map(down))
+            .list(
+                "lasts",
+                of.stories.iter().map(|s| s.first.t_end - s.first.t_start),
+            ))
     }),
     ("6.5.1.2-12", |of| {
         let places = || of.stories.iter().map(|s| s.start.state.x);
-        let slides = of.stories.iter().flat_map(|s| &s.sliding);
+        let slides = of.stories.iter().flat_map(Story::sliding);
         let on_left = of.robust(on_the_left).verdict == Verdict::Reproduced;
         Ok(of
-            .robust(|s| s.start.state.x < 0.0 && s.sliding.iter().any(|m| m.state.x > 0.0))
+            .robust(|s| s.start.state.x < 0.0 && s.sliding().any(|m| m.state.x > 0.0))
             .list("start", places())
             .list("all", slides.map(|now| now.state.x))
             .list("theta", of.stories.iter().map(|s| s.start.state.theta))
@@ -95,6 +113,21 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
 
 /// Cable 2, the left one, of g2.
 const LEFT: usize = 1;
+/// A slide shorter than this moves nothing that one could see; it is passed over.
+const SHORTEST: f64 = 5e-4;
+/// The fewest hits that are many.
+const MANY_HITS: usize = 3;
+
+fn is_many(hits: usize) -> bool {
+    hits >= MANY_HITS
+}
+
+/// Whether a motion switches from going up to going down.
+fn turns_back(motion: &[Motion]) -> bool {
+    let pairs = motion.windows(2);
+    let mut turns = pairs.map(|pair| pair[0].state.vy > 0.0 && pair[1].state.vy <= 0.0);
+    turns.any(|turns| turns)
+}
 
 /// The example and its neighbours: those that slide, of so many.
 pub(super) struct Example<'a> {
@@ -125,8 +158,8 @@ struct Story<'a> {
     first: ModeInterval,
     /// Where it starts.
     start: Motion,
-    /// Its motion at many times of all slides.
-    sliding: Vec<Motion>,
+    /// Its motion at many times of each slide.
+    slides: Vec<Vec<Motion>>,
     /// The hits of cable 1 while it slides on cable 2.
     hits: Vec<Impact>,
     /// The first rocking after a slide, and whether that came just before.
@@ -135,8 +168,6 @@ struct Story<'a> {
 
 impl<'a> Story<'a> {
     fn of(run: &'a Trajectory) -> Option<Self> {
-        /// A slide shorter than this moves nothing that one could see; it is passed over.
-        const SHORTEST: f64 = 5e-4;
         /// Times of a slide at which it is looked at.
         const TIMES: usize = 200;
         let mut playback = Playback::new(run);
@@ -150,11 +181,12 @@ impl<'a> Story<'a> {
         let long = |mode: &ModeInterval| mode.t_end - mode.t_start > SHORTEST;
         let seen = |mode: &&ModeInterval| slid(mode) && long(mode) && mode.t_start < end;
         let slides = modes.iter().filter(seen);
-        let times = slides.flat_map(|mode| {
+        let slides = slides.map(|mode| {
             let part = |k: usize| (k as f64 + 0.5) / TIMES as f64;
-            (0..TIMES).map(move |k| mode.t_start + part(k) * (mode.t_end - mode.t_start))
+            let times = (0..TIMES).map(|k| mode.t_start + part(k) * (mode.t_end - mode.t_start));
+            times.map(|t| playback.at(t)).collect()
         });
-        let sliding = times.map(|t| playback.at(t)).collect();
+        let slides: Vec<Vec<Motion>> = slides.collect();
         let on_left = |t: f64| {
             let mut on_left = modes.iter().filter(|mode| mode.taut == TautSet::only(LEFT));
             on_left.any(|mode| mode.t_start < t && t <= mode.t_end)
@@ -165,7 +197,7 @@ impl<'a> Story<'a> {
             run,
             first,
             start: playback.at(first.t_start),
-            sliding,
+            slides,
             hits: hits.copied().collect(),
             rocks: rocking.map(|(t, after)| (playback.at(t), after)),
         })
@@ -183,7 +215,12 @@ impl<'a> Story<'a> {
             let speed = attachment_speed(self.run.system(), now.taut.iter().next()?, &now.state);
             Some(speed / now.state.vx.hypot(now.state.vy))
         };
-        min(self.sliding.iter().filter_map(ratio))
+        min(self.sliding().filter_map(ratio))
+    }
+
+    /// All times of all slides.
+    fn sliding(&self) -> impl Iterator<Item = &Motion> {
+        self.slides.iter().flatten()
     }
 
     fn rocks_after_slide(&self) -> bool {
@@ -202,16 +239,10 @@ impl<'a> Story<'a> {
     fn rise_and_fall(&self) -> Option<[f64; 2]> {
         let (rocking, _) = self.rocks?;
         let (from, to) = (self.start.t, rocking.t);
-        let path = places(self.run, (from, to), (to - from) / 1000.0);
+        let mut playback = Playback::new(self.run);
+        let path = places(|t| playback.at(t).state, (from, to), (to - from) / 1000.0);
         let top = max(path.iter().map(|p| p[1]));
         Some([top - self.start.state.y, top - rocking.state.y])
-    }
-
-    /// The largest |g2| at its impacts from the first slide to the first rocking.
-    fn widest(&self) -> f64 {
-        let left = &self.run.system().cables[LEFT];
-        let gaps = self.impacts().map(|impact| left.gap(&impact.before).abs());
-        gaps.fold(0.0, f64::max)
     }
 
     /// Where both cables are hit at the same x.
@@ -233,7 +264,7 @@ fn on_the_left(story: &Story) -> bool {
 fn three_ways(of: &Example) -> Judged {
     /// Speed of a resting connection point, in parts of the centre's.
     const TURNS: f64 = 0.5;
-    let goes = |s: &Story, sign| s.sliding.iter().any(|now| sign * now.state.vy > 0.0);
+    let goes = |s: &Story, sign| s.sliding().any(|now| sign * now.state.vy > 0.0);
     let ways = |s: &Story| [goes(s, 1.0), goes(s, -1.0), s.least_turning() < TURNS];
     let found: Vec<[bool; 3]> = of.stories.iter().map(ways).collect();
     let [up, down, turning] = [0, 1, 2].map(|way| found.iter().filter(|all| all[way]).count());
@@ -242,4 +273,25 @@ fn three_ways(of: &Example) -> Judged {
         .values("members up down turning", [of.members, up, down, turning])
         .list("least", of.stories.iter().map(Story::least_turning))
         .found("never_turns", turning == 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snapload::{Case, CaseError, named_case};
+
+    #[test]
+    fn what_only_goes_down_does_not_turn_back() -> Result<(), CaseError> {
+        let run = Case::new(named_case("sliding-example")?.parameters)?.run();
+        let with = |vy: f64| {
+            let mut motion = run.at(0.0);
+            motion.state.vy = vy;
+            motion
+        };
+        let turns = |velocities: [f64; 3]| turns_back(&velocities.map(with));
+        assert!(turns([0.2, 0.1, -0.1]));
+        assert!(!turns([-0.1, -0.2, -0.3]) && !turns([-0.1, 0.1, 0.2]));
+        assert!(is_many(3) && !is_many(1));
+        Ok(())
+    }
 }

@@ -1,0 +1,152 @@
+//! How soon and how well energy is dissipated.
+
+use super::{Sweep, Sweeps, Swept, USUAL, below_critical, place};
+use crate::claims::numbers::{count, max, min, span};
+use crate::claims::runs::{FEW, chapter, from_starts, past_settling, run, standard};
+use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use snapload::{CaseError, Parameters, Playback, Stop};
+
+pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> =
+    &[("6.4.3-18", dissipated), ("6.4.3-20", optimum)];
+
+/// Ways to tell how well energy is dissipated: the larger, the better.
+const EFFECTS: [(&str, fn(&Swept) -> f64); 3] = [
+    ("energy lost in the impacts", |run| run.lost),
+    ("the same per unit of time", |run| run.lost / run.t),
+    ("least sum of snap velocities", |run| -run.norms.rho3),
+];
+
+/// Where among runs that settle a figure is greatest: the place and the force.
+fn greatest(runs: &[&Swept], of: fn(&Swept) -> f64) -> Option<(bool, f64)> {
+    let values: Vec<f64> = runs.iter().map(|run| of(run)).collect();
+    let k = place(&values, 0, values.len(), 1.0)?;
+    Some((k > 0 && k + 1 < values.len(), runs[k].f_o))
+}
+
+fn optimum(sweeps: &Sweeps) -> Judged {
+    let settled = |sweep: &'_ Sweep| -> Vec<Swept> {
+        let settled = sweep.iter().filter(|run| run.reason == Stop::Settled);
+        settled.cloned().collect()
+    };
+    let starts: Vec<Vec<Swept>> = sweeps.long.iter().map(settled).collect();
+    let by_effect = EFFECTS.map(|(name, of)| {
+        let best = starts
+            .iter()
+            .map(|runs| greatest(&runs.iter().collect::<Vec<_>>(), of));
+        let best: Vec<Option<(bool, f64)>> = best.collect();
+        let forces = || best.iter().flatten().map(|best| best.1);
+        let same = max(forces()) - min(forces()) < 0.015;
+        let inside = best
+            .iter()
+            .map(|best| same && best.is_some_and(|best| best.0));
+        (
+            Verdict::robust(inside),
+            format!("{name} at f_o = {}", span(forces(), 2)),
+        )
+    });
+    let words = by_effect
+        .each_ref()
+        .map(|(_, words)| words.as_str())
+        .join("; ");
+    let verdicts = by_effect.each_ref().map(|(verdict, _)| *verdict);
+    let lost = starts
+        .iter()
+        .map(|runs| runs.iter().map(|run| run.lost).collect::<Vec<_>>());
+    Ok(Finding::new(Verdict::families(verdicts))
+        .value("best", words)
+        .by_start("lost", lost))
+}
+
+/// Of the energy that a body has at the start above its lowest place, at least so much is gone if one
+/// calls it dissipated.
+const GONE: f64 = 0.9;
+/// By when, and up to which time the runs are looked at.
+const SOON: f64 = 10.0;
+
+/// What a case comes to that nothing but the limits ends: when it exceeds, if it does, and its
+/// mechanical energy at t = 10.
+fn without_stops(case: &Parameters) -> Result<(Option<f64>, f64), CaseError> {
+    let case = Parameters {
+        stop_when_sliding: false,
+        t_end: 2.0 * SOON,
+        ..past_settling(*case)
+    };
+    let run = run(&case)?;
+    let exceeds = run.end().reason.exceeds().then_some(run.end().t);
+    Ok((exceeds, Playback::new(&run).at(SOON).energy))
+}
+
+/// Whether a run has dissipated its energy by t = 10: it did not exceed till then, and has little of
+/// the energy left that it began with.
+fn is_dissipated((exceeds, energy): &(Option<f64>, f64)) -> bool {
+    exceeds.is_none_or(|t| t > SOON) && *energy <= (1.0 - GONE) * Parameters::STANDARD.y
+}
+
+fn dissipated(sweeps: &Sweeps) -> Judged {
+    let of_length = |r: f64, sweep: &Sweep| {
+        let cases = below_critical(sweep).iter();
+        let cases = cases.map(|run| chapter(standard(|p| (p.r, p.f_o) = (r, run.f_o))));
+        from_starts(&cases.collect::<Vec<_>>(), FEW, without_stops)
+    };
+    let lengths = [
+        of_length(1.5, &sweeps.short[0])?,
+        of_length(2.5, &sweeps.long[0])?,
+    ];
+    let mut verdicts = Vec::new();
+    let words = lengths.map(|starts| {
+        let usual = |runs: &Vec<_>| count(runs, is_dissipated) as f64 >= USUAL * runs.len() as f64;
+        verdicts.push(Verdict::robust(starts.iter().map(usual)));
+        let spans = |holds: &dyn Fn(&(Option<f64>, f64)) -> bool| {
+            span(starts.iter().map(|runs| count(runs, holds) as f64), 0)
+        };
+        let exceed = spans(&|run| run.0.is_some_and(|t| t <= SOON));
+        format!(
+            "{} of {} ({exceed} exceed before)",
+            spans(&is_dissipated),
+            starts[0].len()
+        )
+    });
+    let soon = |sweep: &Sweep| {
+        count(below_critical(sweep), |run| {
+            run.reason == Stop::Settled && run.t < SOON
+        }) as f64
+    };
+    let stopped = [&sweeps.short, &sweeps.long].map(|starts| span(starts.iter().map(soon), 0));
+    Ok(Finding::new(Verdict::families(verdicts))
+        .values("short long", words)
+        .value("stopped", stopped.join(" and "))
+        .values("gone usual soon", [100.0 * GONE, 100.0 * USUAL, SOON]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::many_digits::Run;
+
+    #[test]
+    fn a_stop_is_no_dissipation() {
+        // Little energy left; much of it; little, but the limit was reached before.
+        assert!(is_dissipated(&(None, 0.005)) && is_dissipated(&(Some(12.0), 0.005)));
+        assert!(!is_dissipated(&(None, 0.05)) && !is_dissipated(&(Some(8.0), 0.005)));
+    }
+
+    #[test]
+    fn an_optimum_lies_inside() -> Result<(), CaseError> {
+        let run = Run::of_doubles(&Parameters {
+            e: 0.5,
+            ..Parameters::STANDARD
+        })?;
+        let losing = |lost: f64| Swept {
+            lost,
+            ..Swept::new(&run)
+        };
+        let inside = |lost: [f64; 3]| {
+            let runs = lost.map(losing);
+            greatest(&runs.each_ref(), EFFECTS[0].1).is_some_and(|best| best.0)
+        };
+        assert!(inside([1.0, 3.0, 2.0]));
+        // Least in between is no optimum, nor is the most at an end.
+        assert!(!inside([3.0, 1.0, 2.0]) && !inside([1.0, 2.0, 3.0]));
+        Ok(())
+    }
+}

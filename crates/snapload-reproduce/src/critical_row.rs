@@ -1,0 +1,154 @@
+//! The rows of Table 6.2: what is published, what is proved of it, and what neighbours do.
+
+use crate::claims::Verdict;
+use crate::proved::{self, Proved};
+use crate::study::{Both, Reading, first_exceeding, of_shape};
+use snapload::analysis::{
+    CriticalForce, ExceedanceCurve, ForceScan, Uncertainty, Unfinished, unwatched,
+};
+use snapload::{Parameters, Stop};
+
+/// A row of Table 6.2.
+#[derive(Clone, Debug)]
+pub(crate) struct CriticalRow {
+    /// Cable length.
+    pub(crate) r: f64,
+    pub(crate) shape: &'static str,
+    /// Half-sizes.
+    pub(crate) size: [f64; 2],
+    /// The published critical force.
+    pub(crate) published: f64,
+    /// The computed ones, with all amplitudes that exceed, in doubles.
+    pub(crate) computed: Both<CriticalForce>,
+    /// The first amplitude in doubles where nothing but the two limits ends a run.
+    pub(crate) limits_alone: Option<(f64, Stop)>,
+    /// How many neighbours exceed, in the chapter's reading.
+    pub(crate) probable: ExceedanceCurve,
+    /// What is proved of the amplitudes, in the chapter's reading.
+    pub(crate) proved: Vec<(f64, Option<Proved>)>,
+}
+
+/// Neighbours of each run of Table 6.2, 1e-12 away at the most.
+pub(crate) const NEIGHBOURS: u32 = 100;
+
+/// Table 6.2 as published: r, shape, half-sizes, f_cr.
+const TABLE_6_2: [(f64, &str, [f64; 2], f64); 16] = [
+    (1.5, "circle", [0.1, 0.0], 0.31),
+    (1.5, "circle", [0.2, 0.0], 0.42),
+    (1.5, "circle", [0.3, 0.0], 0.40),
+    (1.5, "square", [0.1, 0.1], 0.32),
+    (1.5, "square", [0.2, 0.2], 0.34),
+    (1.5, "square", [0.3, 0.3], 0.60),
+    (1.5, "rectangle", [0.2, 0.1], 0.68),
+    (1.5, "rectangle", [0.3, 0.1], 0.67),
+    (2.5, "circle", [0.1, 0.0], 0.10),
+    (2.5, "circle", [0.2, 0.0], 0.18),
+    (2.5, "circle", [0.3, 0.0], 0.30),
+    (2.5, "square", [0.1, 0.1], 0.28),
+    (2.5, "square", [0.2, 0.2], 0.33),
+    (2.5, "square", [0.3, 0.3], 0.35),
+    (2.5, "rectangle", [0.2, 0.1], 0.27),
+    (2.5, "rectangle", [0.3, 0.1], 0.35),
+];
+
+impl CriticalRow {
+    /// Of all rows, in the order of the table.
+    pub(crate) fn all() -> Result<Vec<Self>, Unfinished> {
+        TABLE_6_2.into_iter().map(Self::new).collect()
+    }
+
+    fn new(
+        (r, shape, size, published): (f64, &'static str, [f64; 2], f64),
+    ) -> Result<Self, Unfinished> {
+        let parameters = of_shape(r, size);
+        let computed = Both::try_new(|reading| {
+            CriticalForce::scan(&reading.apply(parameters), ForceScan::default(), &unwatched)
+        })?;
+        let (chapter, uncertainty) = (Reading::Chapter.apply(parameters), Uncertainty::default());
+        let scan = ForceScan::default();
+        let alone = Parameters {
+            stop_when_settled: false,
+            ..parameters
+        };
+        Ok(Self {
+            r,
+            shape,
+            size,
+            published,
+            computed,
+            limits_alone: first_exceeding(&alone, scan)?,
+            probable: ExceedanceCurve::scan(
+                &chapter,
+                scan,
+                &uncertainty,
+                NEIGHBOURS,
+                1,
+                &unwatched,
+            )?,
+            proved: proved::amplitudes(&parameters, |case| Proved::kept(case).cloned(), published),
+        })
+    }
+
+    /// The body with all else as in the standard case.
+    pub(crate) fn parameters(&self) -> Parameters {
+        of_shape(self.r, self.size)
+    }
+
+    /// Its cases and published values: those of all rows.
+    pub(crate) fn published() -> [(Parameters, f64); 16] {
+        TABLE_6_2.map(|(r, _, size, published)| (of_shape(r, size), published))
+    }
+
+    /// The first amplitude that exceeds the limits by a time, and what is proved of it and of all
+    /// below.
+    pub(crate) fn first_by(&self, t_end: f64) -> Option<(f64, &Proved)> {
+        let proved = self
+            .proved
+            .iter()
+            .map_while(|(f_o, proved)| Some((*f_o, proved.as_ref()?)));
+        let exceeds = |proved: &Proved| proved.reason.exceeds() && proved.time() <= t_end;
+        let mut exceeding = proved.filter(|(_, proved)| exceeds(proved));
+        exceeding.next()
+    }
+
+    /// The critical force of the chapter's reading, which is proved.
+    pub(crate) fn first(&self) -> Option<(f64, &Proved)> {
+        self.first_by(Parameters::STANDARD.t_end)
+    }
+
+    /// What is proved of the published amplitude.
+    pub(crate) fn at_published(&self) -> Option<&Proved> {
+        let same = |f_o: f64| (f_o - self.published).abs() < 0.005;
+        let found = self.proved.iter().find(|(f_o, _)| same(*f_o));
+        found.and_then(|(_, proved)| proved.as_ref())
+    }
+
+    /// How many of the neighbours exceed at an amplitude.
+    pub(crate) fn neighbours(&self, f_o: f64) -> usize {
+        let same = |at: f64| (at - f_o).abs() < 0.005;
+        let found = self.probable.points.iter().find(|point| same(point.f_o));
+        found.map_or(0, |point| point.share.count)
+    }
+
+    /// Whether the published value is the one that is proved and that of all neighbours, surely not,
+    /// or open: it differs, but neighbours at or below it disagree.
+    pub(crate) fn verdict(&self) -> Verdict {
+        let all = NEIGHBOURS as usize;
+        let below = || {
+            let points = self.probable.points.iter();
+            points.filter(|point| point.f_o < self.published - 0.005)
+        };
+        let at_published = self.neighbours(self.published);
+        let equal = self
+            .first()
+            .is_some_and(|(f_o, _)| (f_o - self.published).abs() < 0.005);
+        let none_below = below().all(|point| point.share.count == 0);
+        match equal {
+            true if none_below && at_published == all => Verdict::Reproduced,
+            false if at_published == 0 || below().any(|point| point.share.count == all) => {
+                Verdict::NotReproduced
+            }
+            _ => Verdict::NotDecidable,
+        }
+    }
+}
