@@ -211,6 +211,7 @@ impl Page<'_> {
             },
             "rows of conventions" => html! {
                 @for row in &study.critical { (self.conventions(row)) }
+                (agreement(study))
             },
             "sentences table" => self.sentences(),
             "figures" => html! {
@@ -440,6 +441,25 @@ fn command(text: &str) -> Markup {
                 @if k > 0 { " " }
                 span { (word) }
             }
+        }
+    }
+}
+
+/// How many of the published values each convention gives.
+fn agreement(study: &Study) -> Markup {
+    let rows = study.critical.iter();
+    let mut counts = vec![0; END_TIMES.len() + 2];
+    for row in rows {
+        let published = decimals(row.published, 2);
+        for (count, number) in counts.iter_mut().zip(by_convention(row)) {
+            *count += usize::from(number.shown == published);
+        }
+    }
+    html! {
+        tr {
+            th scope="row" { "equal" }
+            td colspan="4" { "to the published" }
+            @for count in counts { td { (count) } }
         }
     }
 }

@@ -142,7 +142,7 @@ pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
             }
         }),
     );
-    let key = format!("table-6-2.csv: {}", verdict_key(row));
+    let key = format!("table-6-2.csv: verdict of {}", shape(row));
     numbers.push(Number::word(row.verdict().words(), REPORT, key));
     let found = &row.computed.chapter;
     let exact = intervals(found, "-", "; ", |f_o| f_o.to_string());
@@ -153,11 +153,9 @@ pub(crate) fn critical_outcome(row: &CriticalRow) -> Vec<Number> {
     numbers
 }
 
-fn verdict_key(row: &CriticalRow) -> String {
-    format!(
-        "verdict of r = {}, {} x {}",
-        row.r, row.size[0], row.size[1]
-    )
+/// The shape of a row and its cables, as the report names them.
+fn shape(row: &CriticalRow) -> String {
+    format!("r = {}, {} x {}", row.r, row.size[0], row.size[1])
 }
 
 /// The times at which a run may be ended: the critical force hangs on them.
@@ -171,7 +169,10 @@ pub(crate) fn by_convention(row: &CriticalRow) -> Vec<Number> {
         .into_iter()
         .map(|t_end| match row.first_by(t_end) {
             Some((f_o, _)) => Number::new(f_o, 2, &amplitude(row, f_o), ".case.f_o"),
-            None => none(&critical(row, Reading::Chapter)),
+            None => {
+                let key = format!("table-6-2.csv: t_end_{t_end} of {}", shape(row));
+                Number::word("none", REPORT, key)
+            }
         })
         .collect();
     let sliding_on = critical(row, Reading::SlidingOn);

@@ -1,6 +1,7 @@
 //! All tests of pictures from outside, as one program: it is linked once, and the tests of all
 //! files run side by side.
 
+mod insets;
 mod maps;
 mod paper;
 mod pictures;

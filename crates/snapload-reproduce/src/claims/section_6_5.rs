@@ -57,8 +57,8 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5-01", |of| {
         let kinds = ["slack", "sliding", "rocking"];
         let all = |run: &Trajectory| kinds.iter().all(|kind| count(run, &[kind]) > 0);
-        let intervals = kinds.map(|kind| count(&of.forced[0], &[kind]));
-        Ok(Finding::robust(&of.forced, all).values("slack sliding rocking", intervals))
+        let intervals = |run: &Trajectory| kinds.map(|kind| count(run, &[kind]) as f64);
+        Ok(Finding::robust(&of.forced, all).by_start("intervals", of.forced.iter().map(intervals)))
     }),
     ("6.5-02", |of| {
         let kinds = ["slack", "sliding", "rocking", "sliding", "slack"];

@@ -163,9 +163,12 @@ fn slides_for_a_while(tabled: &Tabled) -> Judged {
         first.map(|mode| (mode.t_start, mode.t_end))
     };
     let long = |run: &Trajectory| slide(run).is_some_and(|(from, to)| to - from > WHILE);
-    let words = slide(&runs[0]).map(|(from, to)| format!("slides from t = {from:.3} to {to:.3}"));
-    let words = words.unwrap_or("does not slide".to_owned());
-    Ok(Finding::robust(&runs, long).values("case slide", [CODE.to_owned(), words]))
+    let slides: Vec<(f64, f64)> = runs.iter().filter_map(slide).collect();
+    Ok(Finding::robust(&runs, long)
+        .value("case", CODE.to_owned())
+        .list("from", slides.iter().map(|slide| slide.0))
+        .list("to", slides.iter().map(|slide| slide.1))
+        .value("while", WHILE))
 }
 
 fn initial_spin() -> Judged {
@@ -178,9 +181,10 @@ fn initial_spin() -> Judged {
     let spins: Vec<Vec<f64>> = spins.collect();
     let rest = spins.iter().filter(|spins| spins.contains(&0.0)).count();
     let finding = Finding::robust(&spins, |spins| !spins.is_empty() && !spins.contains(&0.0));
+    let same = spins.iter().filter(|of| **of == spins[0]).count();
     Ok(finding
         .value("spins", format!("{:?}", spins[0]))
-        .values("rest members", [rest, spins.len()]))
+        .values("same rest members", [same, rest, spins.len()]))
 }
 
 /// Whether a run that settles does so under a force below the critical one of its body and cables.

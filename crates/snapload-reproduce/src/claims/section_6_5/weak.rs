@@ -10,13 +10,15 @@ use snapload::{Motion, State, System};
 pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-05", |of| {
         let low = |of: &Rocking| of.motion.iter().all(|now| now.state.y < LOW);
-        let widest = [
-            largest(&of.weak[0], |now| now.state.y),
-            largest(&of.weak[0], |now| now.state.theta.abs()),
-        ];
+        let widest = |of: &Rocking| {
+            [
+                largest(of, |now| now.state.y),
+                largest(of, |now| now.state.theta.abs()),
+            ]
+        };
         Ok(Finding::robust(&of.weak, |of| of.goes_on() && low(of))
             .list("from", of.weak.iter().map(|of| of.start))
-            .values("y theta", widest))
+            .by_start("widest", of.weak.iter().map(widest)))
     }),
     ("6.5.2.2-06", |of| {
         let on = of.weak.iter().filter(|of| of.goes_on()).count();
@@ -41,18 +43,17 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             ))
     }),
     ("6.5.2.2-08", |of| {
-        let forces = Forces::of(&of.weak[0]);
-        Ok(Finding::of(forces.wave_is_horizontal()).values(
-            "ratio little",
-            [forces.vertical / forces.horizontal, LITTLE],
-        ))
+        let forces: Vec<Forces> = of.weak.iter().map(Forces::of).collect();
+        Ok(Finding::robust(&forces, |of| of.wave_is_horizontal())
+            .list("ratio", forces.iter().map(|of| of.vertical / of.horizontal))
+            .value("little", LITTLE))
     }),
     ("6.5.2.2-15", |of| {
-        let forces = Forces::of(&of.weak[0]);
-        let ratio = forces.weight / forces.horizontal;
-        Ok(Finding::of(forces.horizontal_controls())
-            .value("ratio", ratio)
-            .found("weight_counts", ratio >= 1.0))
+        let forces: Vec<Forces> = of.weak.iter().map(Forces::of).collect();
+        let ratio = |of: &Forces| of.weight / of.horizontal;
+        Ok(Finding::robust(&forces, |of| of.horizontal_controls())
+            .list("ratio", forces.iter().map(ratio))
+            .found("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
     }),
     ("6.5.2.2-09", |of| {
         let impacts = above_arc(&of.weak[0]);

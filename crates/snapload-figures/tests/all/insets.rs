@@ -1,0 +1,93 @@
+//! A plot within a plot: a part enlarged, or the whole of which a part is shown.
+
+use crate::pictures::picture;
+use snapload::{Case, CaseError, named_case};
+use snapload_figures::{Axis, Colour, Inset, Layer, Plot, Range, RunPlot, RunPlots, Shape, Stroke};
+
+/// A line from the origin to a point.
+fn line(to: f64) -> Plot {
+    let points = vec![[0.0, 0.0], [to, to]];
+    Plot {
+        x: Axis::new("x", Range::Auto),
+        y: Axis::new("y", Range::Auto),
+        layers: vec![Layer::Line(vec![points], Stroke::default(), String::new())],
+        ..Plot::default()
+    }
+}
+
+fn words(svg: &str) -> Vec<String> {
+    let document = roxmltree::Document::parse(svg).expect("the picture is XML");
+    let texts = document
+        .descendants()
+        .filter(|node| node.has_tag_name("text"));
+    texts
+        .filter_map(|node| Some(node.text()?.to_owned()))
+        .collect()
+}
+
+/// The frames of a picture: left, top, width, height.
+fn frames(svg: &str) -> Vec<[f64; 4]> {
+    let document = roxmltree::Document::parse(svg).expect("the picture is XML");
+    let frames = document
+        .descendants()
+        .filter(|node| node.has_tag_name("rect") && node.attribute("fill") == Some("none"));
+    let side = |node: roxmltree::Node, name| node.attribute(name)?.parse().ok();
+    let sides = |node| ["x", "y", "width", "height"].map(|name| side(node, name).unwrap_or(0.0));
+    frames.map(sides).collect()
+}
+
+#[test]
+fn an_inset_stands_within_the_frame_with_numbers_of_its_own() {
+    let with = Plot {
+        inset: Some(Box::new(Inset {
+            plot: line(0.004),
+            place: [0.5, 0.1, 0.95, 0.6],
+        })),
+        ..line(700.0)
+    };
+    let (plain, with) = (picture(line(700.0)), picture(with));
+    assert_eq!(
+        (frames(plain.svg()).len(), frames(with.svg()).len()),
+        (1, 2)
+    );
+    let [outer, inner] = [0, 1].map(|k| frames(with.svg())[k]);
+    for k in 0..2 {
+        assert!(inner[k] > outer[k] && inner[k] + inner[k + 2] < outer[k] + outer[k + 2]);
+    }
+    assert!(words(with.svg()).len() > words(plain.svg()).len());
+}
+
+#[test]
+fn markers_of_plots_that_are_compared_have_one_size() {
+    let marked = |count: usize, at_least: usize| Plot {
+        markers: at_least,
+        layers: vec![Layer::Markers(
+            (0..count).map(|k| [k as f64, 1.0 + k as f64]).collect(),
+            Shape::Circle,
+            Colour::BLACK,
+            String::new(),
+        )],
+        ..line(1.0)
+    };
+    // Alone, few markers are larger than many; beside many they are as small.
+    let few = picture(marked(3, 0)).svg().to_owned();
+    let beside = picture(marked(3, 500)).svg().to_owned();
+    assert_ne!(few, beside);
+    assert_eq!(picture(marked(500, 0)).svg(), picture(marked(500, 3)).svg());
+}
+
+/// A run that goes on without snaps shows where they are, and the whole as an inset; one that snaps to
+/// its end has none.
+#[test]
+fn snaps_are_shown_where_they_are() -> Result<(), CaseError> {
+    let plot = |code: &str| -> Result<Plot, CaseError> {
+        let run = Case::new(named_case(code)?.parameters)?.run();
+        Ok(RunPlots::new(&run).plot(RunPlot::Snaps))
+    };
+    let quiet = plot("rocking-example")?;
+    let inset = quiet.inset.expect("an inset");
+    assert!(matches!(quiet.x.range, Range::Fixed(0.0, end) if end < 10.0));
+    assert_eq!(inset.plot.x.range, Range::AtLeast(0.0, 100.0));
+    assert!(plot("1910001000-359")?.inset.is_none());
+    Ok(())
+}
