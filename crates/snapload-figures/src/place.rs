@@ -1,7 +1,7 @@
 //! Where words go inside a plot: beside what they name, where the least ink is.
 
 use crate::polyline::holds;
-use crate::svg::{Anchor, Sheet};
+use crate::svg::{Anchor, FRAME, Sheet};
 use crate::text::{CAP_HEIGHT, SMALL, width};
 use kurbo::{Point, Rect, Size, Vec2};
 
@@ -11,6 +11,12 @@ const DOT: f64 = 1.6;
 const SAME_PLACE: f64 = 2.5 * DOT;
 /// The ink of a word or a dot, where a line counts one: lines may be crossed, words may not.
 const WORD: u32 = 50;
+/// How far words stay from each other.
+const APART: f64 = 4.0;
+/// A letter farther than this from its dot has a line to it.
+const FAR: f64 = 10.0;
+/// What it costs a letter to stand a point farther away, where a crossed line costs one.
+const AWAY: f64 = 0.4;
 /// How far words stay from the frame, close to which an I looks like a tick.
 const RIM: f64 = 3.0;
 /// How many places along a boundary are tried for its name.
@@ -77,21 +83,22 @@ impl Ink {
         inside.then(|| cells_of(rect).filter_map(ink).sum())
     }
 
-    /// Writes a word in the candidate with the least ink under it; of equal ones, in the first.
+    /// Writes a word in the candidate with the least ink under it; of equal ones, in the first. Tells
+    /// where it stands.
     fn write(
         &mut self,
         sheet: &mut Sheet,
         word: &str,
         candidates: impl Iterator<Item = (Rect, f64)>,
-    ) {
+    ) -> Option<Rect> {
         let costs = candidates.filter_map(|(rect, cost)| {
             let ink = self.under(rect)?;
             Some((rect, f64::from(ink) + cost))
         });
-        if let Some((rect, _)) = costs.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            self.add_rect(rect);
-            sheet.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
-        }
+        let (rect, _) = costs.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        self.add_rect(rect.inflate(APART, 0.0));
+        sheet.text_with_halo(word, Point::new(rect.x0, rect.y1), SMALL, Anchor::Start);
+        Some(rect)
     }
 }
 
@@ -141,9 +148,16 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
         sheet.dot(at, DOT);
     }
     for (at, letters) in &places {
-        let gaps = [3.0, 5.0, 8.0, 12.0].into_iter();
+        let gaps = [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 42.0].into_iter();
         let candidates = gaps.flat_map(|gap| beside(*at, letters, DOT + gap - 1.5));
-        ink.write(sheet, letters, candidates);
+        let candidates = candidates.map(|(rect, cost)| (rect, AWAY * cost));
+        if let Some(rect) = ink.write(sheet, letters, candidates) {
+            let side = |v: f64, from: f64, to: f64| v.clamp(from, to);
+            let near = Point::new(side(at.x, rect.x0, rect.x1), side(at.y, rect.y0, rect.y1));
+            if near.distance(*at) > FAR {
+                sheet.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
+            }
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 use crate::digits::digits;
 use crate::{Certified, Trusted, outcome_in_words, trust_in_words};
 use snapload::analysis::{NormErrors, digits_within};
-use snapload::{Impact, Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
+use snapload::{Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
 

@@ -1,17 +1,18 @@
 //! The report as one page of HTML that needs nothing else: the words of `data/page.html`, and what
 //! was computed where these name it in braces.
 
+mod rows;
+
 use crate::ReportError;
 use crate::claims::{Claim, Verdict};
 use crate::critical_row::{CriticalRow, NEIGHBOURS};
 use crate::figures::{Figure, Row};
 use crate::sentences::{Chapter, Kind};
-use crate::source::{Number, REPORT, critical, decimals, probability, run};
+use crate::source::{Number, REPORT, decimals};
 use crate::story::{self, story};
-use crate::study::{CaseRuns, Reading, Study};
-use crate::tables::{END_TIMES, EXCEEDING, by_convention, critical_outcome, outcome, rows_6_1};
+use crate::study::{CaseRuns, Study};
+use crate::tables::END_TIMES;
 use maud::{Markup, PreEscaped, html};
-use snapload::anchor_height;
 
 /// The symbols that plain text writes with an underscore, set as such.
 const SYMBOLS: [(&str, &str); 8] = [
@@ -68,14 +69,6 @@ pub(crate) fn page(
         }
     }
     Ok(text)
-}
-
-/// Up to where the numbers of a row are known.
-fn known_to(case: &CaseRuns, reading: Reading) -> String {
-    match (case.proved.of(reading), case.runs.of(reading).horizon) {
-        (None, Some(t)) => format!("t = {}", decimals(t, 2)),
-        _ => "the end".to_owned(),
-    }
 }
 
 /// What the page is made of, and the commands that it mentioned so far.
@@ -211,7 +204,7 @@ impl Page<'_> {
             },
             "rows of conventions" => html! {
                 @for row in &study.critical { (self.conventions(row)) }
-                (agreement(study))
+                (rows::agreement(study))
             },
             "sentences table" => self.sentences(),
             "figures" => html! {
@@ -265,98 +258,6 @@ impl Page<'_> {
     fn cite(&mut self, command: &str) -> Markup {
         let place = self.place(command);
         html! { a.cite href={ "#command-" (place) } title=(command) { "[" (place) "]" } }
-    }
-
-    fn table_6_1(&mut self) -> Markup {
-        let study = self.study;
-        let [chapter, sliding_on] = Reading::BOTH;
-        let same = |case: &CaseRuns| {
-            let [ends, goes_on] = Reading::BOTH.map(|reading| &case.runs.of(reading).run);
-            ends.end() == goes_on.end() && ends.norms() == goes_on.norms()
-        };
-        html! {
-            @for series in rows_6_1().chunk_by(|(p, _), (q, _)| p == q) {
-                tbody {
-                    tr { th colspan="19" scope="rowgroup" { "Series " (symbols(series[0].0)) } }
-                    @for case in series.iter().filter_map(|(_, code)| study.case(code)) {
-                        // One line where both readings come to the same, else two.
-                        @if same(case) {
-                            (self.outcome(case, "none", &Reading::BOTH))
-                        } @else {
-                            (self.outcome(case, "ends", &[chapter]))
-                            (self.outcome(case, "goes on", &[sliding_on]))
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    fn outcome(&mut self, case: &CaseRuns, sliding: &str, readings: &[Reading]) -> Markup {
-        let p = &case.parameters;
-        html! {
-            tr {
-                th scope="row" { (case.code) }
-                td.given { (p.r) } td.given { (decimals(anchor_height(p.r, p.a), 3)) } td.given { (p.e) }
-                td.given { (p.a) } td.given { (p.b) } td.given { (p.f_o) } td.given { (p.omega) }
-                td { (sliding) }
-                @for number in outcome(case, readings[0]) { td { (self.link(&number)) } }
-                td { (known_to(case, readings[0])) }
-                td { @for reading in readings { (self.cite(&run(case.code, *reading))) " " } }
-            }
-        }
-    }
-
-    fn critical(&mut self, row: &CriticalRow) -> Markup {
-        html! {
-            tr {
-                th scope="row" { (row.shape) }
-                td { (row.r) } td { (row.size[0]) } td { (row.size[1]) }
-                td { (decimals(row.published, 2)) }
-                @for number in critical_outcome(row) {
-                    td class=[(number.key == EXCEEDING).then_some("long")] {
-                        @if !number.shown.is_empty() { (self.link(&number)) }
-                    }
-                }
-                td { (self.cite(&critical(row, Reading::Chapter))) " " (self.cite(&probability(row))) }
-            }
-        }
-    }
-
-    fn conventions(&mut self, row: &CriticalRow) -> Markup {
-        html! {
-            tr {
-                th scope="row" { (row.shape) }
-                td { (row.r) } td { (row.size[0]) } td { (row.size[1]) }
-                td { (decimals(row.published, 2)) }
-                @for number in by_convention(row) { td { (self.link(&number)) } }
-            }
-        }
-    }
-
-    fn sentences(&self) -> Markup {
-        html! {
-            @for section in &self.chapter.sections {
-                tbody {
-                    tr { th colspan="3" scope="rowgroup" { "Section " (section.name) } }
-                    @for (k, sentence) in section.sentences.iter().enumerate() {
-                        tr {
-                            td { (k + 1) }
-                            td class="long" { "“" (symbols(&sentence.begins)) " …”" }
-                            td class="long" {
-                                @match &sentence.kind {
-                                    Kind::Claims(ids) => {
-                                        @for id in ids { a href={ "#claim-" (id) } { (id) } " " }
-                                    }
-                                    Kind::Definition => { "sets, describes or points to" }
-                                    Kind::NotCheckable(why) => { "not checkable: " (why) }
-                                }
-                            }
-                        }
-                    }
-                }
-            }
-        }
     }
 
     fn figure(&mut self, figure: &Figure) -> Markup {
@@ -441,25 +342,6 @@ fn command(text: &str) -> Markup {
                 @if k > 0 { " " }
                 span { (word) }
             }
-        }
-    }
-}
-
-/// How many of the published values each convention gives.
-fn agreement(study: &Study) -> Markup {
-    let rows = study.critical.iter();
-    let mut counts = vec![0; END_TIMES.len() + 2];
-    for row in rows {
-        let published = decimals(row.published, 2);
-        for (count, number) in counts.iter_mut().zip(by_convention(row)) {
-            *count += usize::from(number.shown == published);
-        }
-    }
-    html! {
-        tr {
-            th scope="row" { "equal" }
-            td colspan="4" { "to the published" }
-            @for count in counts { td { (count) } }
         }
     }
 }

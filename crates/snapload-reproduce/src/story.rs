@@ -144,8 +144,8 @@ pub(crate) fn story(code: &str) -> Vec<(Option<Number>, String)> {
             let (first, next) = (&stretches[k], stretches.get(k + together));
             let snaps = next.map_or(0, |next| next.snaps - first.snaps);
             let what = format!(
-                "slides {together} times with the left cable taut, none for longer than {SHORT}, between \
-                 {snaps} snaps"
+                "slides {together} times with the left cable taut, none for longer than {SHORT}, with {snaps} \
+                 snaps"
             );
             (what, k + together)
         } else {

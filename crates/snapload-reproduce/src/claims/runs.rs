@@ -104,14 +104,22 @@ pub(super) fn run(parameters: &Parameters) -> Result<Trajectory, CaseError> {
     Ok(Case::new(*parameters)?.run())
 }
 
-/// What is asked of the runs of many cases from each start, `[start][case]`: the first of them are
-/// those of 76 digits, the neighbours are in doubles.
+/// What is asked of the runs of many cases from each start, `[start][case]`, in doubles.
 pub(super) fn of_runs<T: Send>(
     cases: &[Parameters],
     neighbours: usize,
     what: impl Fn(&Run) -> T + Sync,
 ) -> Result<Vec<Vec<T>>, CaseError> {
-    let mut of_starts = from_starts(cases, neighbours, |case| Ok(what(&Run::of_doubles(case)?)))?;
+    from_starts(cases, neighbours, |case| Ok(what(&Run::of_doubles(case)?)))
+}
+
+/// The same, of which the first are those of 76 digits.
+pub(super) fn of_exact_runs<T: Send>(
+    cases: &[Parameters],
+    neighbours: usize,
+    what: impl Fn(&Run) -> T + Sync,
+) -> Result<Vec<Vec<T>>, CaseError> {
+    let mut of_starts = of_runs(cases, neighbours, &what)?;
     of_starts[0] = each(cases, |case| Ok(what(&Run::of_76_digits(case)?)))?;
     Ok(of_starts)
 }

@@ -7,7 +7,7 @@ mod swings;
 
 use super::motions::swings;
 use super::numbers::{count, falling, max, mean, mean_and_deviation, min, span, spearman};
-use super::runs::{MANY, case, chapter, near, of_runs, run, standard, table_codes};
+use super::runs::{MANY, case, chapter, near, of_exact_runs, run, standard, table_codes};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::many_digits::Run;
@@ -213,7 +213,7 @@ impl Sweeps<'_> {
         let curves = study.norms.iter().filter(|norms| norms.r == r);
         let forces = curves.flat_map(|norms| norms.points.chapter.iter().map(|p| p.0));
         let cases = forces.map(|f_o| chapter(standard(|p| (p.r, p.f_o) = (r, f_o))));
-        of_runs(&cases.collect::<Vec<_>>(), MANY, Swept::new)
+        of_exact_runs(&cases.collect::<Vec<_>>(), MANY, Swept::new)
     }
 
     /// A statement of the runs at either length, from all starts.

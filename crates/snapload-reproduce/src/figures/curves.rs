@@ -165,12 +165,22 @@ impl Curve {
     }
 }
 
-/// A line at the critical force of each reading, which is the last amplitude.
+/// A line at the critical force of each reading, which is the last amplitude; one where both are the
+/// same.
 fn critical_lines(points: &Both<Vec<(f64, Outcome)>>, top: f64) -> impl Iterator<Item = Layer> {
+    let last = |reading| points.of(reading).last().map(|(f_cr, _)| *f_cr);
+    let same = last(Reading::Chapter) == last(Reading::SlidingOn);
     let line = move |reading: Reading| {
         let (f_cr, _) = points.of(reading).last()?;
-        let stroke = Stroke::new(colour(reading), 0.6, Dash::Dashed);
-        let words = reading.either("critical, chapter", "critical, sliding on");
+        let (colour, words) = match same {
+            true if reading == Reading::Chapter => (Colour::BLACK, "critical force"),
+            true => return None,
+            false => (
+                colour(reading),
+                reading.either("critical, chapter", "critical, sliding on"),
+            ),
+        };
+        let stroke = Stroke::new(colour, 0.6, Dash::Dashed);
         Some(Layer::Line(
             vec![vec![[*f_cr, 0.0], [*f_cr, top]]],
             stroke,

@@ -6,7 +6,7 @@ use crate::study::{CaseRuns, Known, Reading, Study};
 use crate::tables::outcome;
 use serde::Deserialize;
 use snapload::Mode;
-use snapload_figures::{Inset, Layer, Plot, Range, RunPlot, RunPlots};
+use snapload_figures::{Inset, Layer, Mark, Plot, Range, RunPlot, RunPlots};
 
 /// A figure of a run of Table 6.1.
 #[derive(Deserialize)]
@@ -198,9 +198,41 @@ impl Example {
             numbers: Vec::new(),
             sources: Source::whole(command, View::Path.place()),
         };
-        let plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
+        let mut plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
+        plot.inset = apart(&plot).map(Box::new);
         Ok((plot, about))
     }
+}
+
+/// Where S, G and R lie on one place of the path, that place enlarged so that they are told apart.
+fn apart(plot: &Plot) -> Option<Inset> {
+    /// A place: so small a part of the distance of all letters.
+    const ONE_PLACE: f64 = 1e-2;
+    let marks = plot.layers.iter().find_map(|layer| match layer {
+        Layer::Letters(marks) => Some(marks),
+        _ => None,
+    })?;
+    let some: Vec<&Mark> = marks
+        .iter()
+        .filter(|mark| "SGR".contains(&mark.letter))
+        .collect();
+    let range = |points: &mut dyn Iterator<Item = f64>| {
+        let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+        points.fold((least, most), |(p, q), v| (p.min(v), q.max(v)))
+    };
+    let [x, y] = [0, 1].map(|k| range(&mut some.iter().map(|mark| mark.at[k])));
+    let whole = range(&mut marks.iter().map(|mark| mark.at[0]));
+    let size = (x.1 - x.0).max(y.1 - y.0);
+    if some.len() < 2 || size > ONE_PLACE * (whole.1 - whole.0) || size <= 0.0 {
+        return None;
+    }
+    let Inset { plot: mut part, .. } = enlarged(&mut plot.clone());
+    let about = |(from, to): (f64, f64)| Range::Fixed(from - 0.7 * size, to + 0.7 * size);
+    (part.x.range, part.y.range) = (about(x), about(y));
+    Some(Inset {
+        plot: part,
+        place: [0.02, 0.5, 0.42, 0.98],
+    })
 }
 
 /// What is said of a picture of which a part is past the horizon of its run.

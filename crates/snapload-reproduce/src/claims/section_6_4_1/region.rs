@@ -57,18 +57,18 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     }),
     ("6.4.1-08", |tabled| {
         let frames = frames(tabled)?;
-        let finding = Finding::robust(&frames, |[others, last]| !within(*last, *others, 1.0));
+        let finding = Finding::robust(&frames, |[others, last]| !within(*last, *others));
         Ok(finding
             .by_start("others", frames.iter().map(|f| f[0]))
             .by_start("last", frames.iter().map(|f| f[1])))
     }),
     ("6.4.1-40", |tabled| {
         let frames = frames(tabled)?;
-        let finding = Finding::robust(&frames, |[others, last]| within(*last, *others, 2.0));
-        let times = frames
-            .iter()
-            .map(|[others, last]| [0, 1].map(|k| last[k] / others[k]));
-        Ok(finding.by_start("times", times))
+        Ok(
+            Finding::robust(&frames, |[others, last]| doubled(*others, *last).is_some())
+                .by_start("least", frames.iter().filter_map(|[p, q]| doubled(*p, *q)))
+                .by_start("most", frames.iter().map(|frames| frames[1])),
+        )
     }),
 ];
 
@@ -180,12 +180,19 @@ fn frames(tabled: &Tabled) -> Result<Vec<[[f64; 2]; 2]>, ReportError> {
     Ok(frames.collect())
 }
 
-/// Whether a motion stays within a frame that is so many times as large.
-fn within(extent: [f64; 2], frame: [f64; 2], times: f64) -> bool {
+/// Whether a motion stays within a frame.
+fn within(extent: [f64; 2], frame: [f64; 2]) -> bool {
     extent
         .iter()
         .zip(frame)
-        .all(|(extent, side)| *extent <= times * side)
+        .all(|(extent, side)| *extent <= side)
+}
+
+/// The least frame that holds the other motions, and the last one when twice as large; none if it
+/// holds the last one as it is.
+fn doubled(others: [f64; 2], last: [f64; 2]) -> Option<[f64; 2]> {
+    let frame = [0, 1].map(|k| others[k].max(0.5 * last[k]));
+    (!within(last, frame)).then_some(frame)
 }
 
 #[cfg(test)]
@@ -199,7 +206,9 @@ mod tests {
         let below = anchor_height(r, 0.0) - HEIGHT;
         let lens = (r * r - below * below).sqrt() - 1.0;
         assert!((Bottom::of(r, [0.0; 2]).reach - lens).abs() < 1e-12);
-        assert!(within([1.9, 1.0], [1.0, 1.0], 2.0) && !within([1.9, 2.1], [1.0, 1.0], 2.0));
+        assert_eq!(doubled([0.3, 0.2], [1.4, 1.6]), Some([0.7, 0.8]));
+        // What is no larger than the others is not cut by a frame that holds these.
+        assert_eq!(doubled([0.3, 0.2], [0.2, 0.2]), None);
         let widths = by_width(r, 0.0);
         let narrowing: Vec<Bottom> = widths.iter().rev().copied().collect();
         assert!(flattens(&widths) && !flattens(&narrowing) && !flattens(&widths[..1]));

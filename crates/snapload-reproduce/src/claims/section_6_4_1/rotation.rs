@@ -1,10 +1,11 @@
 //! Section 6.4.1: the rotations of larger and smaller bodies.
 
+use crate::ReportError;
 use crate::claims::motions::{LARGE, Swing, ending, rotation, swings, turns};
 use crate::claims::numbers::{falling, max, mean, min, rising, span, spearman};
 use crate::claims::runs::{
     FEW, MANY, Tabled, by_case, case, chapter, first_rocking, from_starts, measured, of_runs,
-    past_settling, standard,
+    outcome, past_settling, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use crate::many_digits::Run;
@@ -210,25 +211,25 @@ fn close_to_rocking(tabled: &Tabled) -> Judged {
     /// How long it is looked for.
     const AFTER: f64 = 10.0;
     let own = tabled.of(RECTANGLES)?[0];
-    let mut cases = Vec::new();
-    for (code, run) in RECTANGLES.iter().zip(own) {
-        let t_end = run.end().t + AFTER;
-        let case = past_settling(case(tabled.study, code)?.parameters);
-        cases.push(Parameters { t_end, ..case });
-    }
-    let starts = from_starts(&cases, MANY, first_rocking)?;
-    // How long after the end the first rocking begins.
-    let waits = [0, 1, 2].map(|k| {
-        let of_starts = starts.iter().map(|all| all[k].map(|t| t - own[k].end().t));
-        of_starts.collect::<Vec<_>>()
-    });
+    let cases = RECTANGLES.map(|code| Ok(chapter(case(tabled.study, code)?.parameters)));
+    let cases: Vec<Parameters> = cases.into_iter().collect::<Result<_, ReportError>>()?;
+    // How long after the end of a run the first rocking begins.
+    let starts = from_starts(&cases, MANY, |case| {
+        let end = outcome(case)?.end.t;
+        let on = Parameters {
+            t_end: end + AFTER,
+            stop_when_sliding: false,
+            ..past_settling(*case)
+        };
+        Ok(first_rocking(&on)?.map(|t| t - end))
+    })?;
+    let waits = [0, 1, 2].map(|k| starts.iter().map(|all| all[k]).collect::<Vec<_>>());
     let words = [0, 1, 2].map(|k| {
         let known = span(waits[k].iter().flatten().copied(), 2);
         let never = waits[k].iter().filter(|wait| wait.is_none()).count();
-        let never = if never > 0 {
-            format!(" ({never} not within {AFTER})")
-        } else {
-            String::new()
+        let never = match never {
+            0 => String::new(),
+            count => format!(" ({count} not within {AFTER})"),
         };
         format!("{}, rocks {known} later{never}", ending(own[k].end()))
     });

@@ -105,6 +105,8 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
         let coarse: Vec<f64> = own.iter().step_by(step).map(|p| p.0).collect();
         let mut all = vec![own, between(curve, Reading::SlidingOn, part)];
         all.extend(neighbours(curve, &coarse)?);
+        // Where no amplitude exceeds over the whole part there is no curve.
+        all.retain(|points| points.iter().any(|p| p.1 < NEVER));
         verdicts.push(Verdict::robust(all.iter().map(|points| goes(points, sign))));
         let ends = |k: fn(&Points) -> Option<&(f64, f64)>| {
             shown_span(all.iter().filter_map(k).map(|p| p.1))

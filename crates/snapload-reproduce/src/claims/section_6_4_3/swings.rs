@@ -23,7 +23,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             })
         });
         let measured: Vec<[[f64; 3]; 2]> = measured.collect();
-        let grows = |[low, high, rho]: &[f64; 3]| *high > 2.0 * low && *rho > 0.8;
+        let grows = |[low, high, rho]: &[f64; 3]| *high > 2.0 * low && *rho > TREND;
         let text = |figure: usize| {
             let of = |k: usize| span(measured.iter().map(|all| all[figure][k]), 2);
             format!(
@@ -36,7 +36,7 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         let finding = Finding::robust(&measured, |figures| figures.iter().all(grows));
         Ok(finding
             .values("size number", [0, 1].map(text))
-            .value("angle", LARGE))
+            .values("angle trend", [LARGE, TREND]))
     }),
     ("6.4.3-12", |sweeps| {
         let found = sweeps
@@ -66,6 +66,9 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .list("last", changes.iter().map(|all| 100.0 * all[2])))
     }),
 ];
+
+/// A rank correlation that one sees as a trend.
+const TREND: f64 = 0.5;
 
 /// A rank correlation that one calls an association.
 const ASSOCIATION: f64 = 0.4;

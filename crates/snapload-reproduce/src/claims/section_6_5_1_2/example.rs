@@ -68,14 +68,14 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .found("in_flight", none && !moves.is_empty()))
     }),
     ("6.5.1.2-17", |of| {
-        let down = |s: &Story| {
+        let rise = |s: &Story| {
             let end = s.run.at(s.first.t_end.next_down()).state.y;
-            s.start.state.y - end
+            end - s.start.state.y
         };
         let both = |s: &Story| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
         Ok(of
-            .robust(|s| down(s) > 0.0 && both(s))
-            .list("down", of.stories.iter().map(down))
+            .robust(|s| rise(s) < 0.0 && both(s))
+            .list("rise", of.stories.iter().map(rise))
             .list(
                 "lasts",
                 of.stories.iter().map(|s| s.first.t_end - s.first.t_start),
