@@ -57,13 +57,13 @@ pub(super) fn rotation(run: &Run) -> f64 {
 
 /// The places at times a step apart, from a time to another one, of what is at each time `at`.
 pub(super) fn places(
-    mut at: impl FnMut(f64) -> State,
+    at: impl FnMut(f64) -> State,
     (from, to): (f64, f64),
     step: f64,
 ) -> Vec<[f64; 2]> {
     let count = ((to - from) / step).floor().max(0.0) as usize;
     let times = (0..=count).map(|k| from + k as f64 * step).chain([to]);
-    let states = times.map(|t| at(t));
+    let states = times.map(at);
     states.map(|state| [state.x, state.y]).collect()
 }
 

@@ -9,8 +9,9 @@ use snapload::{CaseError, Parameters, Playback, Stop};
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> =
     &[("6.4.3-18", dissipated), ("6.4.3-20", optimum)];
 
-/// Ways to tell how well energy is dissipated: the larger, the better.
-const EFFECTS: [(&str, fn(&Swept) -> f64); 3] = [
+/// A way to tell how well energy is dissipated: the larger, the better.
+type Effect = (&'static str, fn(&Swept) -> f64);
+const EFFECTS: [Effect; 3] = [
     ("energy lost in the impacts", |run| run.lost),
     ("the same per unit of time", |run| run.lost / run.t),
     ("least sum of snap velocities", |run| -run.norms.rho3),
@@ -63,9 +64,11 @@ const GONE: f64 = 0.9;
 /// By when, and up to which time the runs are looked at.
 const SOON: f64 = 10.0;
 
-/// What a case comes to that nothing but the limits ends: when it exceeds, if it does, and its
-/// mechanical energy at t = 10.
-fn without_stops(case: &Parameters) -> Result<(Option<f64>, f64), CaseError> {
+/// When a run exceeds, if it does, and its mechanical energy at t = 10.
+type Left = (Option<f64>, f64);
+
+/// What a case comes to that nothing but the limits ends.
+fn without_stops(case: &Parameters) -> Result<Left, CaseError> {
     let case = Parameters {
         stop_when_sliding: false,
         t_end: 2.0 * SOON,
@@ -78,7 +81,7 @@ fn without_stops(case: &Parameters) -> Result<(Option<f64>, f64), CaseError> {
 
 /// Whether a run has dissipated its energy by t = 10: it did not exceed till then, and has little of
 /// the energy left that it began with.
-fn is_dissipated((exceeds, energy): &(Option<f64>, f64)) -> bool {
+fn is_dissipated((exceeds, energy): &Left) -> bool {
     exceeds.is_none_or(|t| t > SOON) && *energy <= (1.0 - GONE) * Parameters::STANDARD.y
 }
 
@@ -96,7 +99,7 @@ fn dissipated(sweeps: &Sweeps) -> Judged {
     let words = lengths.map(|starts| {
         let usual = |runs: &Vec<_>| count(runs, is_dissipated) as f64 >= USUAL * runs.len() as f64;
         verdicts.push(Verdict::robust(starts.iter().map(usual)));
-        let spans = |holds: &dyn Fn(&(Option<f64>, f64)) -> bool| {
+        let spans = |holds: &dyn Fn(&Left) -> bool| {
             span(starts.iter().map(|runs| count(runs, holds) as f64), 0)
         };
         let exceed = spans(&|run| run.0.is_some_and(|t| t <= SOON));
