@@ -185,10 +185,16 @@ impl Example {
             Some(Mode::Rocking) => ", where it still rocks",
             _ => "",
         };
+        let mut plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
+        plot.inset = apart(&plot).map(Box::new);
+        let inset = match plot.inset {
+            Some(_) => " The inset enlarges the place of S, G and R.",
+            None => "",
+        };
         let caption = format!(
             "Path of the body's centre in the {case} ({chapter}), the settling rule off: I start, S sliding \
              starts, G the other boundary is struck while one cable is taut, R rocking starts, E the end at \
-             t = {}{still}.{}",
+             t = {}{still}.{inset}{}",
             run.end().t,
             beyond(known)
         );
@@ -198,8 +204,6 @@ impl Example {
             numbers: Vec::new(),
             sources: Source::whole(command, View::Path.place()),
         };
-        let mut plot = plots.with_horizon(known.horizon).plot(RunPlot::Trajectory);
-        plot.inset = apart(&plot).map(Box::new);
         Ok((plot, about))
     }
 }

@@ -96,7 +96,7 @@ impl Page<'_> {
                                     Kind::Claims(ids) => {
                                         @for id in ids { a href={ "#claim-" (id) } { (id) } " " }
                                     }
-                                    Kind::Definition => { "sets, describes or points to" }
+                                    Kind::Definition => { "no claim: it sets, describes or refers" }
                                     Kind::NotCheckable(why) => { "not checkable: " (why) }
                                 }
                             }
