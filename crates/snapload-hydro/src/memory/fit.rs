@@ -10,6 +10,7 @@ use super::{Memory, Term, TermRow};
 use crate::coefficients::{FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use nalgebra::{Complex, DVector, Matrix3};
+use std::f64::consts::PI;
 
 /// Numbers of pairs that are tried in turn, and the error of the fit and of K at which the first is
 /// taken.
@@ -317,6 +318,20 @@ fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
     for block in &fit.blocks {
         of_block(block, &mut warnings);
     }
+    let apart = hydro
+        .omega_rad_s
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .fold(0.0, f64::max);
+    let long = length(hydro, fit);
+    if long > PI / apart {
+        let words = format!(
+            "frequencies are up to {apart:.3} rad/s apart, which shows a memory of at most {:.1} s, and \
+             this one lasts {long:.1} s; compute them closer",
+            PI / apart
+        );
+        warnings.push(Warning::new("frequency steps", words));
+    }
     let own = fit
         .entries
         .iter()
@@ -330,6 +345,24 @@ fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
         warnings.push(Warning::new("off the fit", words));
     }
     warnings
+}
+
+/// How long the memory of one of the freedoms is above a fiftieth of its largest \[s\].
+fn length(hydro: &Hydrodynamics, fit: &Fit) -> f64 {
+    let step = 0.5 / hydro.range_rad_s()[1];
+    let kernels: Vec<Matrix3<f64>> = (0..1000)
+        .map(|k| fit.memory.kernel(step * f64::from(k)))
+        .collect();
+    let last = |i: usize| {
+        let largest = kernels
+            .iter()
+            .fold(0.0, |most: f64, k| most.max(k[(i, i)].abs()));
+        kernels
+            .iter()
+            .rposition(|k| k[(i, i)].abs() > 0.02 * largest)
+            .unwrap_or(0)
+    };
+    step * (0..3).map(last).max().unwrap_or(0) as f64
 }
 
 fn of_block(block: &BlockQuality, warnings: &mut Vec<Warning>) {

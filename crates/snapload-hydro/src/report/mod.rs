@@ -173,15 +173,19 @@ impl Floating {
                 warnings.push(Warning::new("pitch", words));
             }
         }
-        if let Some((rest, ..)) = &self.rest
-            && rest.q[2].abs() > 0.05
-        {
-            let words = format!(
-                "the body rests at {:.1}° of pitch, and the file was made for 0; make it again \
-                 there",
-                rest.q[2].to_degrees()
-            );
-            warnings.push(Warning::new("place of rest", words));
+        if let Some((rest, ..)) = &self.rest {
+            // ρV over the waterplane: the draft of a body with vertical sides.
+            let weight = reading.hydro.hydrostatics.displaced_mass_kg.unwrap_or(0.0);
+            let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
+            if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
+                let words = format!(
+                    "the body rests {:.3} m above and at {:.1}° of pitch from where the file has \
+                     it; make the file again there",
+                    rest.q[1],
+                    rest.q[2].to_degrees()
+                );
+                warnings.push(Warning::new("place of rest", words));
+            }
         }
     }
 }

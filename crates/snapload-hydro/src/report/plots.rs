@@ -91,7 +91,10 @@ fn added_mass(report: &Report, i: usize) -> Plot {
         OMEGA,
         (["*A*₁₁", "*A*₃₃", "*A*₅₅"][i], ["t", "t", "t m²"][i]),
     ];
-    plot(FREEDOMS[i], description, axes, layers)
+    let mut plot = plot(FREEDOMS[i], description, axes, layers);
+    // It may differ little from one frequency to another.
+    plot.y.range = Range::Auto;
+    plot
 }
 
 fn damping(report: &Report, i: usize) -> Plot {
@@ -111,7 +114,7 @@ fn memory(report: &Report, i: usize) -> Plot {
     let hydro = &report.reading.hydro;
     let curve = DampingCurve::new(&hydro.omega_rad_s, &hydro.damping_entry(i, i));
     // Until most of it is over: a few periods of the middle of the file's range.
-    let long = 16.0 * PI / hydro.range_rad_s()[1] * 2.0;
+    let long = 16.0 * PI / hydro.range_rad_s()[1];
     let times = || (0..=POINTS).map(move |k| long * k as f64 / POINTS as f64);
     let of_damping = times().map(|t| [t, curve.kernel(t) / KILO]).collect();
     let of_fit = times()

@@ -2,7 +2,7 @@
 
 use super::{Floating, Report};
 use crate::coefficients::FREEDOMS;
-use crate::linear::{Mode, Natural};
+use crate::linear::{Mode, Natural, Response};
 
 impl Report {
     /// Labels with their words, the most important first.
@@ -86,35 +86,31 @@ impl Floating {
             ),
         );
         say("periods", periods(&self.natural, &self.modes));
+        // A body that is its own mirror image answers alike to waves from either side.
+        let mut told: Vec<(String, Vec<&str>)> = Vec::new();
         for [response, _] in &self.responses {
             let to = if response.direction > 0.0 {
                 "+x"
             } else {
                 "−x"
             };
-            let peaks = (0..3).map(|i| {
-                let sizes = response.amplitude.iter().map(|xi| xi[i].norm());
-                let peak = sizes.zip(&response.omega_rad_s);
-                let (size, omega) = peak.fold((0.0, 0.0), |most, (size, omega)| {
-                    if size > most.0 { (size, *omega) } else { most }
-                });
-                let (size, unit) = match i {
-                    2 => (size.to_degrees(), "°/m"),
-                    _ => (size, "m/m"),
-                };
-                let period = 2.0 * std::f64::consts::PI / omega;
-                format!("{} {size:.2} {unit} at {period:.2} s", FREEDOMS[i])
-            });
-            let words = peaks.collect::<Vec<_>>().join(", ");
+            let words = largest(response);
+            match told.iter_mut().find(|(known, _)| *known == words) {
+                Some((_, directions)) => directions.push(to),
+                None => told.push((words, vec![to])),
+            }
+        }
+        for (words, directions) in told {
+            let to = directions.join(" and ");
             say("response", format!("waves to {to}, at most: {words}"));
         }
         if let Some((rest, natural, modes)) = &self.rest {
             let tensions = rest.tension_n.iter().map(|t| format!("{:.2}", t / 1e3));
             let words = format!(
                 "surge {:.4} m, heave {:.4} m, pitch {:.3}°; tensions {} kN",
-                rest.q[0],
-                rest.q[1],
-                rest.q[2].to_degrees(),
+                plain(rest.q[0], 1e-4),
+                plain(rest.q[1], 1e-4),
+                plain(rest.q[2].to_degrees(), 1e-3),
                 tensions.collect::<Vec<_>>().join(", "),
             );
             say("rest", words);
@@ -123,6 +119,29 @@ impl Floating {
             }
         }
     }
+}
+
+/// Zero where it is less than half a unit of the last place that is printed, so that it has no sign.
+fn plain(value: f64, unit: f64) -> f64 {
+    if value.abs() < 0.5 * unit { 0.0 } else { value }
+}
+
+/// The largest response of each freedom, and where it is.
+fn largest(response: &Response) -> String {
+    let peak = |i: usize| {
+        let sizes = response.amplitude.iter().map(|xi| xi[i].norm());
+        let pairs = sizes.zip(&response.omega_rad_s);
+        let (size, omega) = pairs.fold((0.0, 0.0), |most, (size, omega)| {
+            if size > most.0 { (size, *omega) } else { most }
+        });
+        let (size, unit) = match i {
+            2 => (size.to_degrees(), "°/m"),
+            _ => (size, "m/m"),
+        };
+        let period = 2.0 * std::f64::consts::PI / omega;
+        format!("{} {size:.2} {unit} at {period:.2} s", FREEDOMS[i])
+    };
+    (0..3).map(peak).collect::<Vec<_>>().join(", ")
 }
 
 fn periods(natural: &[Natural], modes: &[Mode]) -> String {

@@ -4,4 +4,5 @@ mod common;
 mod linear;
 mod memory;
 mod readers;
+mod report;
 mod sections;

@@ -3,7 +3,7 @@
 use crate::common::{hydro, reference};
 use nalgebra::{Complex, Matrix3, Vector3};
 use proptest::prelude::*;
-use snapload_hydro::{Fit, FitOptions, Memory, TermRow, fit};
+use snapload_hydro::{Fit, FitOptions, Memory, TermRow, fit, given};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 
@@ -126,6 +126,34 @@ fn poor_files_are_warned_of() {
     );
 }
 
+/// A middling file, of finite depth: it is taken, and what it lacks is said.
+#[test]
+fn middling_files_are_taken_with_warnings() {
+    let fit = fitted("pontoon.nc");
+    let about = |what: &str| fit.warnings.iter().any(|warning| warning.what == what);
+    // A∞ of the file and of its damping differ by 5 % in surge and by 2 % in heave.
+    let off = fit
+        .warnings
+        .iter()
+        .filter(|w| w.what == "added mass at infinity")
+        .count();
+    assert!(off == 2 && about("fit"), "{:?}", fit.warnings);
+    assert!(!about("irregular frequencies") && !about("passivity") && !about("frequency steps"));
+    assert!(fit.memory.least_eigenvalue(3.62) > -2e-9);
+    // The same body's memory in deep water lasts for more than 3 s, which frequencies 1.12 rad/s apart
+    // can not show.
+    let whole = fitted("pontoon-deep.nc");
+    let inf = std::array::from_fn(|i| std::array::from_fn(|j| whole.added_mass_inf[(i, j)]));
+    let dropped: Vec<usize> = (0..58).filter(|k| k % 14 != 0).collect();
+    let sparse = hydro("pontoon-deep.nc").without(&dropped);
+    let sparse = given(&sparse, inf, &whole.memory.rows()).expect("a fit");
+    let steps = sparse
+        .warnings
+        .iter()
+        .any(|warning| warning.what == "frequency steps");
+    assert!(steps, "{:?}", sparse.warnings);
+}
+
 /// The transform is the integral of the memory.
 #[test]
 fn the_transform_is_that_of_the_kernel() {
@@ -179,6 +207,46 @@ fn the_number_of_poles_can_be_chosen() {
     assert_eq!(few.memory.states(), 8 + 2 * 8);
     assert!(fit(&hydro, FitOptions { pairs: Some(0) }).is_err());
     assert!(fit(&hydro, FitOptions { pairs: Some(1000) }).is_err());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 10, ..ProptestConfig::default() })]
+
+    /// Random bodies whose waves take energy out, as sums of band passes v vᵀ s/(s² + 2ζω s + ω²), get
+    /// memories that do so too, and that are near.
+    #[test]
+    fn memories_of_random_bodies_are_passive(
+        heave in prop::array::uniform2((0.2..1.0_f64, 1.0..3.0_f64, 0.2..0.9_f64)),
+        surge in prop::array::uniform2((
+            prop::array::uniform2(-1.0..1.0_f64), 1.0..3.0_f64, 0.2..0.9_f64,
+        )),
+    ) {
+        let mut body = hydro("sphere.nc");
+        let pass = |omega: f64, (at, zeta): (f64, f64)| {
+            let s = Complex::new(0.0, omega);
+            s / (s * s + s * (2.0 * zeta * at) + at * at) * 1e5
+        };
+        for (k, omega) in body.omega_rad_s.clone().into_iter().enumerate() {
+            let mut whole = Matrix3::zeros();
+            for (size, at, zeta) in heave {
+                whole[(1, 1)] += pass(omega, (at, zeta)) * size;
+            }
+            for ([x, turn], at, zeta) in surge {
+                let v = Vector3::new(x, 0.0, turn);
+                let one = pass(omega, (at, zeta));
+                whole += (v * v.transpose()).map(|part| one * part);
+            }
+            body.damping[k] = whole.map(|z| z.re);
+            body.added_mass[k] = Matrix3::from_diagonal_element(1e5) + whole.map(|z| z.im / omega);
+        }
+        let fit = snapload_hydro::fit(&body, FitOptions { pairs: Some(6) }).expect("a fit");
+        prop_assert!(fit.memory.least_eigenvalue(4.64) > -2e-9);
+        prop_assert!(fit.blocks.iter().all(|block| !block.damped));
+        // Their damping falls more slowly beyond the last frequency than any body's.
+        for block in &fit.blocks {
+            prop_assert!(block.rms < 0.03, "{block:?}");
+        }
+    }
 }
 
 proptest! {

@@ -1,0 +1,76 @@
+//! What is said of coefficients: nothing is left out, and files that say less have fewer answers.
+
+use crate::common::{hydro, reading};
+use snapload_hydro::{FitOptions, Format, Line, Reading, Report, Request, page};
+
+fn request() -> Request {
+    Request {
+        fit: FitOptions { pairs: Some(4) },
+        ..Request::default()
+    }
+}
+
+/// A page with all pictures and warnings, a summary, and JSON with all numbers.
+#[test]
+fn everything_is_told() {
+    let mut request = request();
+    let line = |x: f64| Line {
+        anchor_m: [3.0 * x, -10.0],
+        fairlead_m: [x, -1.2],
+        length_m: 9.666436778876,
+    };
+    request.lines = vec![line(2.0), line(-2.0)];
+    request.weight.mass_kg = Some(80_000.0);
+    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+    let page = page(&report, "snapload hydro <pontoon>").expect("a page");
+    assert_eq!(page.matches("<svg").count(), 5);
+    for words in [
+        "held by its lines",
+        "Memory K(t)",
+        "Quality of the memory",
+        "high frequencies",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(!page.contains("<pontoon>") && !page.contains("NaN"));
+    let labels: Vec<String> = report
+        .summary()
+        .into_iter()
+        .map(|(label, _)| label)
+        .collect();
+    for label in [
+        "file", "memory", "body", "periods", "response", "rest", "held", "warning",
+    ] {
+        assert!(labels.iter().any(|known| known == label), "{label}");
+    }
+    let json = serde_json::to_value(report.to_json()).expect("JSON");
+    assert_eq!(json["omega_rad_s"].as_array().expect("ω").len(), 58);
+    assert_eq!(json["floating"]["rest"]["taut"], serde_json::json!([1, 2]));
+    assert_eq!(
+        json["floating"]["responses"]
+            .as_array()
+            .expect("responses")
+            .len(),
+        2
+    );
+    assert!(json["water"]["depth_m"].is_null());
+}
+
+/// A file without hydrostatics has a memory and no periods, and says what is missing.
+#[test]
+fn files_without_hydrostatics_say_so() {
+    let mut bare = hydro("sphere.nc");
+    bare.hydrostatics = Default::default();
+    let reading = Reading::new(Format::Nemoh, bare).expect("a reading");
+    let report = Report::new("sphere", reading, &request()).expect("a report");
+    let summary = report.summary();
+    let missing = summary
+        .iter()
+        .find(|(label, _)| label == "not told")
+        .expect("a row");
+    assert!(missing.1.contains("the mass is missing"), "{missing:?}");
+    assert_eq!(
+        page(&report, "").expect("a page").matches("<svg").count(),
+        4
+    );
+}
