@@ -96,6 +96,23 @@ fn the_printed_output_is_the_programs() {
     }
 }
 
+/// And of the floating body whose coefficients the manual looks at.
+#[test]
+fn the_printed_hydrodynamics_are_the_programs() {
+    let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+    let output = program
+        .current_dir(root())
+        .args(["hydro", "docs/examples/pontoon.nc"])
+        .output()
+        .expect("a run")
+        .stdout;
+    let output = String::from_utf8(output).expect("text");
+    assert!(
+        read("docs/hydrodynamics.md").contains(&output),
+        "docs/hydrodynamics.md prints something else than\n{output}"
+    );
+}
+
 /// And of the structure that the manual works through.
 #[test]
 fn the_printed_assessment_is_the_programs() {

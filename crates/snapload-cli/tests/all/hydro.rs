@@ -138,7 +138,7 @@ fn hydro_refuses_with_reasons() {
         (&["hydro", "pontoon.toml"], "Capytaine's .nc"),
         (&["hydro", "pontoon.nc", "--density", "1000"], "1025"),
         (&["hydro", "pontoon.nc", "--pairs", "99"], "1 to 20"),
-        (&["hydro", "pontoon.nc", "--mass", "-1"], "above 0"),
+        (&["hydro", "pontoon.nc", "--mass=-1"], "above 0"),
         (
             &["hydro", "pontoon.nc", "--memory", "no.json"],
             "added_mass_inf",
