@@ -10,6 +10,8 @@ use crate::motion::step_map::{Block, StepMap};
 pub struct Frame {
     /// The directions are columns; two more are zero.
     directions: Block<8>,
+    /// Their rows of the water's memory, if the body floats.
+    memory: Vec<[f64; 8]>,
     logs: [f64; 6],
     /// Lengths taken off since the logarithms were last taken.
     lengths: [f64; 6],
@@ -33,6 +35,7 @@ impl Frame {
         }
         Self {
             directions,
+            memory: Vec::new(),
             logs: [0.0; 6],
             lengths: [1.0; 6],
             bounces: 0,
@@ -45,7 +48,8 @@ impl Frame {
         if self.bounces > 0 {
             self.make_orthogonal();
         }
-        map.carry_at_one_time(&mut self.directions);
+        self.memory.resize(map.memory_rows(), [0.0; 8]);
+        map.carry_at_one_time(&mut self.directions, &mut self.memory);
         self.make_orthogonal();
     }
 
@@ -83,7 +87,7 @@ impl Frame {
             // A direction that the law has closed stays closed.
             *scale = if *square > 0.0 { 1.0 / *square } else { 0.0 };
         }
-        for row in &mut self.directions[..6] {
+        for row in self.directions[..6].iter_mut().chain(&mut self.memory) {
             for (entry, scale) in row.iter_mut().zip(scales) {
                 *entry *= scale;
             }
@@ -107,6 +111,11 @@ impl Frame {
                 more[k] += pair[1][I] * pair[1][k];
             }
         }
+        for row in &self.memory {
+            for (more, entry) in more.iter_mut().zip(row) {
+                *more += row[I] * entry;
+            }
+        }
         for (along, more) in along.iter_mut().zip(more) {
             *along += more;
         }
@@ -116,7 +125,7 @@ impl Frame {
         for (k, part) in along.iter_mut().enumerate() {
             *part = if k > I { *part * scale } else { 0.0 };
         }
-        for row in &mut self.directions[..6] {
+        for row in self.directions[..6].iter_mut().chain(&mut self.memory) {
             let direction = row[I];
             for (entry, part) in row.iter_mut().zip(along) {
                 *entry -= direction * part;

@@ -4,7 +4,7 @@ use crate::arithmetic::plane::{Rotation, Vector2};
 use crate::arithmetic::processor::apart;
 use crate::arithmetic::real::Real;
 use crate::model::cable::Normal;
-use crate::model::mass::Mass;
+use crate::model::mass::{Mass, Matrix3};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
@@ -130,6 +130,31 @@ pub(crate) fn acceleration<T: Real>(
         let normal = system.cables[cable].normal(state);
         mass.less(acceleration, &normal, tension[cable])
     })
+}
+
+/// What (ẍ, ÿ, θ̈) change by with a force (f_x, f_y) and a moment, by columns, while the cables of
+/// `taut` pull: M⁻¹ (1 − Gᵀ W⁻¹ G M⁻¹).
+pub(crate) fn response_to_force(system: &System, state: &State, taut: TautSet) -> Matrix3 {
+    let (normals, mass) = (system.normals(state, taut), &system.body.mass);
+    let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);
+    let mut response = [[0.0; 3]; 3];
+    for j in 0..3 {
+        let mut force = [0.0; 3];
+        force[j] = 1.0;
+        let free = mass.moved_by(force);
+        let mut load = [0.0; MAX_CABLES];
+        for cable in taut.iter() {
+            load[cable] = along(&normals[cable], &free);
+        }
+        let tension = solve(taut, w, &load);
+        let held = taut.iter().fold(free, |held, cable| {
+            mass.less(held, &normals[cable], tension[cable])
+        });
+        for (row, entry) in response.iter_mut().zip(held) {
+            row[j] = entry;
+        }
+    }
+    response
 }
 
 /// A taut cable, as the derivatives of the acceleration are taken from it.

@@ -363,17 +363,17 @@ mod tests {
                 }
                 let (mut a, mut b) = (start, start);
                 ours.along(&mut a);
-                theirs.carry_along(&mut b);
+                theirs.carry_along(&mut b, &mut []);
                 assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
                 ours.meet(&mut a);
-                theirs.carry_to_meet(&mut b);
+                theirs.carry_to_meet(&mut b, &mut []);
                 assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
                 ours.through(&mut a);
                 theirs.carry_through(&mut b);
                 assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
                 let (mut a, mut b) = (start, start);
                 ours.at_one_time(&mut a);
-                theirs.carry_at_one_time(&mut b);
+                theirs.carry_at_one_time(&mut b, &mut []);
                 (a[6], b[6]) = ([0.0; 7], [0.0; 7]);
                 assert!(difference(&a, &b) < 1e-7, "{parameters:?}");
                 let (a, b) = (ours.magnification_squared(), theirs.magnification_squared());

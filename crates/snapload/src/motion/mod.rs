@@ -25,4 +25,5 @@ pub(crate) mod taut_series;
 pub(crate) mod trajectory;
 pub(crate) mod two_cable_flight;
 pub(crate) mod two_cables;
+pub(crate) mod water_flow;
 pub(crate) mod water_series;

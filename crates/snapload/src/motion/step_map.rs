@@ -2,7 +2,10 @@
 //! of them.
 //!
 //! Deviations are told at the events, as (w, τ): see [`crate::motion::tangent`], which makes these
-//! maps.
+//! maps. Of a floating body what the water remembers deviates, too: it is told beside them, as rows of
+//! its own, of which other bodies have none.
+
+use crate::motion::water_flow::WaterFlow;
 
 /// ∂z/∂z, rows by what changes: 6 × 6, order x, y, θ, ẋ, ẏ, θ̇.
 pub type Matrix = [[f64; 6]; 6];
@@ -15,7 +18,7 @@ pub type Deviation = [f64; 7];
 pub(crate) type Block<const M: usize> = [[f64; M]; 7];
 
 /// One step of the linearised motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct StepMap {
     pub(super) flow: Flow,
     /// ż₋ − Φ ż₊.
@@ -28,21 +31,40 @@ pub struct StepMap {
     pub(super) law: Option<[[f64; 6]; 3]>,
     /// ż after the event.
     pub(super) rate_after: [f64; 6],
+    /// The same of the water's memory, if the body floats.
+    pub(super) memory: Option<Box<MemoryRates>>,
+}
+
+/// Of each state of the water's memory, real and imaginary part in turn.
+#[derive(Clone, Debug)]
+pub(super) struct MemoryRates {
+    /// ż₋ − Φ ż₊.
+    pub(super) lag: Vec<f64>,
+    /// ż₋.
+    pub(super) rate: Vec<f64>,
+    /// ż after the event.
+    pub(super) rate_after: Vec<f64>,
 }
 
 /// Φ along a stretch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Flow {
     /// How long it is.
     pub(super) s: f64,
     /// Φ where velocities change by the state: with taut cables, or drag. Else positions drift with
     /// the velocities.
     pub(super) driven: Option<Matrix>,
+    /// Φ of a floating body.
+    pub(super) water: Option<Box<WaterFlow>>,
 }
 
 impl Flow {
     #[inline(always)]
-    pub(super) fn carry<const M: usize>(&self, block: &mut Block<M>) {
+    pub(super) fn carry<const M: usize>(&self, block: &mut Block<M>, memory: &mut [[f64; M]]) {
+        if let Some(water) = &self.water {
+            water.carry(block, memory);
+            return;
+        }
         match &self.driven {
             None => {
                 for i in 0..3 {
@@ -60,41 +82,55 @@ impl Flow {
 impl StepMap {
     /// Along the stretch: (w, τ) just before the event, told at the previous event's time.
     pub fn along(&self, deviation: &Deviation) -> Deviation {
-        single(deviation, |block| self.carry_along(block))
+        self.single(deviation, |block, memory| self.carry_along(block, memory))
     }
 
     /// To the event's own time.
     pub fn meet(&self, deviation: &Deviation) -> Deviation {
-        single(deviation, |block| self.carry_to_meet(block))
+        self.single(deviation, |block, memory| self.carry_to_meet(block, memory))
     }
 
     /// Through the law of the event.
     #[inline(always)]
     pub fn through(&self, deviation: &Deviation) -> Deviation {
-        single(deviation, |block| self.carry_through(block))
+        self.single(deviation, |block, _| self.carry_through(block))
     }
 
     /// [`StepMap::along`] of many.
     #[inline(always)]
-    pub(crate) fn carry_along<const M: usize>(&self, block: &mut Block<M>) {
-        self.flow.carry(block);
+    pub(crate) fn carry_along<const M: usize>(
+        &self,
+        block: &mut Block<M>,
+        memory: &mut [[f64; M]],
+    ) {
+        self.flow.carry(block, memory);
         let tau = block[6];
         for (i, lag) in self.lag.iter().enumerate() {
             add_row(block, i, &tau, *lag);
+        }
+        if let Some(rates) = &self.memory {
+            add_rows(memory, &rates.lag, &tau, 1.0);
         }
     }
 
     /// [`StepMap::meet`] of many.
     #[inline(always)]
-    pub(crate) fn carry_to_meet<const M: usize>(&self, block: &mut Block<M>) {
+    pub(crate) fn carry_to_meet<const M: usize>(
+        &self,
+        block: &mut Block<M>,
+        memory: &mut [[f64; M]],
+    ) {
         let later = combined(block, &self.delay);
         for (i, rate) in self.rate.iter().enumerate() {
             add_row(block, i, &later, *rate);
         }
         add_row(block, 6, &later, 1.0);
+        if let Some(rates) = &self.memory {
+            add_rows(memory, &rates.rate, &later, 1.0);
+        }
     }
 
-    /// [`StepMap::through`] of many.
+    /// [`StepMap::through`] of many; an impact leaves the memory as it is.
     #[inline(always)]
     pub(crate) fn carry_through<const M: usize>(&self, block: &mut Block<M>) {
         if let Some(law) = &self.law {
@@ -108,14 +144,21 @@ impl StepMap {
 
     /// All of the step for many deviations at one time, at its start and at its end.
     #[inline(always)]
-    pub(crate) fn carry_at_one_time<const M: usize>(&self, block: &mut Block<M>) {
+    pub(crate) fn carry_at_one_time<const M: usize>(
+        &self,
+        block: &mut Block<M>,
+        memory: &mut [[f64; M]],
+    ) {
         block[6] = [0.0; M];
-        self.carry_along(block);
-        self.carry_to_meet(block);
+        self.carry_along(block, memory);
+        self.carry_to_meet(block, memory);
         self.carry_through(block);
         let tau = block[6];
         for (i, rate) in self.rate_after.iter().enumerate() {
             add_row(block, i, &tau, -rate);
+        }
+        if let Some(rates) = &self.memory {
+            add_rows(memory, &rates.rate_after, &tau, -1.0);
         }
     }
 
@@ -132,10 +175,43 @@ impl StepMap {
         add_scaled(&w, &self.rate_after, -tau)
     }
 
-    /// All of the step for a deviation at one time, at its start and at its end.
+    /// All of the step for a deviation at one time, at its start and at its end. Of a floating body
+    /// the water's memory does not deviate at the start.
     pub fn fundamental(&self, deviation: &[f64; 6]) -> [f64; 6] {
-        let end = single(&join(deviation, 0.0), |block| self.carry_at_one_time(block));
-        split(&end).0
+        self.fundamental_with_memory(deviation, &mut vec![0.0; self.memory_rows()])
+    }
+
+    /// The same with a deviation of the water's memory, real and imaginary part of each state in turn.
+    pub fn fundamental_with_memory(&self, deviation: &[f64; 6], memory: &mut [f64]) -> [f64; 6] {
+        let mut block = join(deviation, 0.0).map(|component| [component]);
+        let mut rows: Vec<[f64; 1]> = memory.iter().map(|component| [*component]).collect();
+        self.carry_at_one_time(&mut block, &mut rows);
+        for (component, [row]) in memory.iter_mut().zip(rows) {
+            *component = row;
+        }
+        split(&block.map(|[component]| component)).0
+    }
+
+    /// How many rows the deviations of the water's memory have: two for each of its states.
+    pub(crate) fn memory_rows(&self) -> usize {
+        self.memory.as_ref().map_or(0, |rates| rates.rate.len())
+    }
+
+    /// ż of the water's memory just before the event.
+    pub(crate) fn memory_rate(&self) -> &[f64] {
+        self.memory.as_ref().map_or(&[], |rates| &rates.rate)
+    }
+
+    /// An operation on blocks, on one deviation, with none of the water's memory.
+    #[inline(always)]
+    fn single(
+        &self,
+        deviation: &Deviation,
+        carry: impl Fn(&mut Block<1>, &mut [[f64; 1]]),
+    ) -> Deviation {
+        let mut block = deviation.map(|component| [component]);
+        carry(&mut block, &mut vec![[0.0]; self.memory_rows()]);
+        block.map(|[component]| component)
     }
 
     /// −∇h/ḣ: how much later the event comes for a deviation just before it.
@@ -176,6 +252,16 @@ fn add_row<const M: usize>(block: &mut Block<M>, to: usize, row: &[f64; M], fact
     }
 }
 
+/// Adds rates times a row, row by row.
+#[inline(always)]
+fn add_rows<const M: usize>(rows: &mut [[f64; M]], rates: &[f64], by: &[f64; M], factor: f64) {
+    for (row, rate) in rows.iter_mut().zip(rates) {
+        for (sum, entry) in row.iter_mut().zip(by) {
+            *sum += factor * rate * entry;
+        }
+    }
+}
+
 /// A linear function of the state, of every deviation.
 #[inline(always)]
 pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> [f64; M] {
@@ -186,14 +272,6 @@ pub(crate) fn combined<const M: usize>(block: &Block<M>, factors: &[f64; 6]) -> 
         }
     }
     sum
-}
-
-/// An operation on blocks, on one deviation.
-#[inline(always)]
-pub(super) fn single(deviation: &Deviation, carry: impl Fn(&mut Block<1>)) -> Deviation {
-    let mut block = deviation.map(|component| [component]);
-    carry(&mut block);
-    block.map(|[component]| component)
 }
 
 #[inline(always)]

@@ -19,14 +19,16 @@
 //! for one cable alone, which is nearly every impact, it is written out there.
 
 use crate::arithmetic::dual::Dual;
+use crate::model::floating::Floating;
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
-use crate::motion::active_set::{acceleration, slopes_of_acceleration};
+use crate::motion::active_set::{acceleration, response_to_force, slopes_of_acceleration};
 use crate::motion::impact::{impact, slope_of_impact_alone};
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
-use crate::motion::step_map::{Flow, Matrix, StepMap, add_scaled, dot6, join, single, split};
+use crate::motion::step_map::{Flow, Matrix, MemoryRates, StepMap, add_scaled, dot6, join, split};
+use crate::motion::water_flow::{Slopes, WaterFlow, memory_rates, pace_of_memory};
 
 type Number = Dual<f64, 6>;
 
@@ -47,9 +49,13 @@ pub struct Tangent {
 impl Tangent {
     /// Of the motions of a system.
     pub fn new(system: &System) -> Self {
-        Self {
-            system: system.map(Number::constant),
+        let mut system = system.map(Number::constant);
+        // What does not depend on the state is told with the memory's force.
+        if let Some(water) = &mut system.floating {
+            water.constant = [Number::constant(0.0); 3];
+            water.excitation.clear();
         }
+        Self { system }
     }
 
     /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
@@ -64,30 +70,55 @@ impl Tangent {
     #[inline(always)]
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
+        let afloat = system.floating.as_ref();
         let flow = Flow {
             s: step.t_end - step.t_start,
-            driven: if system.flies_freely(step.taut) {
+            driven: if system.flies_freely(step.taut) || afloat.is_some() {
                 None
             } else {
                 Some(self.driven_flow(simulation, step))
             },
+            water: afloat.map(|water| Box::new(self.water_flow(simulation, step, water))),
         };
-        let first = rate(system, step.t_start, &step.start, step.taut);
-        let last = rate(system, step.t_end, &step.before, step.taut);
+        let pull = simulation.memory_force_within(step, 0.0);
+        let first = rate(system, step.t_start, &step.start, pull, step.taut);
+        // An event leaves the water's memory as it is.
+        let pull = simulation.memory_force();
+        let last = rate(system, step.t_end, &step.before, pull, step.taut);
         let rate_after = if step.taut == step.taut_after && system.flies_freely(step.taut) {
             // In flight the force alone accelerates, and it does not jump.
             let State { vx, vy, vtheta, .. } = step.after;
             [vx, vy, vtheta, last[3], last[4], last[5]]
         } else {
-            rate(system, step.t_end, &step.after, step.taut_after)
+            rate(system, step.t_end, &step.after, pull, step.taut_after)
+        };
+        let mut begun = join(&first, 0.0).map(|component| [component]);
+        let memory = match afloat {
+            None => {
+                flow.carry(&mut begun, &mut []);
+                None
+            }
+            Some(water) => {
+                let start = simulation.memory_at_start();
+                let carried = memory_rates(water, &start, &step.start);
+                let mut carried: Vec<[f64; 1]> = carried.into_iter().map(|rate| [rate]).collect();
+                flow.carry(&mut begun, &mut carried);
+                let rate = memory_rates(water, simulation.memory(), &step.before);
+                let lag = rate
+                    .iter()
+                    .zip(&carried)
+                    .map(|(rate, [begun])| rate - begun);
+                Some(Box::new(MemoryRates {
+                    lag: lag.collect(),
+                    rate_after: memory_rates(water, simulation.memory(), &step.after),
+                    rate,
+                }))
+            }
         };
         StepMap {
             flow,
-            lag: add_scaled(
-                &last,
-                &split(&single(&join(&first, 0.0), |block| flow.carry(block))).0,
-                -1.0,
-            ),
+            lag: add_scaled(&last, &split(&begun.map(|[component]| component)).0, -1.0),
+            memory,
             rate: last,
             delay: self.delay(system, step, &last),
             law: if step.event.reached.gaps.is_empty() {
@@ -130,6 +161,28 @@ impl Tangent {
         phi.map(|[x, y, theta, vx, vy, vtheta, ..]| [x, y, theta, vx, vy, vtheta])
     }
 
+    /// Φ of a floating body: a power series where its motion is linear, else by the rule of Runge and
+    /// Kutta.
+    fn water_flow(&self, simulation: &Simulation, step: &Step, water: &Floating) -> WaterFlow {
+        let s = step.t_end - step.t_start;
+        let system = simulation.system();
+        let slopes = |at: f64| Slopes {
+            by_state: self.slopes_within(simulation, step, at),
+            by_force: response_to_force(system, &simulation.within(step, at), step.taut),
+        };
+        let first = slopes(0.0);
+        if step.taut.is_empty() && system.drag.is_none() {
+            return WaterFlow::constant(water, s, first);
+        }
+        let pace = pace_of_deviations(&first.by_state, system.body.inertia());
+        let pace = pace.max(pace_of_memory(water)) / RADIANS;
+        let pace = (SUBSTEPS / simulation.expansion()).max(pace);
+        let count = (pace * s).ceil().max(1.0);
+        let h = s / count;
+        let nodes = (1..=2 * count as u32).map(|k| slopes(0.5 * h * f64::from(k)));
+        WaterFlow::varying(water, h, std::iter::once(first).chain(nodes).collect())
+    }
+
     /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.
     #[inline(always)]
     fn slopes_within(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
@@ -138,8 +191,8 @@ impl Tangent {
             Some(slopes) => slopes,
             None => {
                 let t = Number::constant(t);
-                let still = [Number::constant(0.0); 3];
-                acceleration(&self.system, t, &variables(&state), still, step.taut).map(|a| a.slope)
+                let held = simulation.held_within(step, s).map(Number::constant);
+                acceleration(&self.system, t, &variables(&state), held, step.taut).map(|a| a.slope)
             }
         }
     }
@@ -192,8 +245,8 @@ fn variables(state: &State) -> State<Number> {
 
 /// ż.
 #[inline(always)]
-fn rate(system: &System, t: f64, state: &State, taut: TautSet) -> [f64; 6] {
-    let [x, y, theta] = acceleration(system, t, state, [0.0; 3], taut);
+fn rate(system: &System, t: f64, state: &State, memory_force: [f64; 3], taut: TautSet) -> [f64; 6] {
+    let [x, y, theta] = acceleration(system, t, state, memory_force, taut);
     [state.vx, state.vy, state.vtheta, x, y, theta]
 }
 
@@ -294,6 +347,7 @@ mod tests {
                 simulation.system(),
                 step.t_end,
                 &step.after,
+                [0.0; 3],
                 step.taut_after,
             );
             let largest = columns

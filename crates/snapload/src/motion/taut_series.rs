@@ -55,6 +55,7 @@ use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
 use crate::motion::events::EventFunction;
+use crate::motion::extremes::rises_above_zero;
 use crate::motion::limits::Limits;
 use crate::motion::water_series::WaterSeries;
 
@@ -395,6 +396,18 @@ impl<T: Real> Series<T> {
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER);
         (gap, rate)
+    }
+
+    /// Whether a cable that was at rest at the start, as one that has just lost its tension is, opens
+    /// all along up to a time `s`: ġ rises nowhere.
+    pub(crate) fn opens_from_rest(&self, cable: usize, s: T) -> bool {
+        let gap = &self.lines[cable].gap;
+        let rate = |s: T| {
+            let [_, rate, accel] = gap.jet(s, ORDER);
+            (rate - STILL, accel)
+        };
+        let third = gap.derivative_bound(3, self.step, ORDER);
+        self.contacts[cable].resting && !rises_above_zero(&rate, s, third)
     }
 
     /// Bound on |g̈| of a slack cable over the step.

@@ -30,6 +30,8 @@ use crate::model::system::System;
 
 /// e^x is bounded by (1 − x/n)^{−n}, 0 ≤ x < n, with n = 2^[`HALVINGS`].
 const HALVINGS: usize = 4;
+/// More than any motion: not infinite, which numbers of many digits can not be.
+const UNBOUNDED: f64 = 1e300;
 
 /// The norm in which the linear motion is bounded.
 #[derive(Clone, Debug)]
@@ -230,8 +232,8 @@ impl<T: Real> WaterSeries<T> {
         force
     }
 
-    /// A bound on what the series leave out of (q, q̇/λ, ζ z) up to `s`; infinite where `s` is too
-    /// long to tell.
+    /// A bound on what the series leave out of (q, q̇/λ, ζ z) up to `s`; [`UNBOUNDED`] where `s` is
+    /// too long to tell.
     #[inline(always)]
     pub(crate) fn remainder(&self, s: T) -> T {
         let Norm {
@@ -239,7 +241,7 @@ impl<T: Real> WaterSeries<T> {
         } = &self.norm;
         let mut left = T::ONE - *growth * s * 0.5_f64.powi(HALVINGS as i32);
         if left <= T::ZERO {
-            return T::ONE / T::ZERO;
+            return T::from_f64(UNBOUNDED);
         }
         for _ in 0..HALVINGS {
             left = left * left;
@@ -260,6 +262,16 @@ impl<T: Real> WaterSeries<T> {
         let mut force = [T::ZERO; 3];
         for (force, pull) in force.iter_mut().zip(&self.pull) {
             [*force, ..] = pull.jet(s, ORDER);
+        }
+        force
+    }
+
+    /// F_mem − F_w − F_c then.
+    pub(crate) fn held_force(&self, s: T) -> [T; 3] {
+        let mut force = self.memory_force(s);
+        for (force, pushed) in force.iter_mut().zip(&self.excitation) {
+            let [pushed, ..] = pushed.jet(s, ORDER);
+            *force -= pushed;
         }
         force
     }

@@ -88,6 +88,12 @@ impl FloatingCase {
         Simulation::new(self.system.clone(), rules, 0.0, self.start).expect("a legal start")
     }
 
+    /// When the impacts are \[s\], one for each row.
+    pub fn impact_times(&self) -> Vec<f64> {
+        let times = self.rows().iter().map(|row| row["t"].as_f64());
+        times.map(|t| t.expect("a time")).collect()
+    }
+
     fn rows(&self) -> &'static Vec<Value> {
         self.truth["impacts"].as_array().expect("impacts")
     }

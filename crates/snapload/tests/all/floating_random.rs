@@ -10,10 +10,10 @@ use snapload::{
 };
 
 /// Numbers without order, evenly between −1 and 1, the same for every run (SplitMix64).
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -65,7 +65,7 @@ impl Random {
     }
 
     /// A floating body on two cables, at a place where both are slack, on its way.
-    fn body(&mut self, waves: usize) -> (System, State) {
+    pub fn body(&mut self, waves: usize) -> (System, State) {
         let mass = self.definite(0.5, 0.3);
         let mut stiffness = self.definite(0.8, 0.1);
         stiffness[0] = [0.0; 3];

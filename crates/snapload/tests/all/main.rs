@@ -17,6 +17,7 @@ mod derivatives;
 mod drag;
 mod floating;
 mod floating_random;
+mod floating_trust;
 mod invariants;
 mod linearised_motion;
 mod many_cables;

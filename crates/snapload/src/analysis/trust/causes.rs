@@ -192,7 +192,15 @@ impl Closing {
             let [.., x, y, theta] = approach.rate;
             system.free_normal_acceleration(cable, &step.before, [x, y, theta])
         } else {
-            normal_acceleration(system, step.t_end, &step.before, [0.0; 3], cable, step.taut)
+            let memory_force = simulation.memory_force();
+            normal_acceleration(
+                system,
+                step.t_end,
+                &step.before,
+                memory_force,
+                cable,
+                step.taut,
+            )
         };
         Some(Self { cable, v_n, alpha })
     }

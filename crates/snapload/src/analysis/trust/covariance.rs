@@ -14,6 +14,9 @@ pub(super) struct CovarianceFactor {
     pub(super) parts: Parts<f64>,
     /// For each uncertain parameter.
     pub(super) columns: Vec<Deviation>,
+    /// Rows of the parts that tell of the water's memory, if the body floats: real and imaginary part
+    /// of each state in turn.
+    pub(super) memory: Vec<[f64; COLUMNS]>,
 }
 
 /// A spread beyond this is no longer followed: nothing is known, and squares would leave the range
@@ -30,6 +33,7 @@ impl CovarianceFactor {
         Self {
             parts,
             columns: Vec::new(),
+            memory: Vec::new(),
         }
     }
 
@@ -37,29 +41,43 @@ impl CovarianceFactor {
     #[inline(always)]
     pub(super) fn carried(
         &self,
-        map: impl FnOnce(&mut Block<COLUMNS>),
+        map: impl FnOnce(&mut Block<COLUMNS>, &mut [[f64; COLUMNS]]),
         columns: Vec<Deviation>,
     ) -> Self {
-        let mut rows = self.parts.rows;
-        map(&mut rows);
+        let (mut rows, mut memory) = (self.parts.rows, self.memory.clone());
+        map(&mut rows, &mut memory);
         Self {
             parts: self.parts.with(rows),
             columns,
+            memory,
         }
     }
 
-    /// The same with seven parts, so that the last column is free for one more.
+    /// The same with seven parts, so that the last column is free for one more. Those of a floating
+    /// body stay: they have more rows than could be turned into seven columns.
     #[inline(always)]
     pub(super) fn with_seven(mut self) -> Self {
-        if self.parts.rows.iter().any(|row| row[LAST] != 0.0) {
+        if self.memory.is_empty() && self.parts.rows.iter().any(|row| row[LAST] != 0.0) {
             self.parts.rows = seven(self.parts.rows);
         }
         self
     }
 
-    /// The same with one more part, in the column that is left free for it.
+    /// The same with one more part, in the column that is left free for it; of a floating body it is
+    /// added to another with a sign that follows no rule ([`crate::analysis::trust::parts`]). `memory`
+    /// are its rows of the water's memory, for a unit of `late`.
     #[inline(always)]
-    pub(super) fn with_part(mut self, part: &Deviation) -> Self {
+    pub(super) fn with_part(mut self, part: &Deviation, memory: &[f64], late: f64) -> Self {
+        if !self.memory.is_empty() {
+            let [sign, _] = self.parts.signs();
+            for (row, entry) in self.parts.rows.iter_mut().zip(part) {
+                row[LAST] += sign * entry;
+            }
+            for (row, rate) in self.memory.iter_mut().zip(memory) {
+                row[LAST] += sign * rate * late;
+            }
+            return self;
+        }
         for (row, entry) in self.parts.rows.iter_mut().zip(part) {
             row[LAST] = *entry;
         }
@@ -72,12 +90,31 @@ impl CovarianceFactor {
         if self.is_lost() {
             return;
         }
+        if !self.memory.is_empty() {
+            self.add_by_sign(more);
+            return;
+        }
         let mut all = [[0.0; 2 * COLUMNS]; 7];
         for (row, (parts, more)) in all.iter_mut().zip(self.parts.rows.iter().zip(more)) {
             row[..COLUMNS].copy_from_slice(parts);
             row[COLUMNS..].copy_from_slice(more);
         }
         self.parts.rows = seven(all);
+    }
+
+    /// Adds each of the parts to one of a floating body's, with a sign that follows no rule, and lets
+    /// them change places.
+    fn add_by_sign(&mut self, more: &Block<COLUMNS>) {
+        let [_, sign] = self.parts.signs();
+        for (row, more) in self.parts.rows.iter_mut().zip(more) {
+            for (entry, more) in row.iter_mut().zip(more) {
+                *entry += sign * more;
+            }
+        }
+        self.parts.rotate();
+        for row in &mut self.memory {
+            row.rotate_right(1);
+        }
     }
 
     /// Whether nothing is known any more.
@@ -198,8 +235,10 @@ mod tests {
     }
 
     /// A map of deviations, of a block of them.
-    fn each(map: impl Fn(&Deviation) -> Deviation) -> impl Fn(&mut Block<COLUMNS>) {
-        move |block| {
+    fn each(
+        map: impl Fn(&Deviation) -> Deviation,
+    ) -> impl Fn(&mut Block<COLUMNS>, &mut [[f64; COLUMNS]]) {
+        move |block, _| {
             for column in 0..COLUMNS {
                 let mapped = map(&block.map(|row| row[column]));
                 for (row, entry) in block.iter_mut().zip(mapped) {

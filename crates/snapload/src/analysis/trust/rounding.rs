@@ -19,6 +19,7 @@ use crate::analysis::trust::parts::COLUMNS;
 use crate::case::Case;
 use crate::case::parameters::Parameters;
 use crate::model::cable::Normal;
+use crate::model::mass::{Mass, Matrix3, times};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
@@ -182,7 +183,7 @@ fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
     let (mut count, mut summands) = (0, 0.0);
     for impact in step.impacts() {
         let normal = system.cables[impact.cable].normal(&step.before);
-        summands += impact.impulse * normal.coupling(&normal, system.body.inverse_inertia());
+        summands += impact.impulse * system.body.inverse_effective_mass(&normal);
         count += 1;
     }
     if count < 2 {
@@ -196,8 +197,9 @@ fn add_residual(system: &System, step: &Step, parts: &mut Block<COLUMNS>) {
         .take(closed.count)
     {
         let size = ROUNDING * summands / closed.lengths[k];
+        let yielding = metric.moved_by(&closed.normals[k]);
         for i in 0..3 {
-            parts[3 + i][column] += metric.0[i] * closed.normals[k][i] * size;
+            parts[3 + i][column] += yielding[i] * size;
         }
     }
 }
@@ -246,8 +248,9 @@ fn keep_known_gap(
     {
         constraints.keep_parts(parts, 0);
         let newest = constraints.normals[constraints.count - 1];
-        for (i, along) in newest.into_iter().enumerate() {
-            parts[i][PARTS] = constraints.metric.0[i] * along * (size / left);
+        let yielding = constraints.metric.moved_by(&newest);
+        for (i, yielding) in yielding.into_iter().enumerate() {
+            parts[i][PARTS] = yielding * (size / left);
         }
     }
 }
@@ -260,20 +263,28 @@ fn across(error: f64, length: f64) -> f64 {
 
 /// By how much x, y and θ yield where a body is put back onto its cables.
 #[derive(Clone, Copy)]
-struct Metric([f64; 3]);
+enum Metric {
+    /// Each by itself.
+    Diagonal([f64; 3]),
+    /// M⁻¹.
+    Full(Matrix3),
+}
 
 impl Metric {
     /// Each as a force would move it.
     #[inline(always)]
     fn of_masses(system: &System) -> Self {
-        Self([1.0, 1.0, system.body.inverse_inertia()])
+        match system.body.mass {
+            Mass::Unit { inverse_inertia } => Self::Diagonal([1.0, 1.0, inverse_inertia]),
+            Mass::Full { inverse, .. } => Self::Full(inverse),
+        }
     }
 
     /// As the step that `simulation` has just made does it: a bounce does not turn the body.
     #[inline(always)]
     fn of_step(simulation: &Simulation) -> Self {
         if simulation.has_bounced() {
-            Self([1.0, 1.0, 0.0])
+            Self::Diagonal([1.0, 1.0, 0.0])
         } else {
             Self::of_masses(simulation.system())
         }
@@ -281,7 +292,34 @@ impl Metric {
 
     #[inline(always)]
     fn product(self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
-        self.0[0] * a[0] * b[0] + self.0[1] * a[1] * b[1] + self.0[2] * a[2] * b[2]
+        let moved = self.moved_by(a);
+        moved[0] * b[0] + moved[1] * b[1] + moved[2] * b[2]
+    }
+
+    /// M⁻¹ n.
+    #[inline(always)]
+    fn moved_by(self, n: &[f64; 3]) -> [f64; 3] {
+        match self {
+            Self::Diagonal([x, y, theta]) => [x * n[0], y * n[1], theta * n[2]],
+            Self::Full(inverse) => times(&inverse, *n),
+        }
+    }
+
+    /// Takes off what a displacement has along a normal, M⁻¹ n times so much.
+    #[inline(always)]
+    fn take_off(self, displacement: [&mut f64; 3], n: &[f64; 3], across: f64) {
+        match self {
+            Self::Diagonal(yielding) => {
+                for ((component, n), yielding) in displacement.into_iter().zip(n).zip(yielding) {
+                    *component -= across * yielding * n;
+                }
+            }
+            Self::Full(_) => {
+                for (component, yielding) in displacement.into_iter().zip(self.moved_by(n)) {
+                    *component -= across * yielding;
+                }
+            }
+        }
     }
 }
 
@@ -340,10 +378,8 @@ impl Constraints {
             for (component, n) in displacement.iter().zip(normal) {
                 across += component * n;
             }
-            for ((component, n), yielding) in displacement.iter_mut().zip(normal).zip(self.metric.0)
-            {
-                *component -= across * yielding * n;
-            }
+            self.metric
+                .take_off(displacement.each_mut(), normal, across);
         }
     }
 
@@ -353,10 +389,10 @@ impl Constraints {
         let rows = &mut parts[row..row + 3];
         for normal in &self.normals[..self.count] {
             let across = across_parts(rows, normal);
-            for ((row, n), yielding) in rows.iter_mut().zip(normal).zip(self.metric.0) {
-                for (entry, across) in row.iter_mut().zip(across) {
-                    *entry -= across * yielding * n;
-                }
+            let [x, y, theta] = rows else { continue };
+            for (k, across) in across.into_iter().enumerate() {
+                let part = [&mut x[k], &mut y[k], &mut theta[k]];
+                self.metric.take_off(part, normal, across);
             }
         }
     }

@@ -118,7 +118,7 @@ impl SpreadMonitor {
         let cause = cause_at_start(simulation, &covariance);
         if !simulation.closed().is_empty() {
             let projection = Tangent::new(simulation.system()).of_start(simulation);
-            let project = |block: &mut Block<_>| {
+            let project = |block: &mut Block<COLUMNS>, _: &mut [[f64; COLUMNS]]| {
                 let projected = projection.map(|row| combined(block, &row));
                 block[..6].copy_from_slice(&projected);
             };
@@ -130,6 +130,8 @@ impl SpreadMonitor {
             simulation.time(),
             simulation.closed(),
         ));
+        // Water that has been at rest has nothing to remember that could be in doubt.
+        covariance.memory = vec![[0.0; COLUMNS]; 2 * simulation.memory().len()];
         let cause = cause.or_else(|| {
             may_stop_at_start(simulation, &Spread::of(&covariance))
                 .then_some(HorizonCause::StopRule)
@@ -284,6 +286,7 @@ impl SpreadMonitor {
         let [along, met] = before.map(|rows| CovarianceFactor {
             parts: self.covariance.parts.with(rows),
             columns: Vec::new(),
+            memory: Vec::new(),
         });
         let neighbours = Neighbours {
             along: Spread::of(&along),
@@ -309,10 +312,10 @@ impl SpreadMonitor {
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
         let rounding = Rounding::of_step(simulation, step, &map, self.slant);
         let before = self.covariance.clone().with_seven();
-        let along = before.carried(|w| map.carry_along(w), column(0));
+        let along = before.carried(|w, memory| map.carry_along(w, memory), column(0));
         let met = along
-            .carried(|w| map.carry_to_meet(w), column(1))
-            .with_part(&rounding.location);
+            .carried(|w, memory| map.carry_to_meet(w, memory), column(1))
+            .with_part(&rounding.location, map.memory_rate(), rounding.late);
         let neighbours = Neighbours {
             along: Spread::of(&along),
             met: Spread::of(&met),
@@ -325,7 +328,7 @@ impl SpreadMonitor {
         {
             self.lose(step, cause);
         }
-        let mut after = met.carried(|w| map.carry_through(w), column(2));
+        let mut after = met.carried(|w, _| map.carry_through(w), column(2));
         after.add_parts(&rounding.parts);
         let squared = |sizes: Deviation| sizes.map(|size| size * size);
         let squares = [squared(neighbours.met.sizes), squared(after.sizes())];

@@ -111,6 +111,22 @@ impl<T: Real> Simulation<T> {
         memory
     }
 
+    /// The force of the water's memory a time `s` into the stretch that the latest step made.
+    pub(crate) fn memory_force_within(&self, step: &Step<T>, s: T) -> [T; 3] {
+        match self.expanded(step.taut) {
+            Some(series) => series.memory_force(s),
+            None => [T::ZERO; 3],
+        }
+    }
+
+    /// The same less the waves and the constant force on a floating body.
+    pub(crate) fn held_within(&self, step: &Step<T>, s: T) -> [T; 3] {
+        match self.expanded(step.taut) {
+            Some(series) => series.held_force(s),
+            None => [T::ZERO; 3],
+        }
+    }
+
     /// The motion of the latest stretch.
     #[inline(always)]
     pub(super) fn motion(&self, taut: TautSet) -> Stretch<'_, T> {
@@ -183,7 +199,8 @@ impl<T: Real> Simulation<T> {
 
     /// Whether a cable that the latest step leaves slack came, before its end, within `margin` > 0
     /// of a gap of zero. Of a cable that was closed at the start all neighbours have zero there,
-    /// too, and the margin grows from nothing.
+    /// too, and the margin grows from nothing; one that lost its tension there and opens all along has
+    /// neighbours that do so, too, each from its own release.
     #[inline(always)]
     pub(crate) fn comes_near(&self, step: &Step<T>, cable: usize, margin: T) -> bool {
         let s = step.t_end - step.t_start;
@@ -191,6 +208,7 @@ impl<T: Real> Simulation<T> {
             return false;
         }
         let bend = match self.expanded(step.taut) {
+            Some(series) if series.opens_from_rest(cable, s) => return false,
             Some(series) => series.gap_bend(cable),
             None => self.gap_bend(step, cable),
         };
