@@ -6,20 +6,20 @@ use super::irregular::irregular;
 use super::passivity::Nearest;
 use super::poles::Poles;
 use super::quality::{BlockQuality, EntryQuality, Kernel, entry};
+use super::warnings::warnings;
 use super::{Memory, Term, TermRow};
-use crate::coefficients::{FREEDOMS, Hydrodynamics, UPPER};
+use crate::coefficients::{Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
 use nalgebra::{Complex, DVector, Matrix3};
-use std::f64::consts::PI;
 
 /// Numbers of pairs that are tried in turn, and the error of the fit and of K at which the first is
 /// taken.
 const PAIRS: [usize; 5] = [4, 6, 8, 10, 12];
 const GOOD: f64 = 0.01;
 /// A fit that is worse than this is told of.
-const POOR: f64 = 0.02;
+pub(super) const POOR: f64 = 0.02;
 /// What passivity may cost.
-const PRICE: f64 = 0.02;
+pub(super) const PRICE: f64 = 0.02;
 /// Couplings below this part of the freedoms' own are those of a body that is its own mirror image.
 const COUPLED: f64 = 1e-3;
 
@@ -297,112 +297,6 @@ pub fn fit(hydro: &Hydrodynamics, options: FitOptions) -> Result<Fit, HydroError
     };
     fit.warnings = warnings(hydro, &fit);
     Ok(fit)
-}
-
-fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    if let Some(file) = hydro.added_mass_inf {
-        for (i, freedom) in FREEDOMS.iter().enumerate() {
-            let own = fit.added_mass_inf[(i, i)];
-            let off = file[(i, i)] / own - 1.0;
-            if own != 0.0 && off.abs() > 0.01 {
-                let words = format!(
-                    "the file's A(∞) of {freedom} differs by {:.1} % from the one that belongs to \
-                     its damping, which is used",
-                    100.0 * off
-                );
-                warnings.push(Warning::new("added mass at infinity", words));
-            }
-        }
-    }
-    for block in &fit.blocks {
-        of_block(block, &mut warnings);
-    }
-    let apart = hydro
-        .omega_rad_s
-        .windows(2)
-        .map(|pair| pair[1] - pair[0])
-        .fold(0.0, f64::max);
-    let long = length(hydro, fit);
-    if long > PI / apart {
-        let words = format!(
-            "frequencies are up to {apart:.3} rad/s apart, which shows a memory of at most {:.1} s, and \
-             this one lasts {long:.1} s; compute them closer",
-            PI / apart
-        );
-        warnings.push(Warning::new("frequency steps", words));
-    }
-    let own = fit
-        .entries
-        .iter()
-        .filter(|entry| entry.force == entry.motion);
-    for entry in own.filter(|entry| !entry.outliers_rad_s.is_empty()) {
-        let words = format!(
-            "the damping of {} is off the fit by more than 5 % of its largest at ω = {} rad/s",
-            FREEDOMS[entry.force],
-            list(&entry.outliers_rad_s)
-        );
-        warnings.push(Warning::new("off the fit", words));
-    }
-    warnings
-}
-
-/// How long the memory of one of the freedoms is above a fiftieth of its largest \[s\].
-fn length(hydro: &Hydrodynamics, fit: &Fit) -> f64 {
-    let step = 0.5 / hydro.range_rad_s()[1];
-    let kernels: Vec<Matrix3<f64>> = (0..1000)
-        .map(|k| fit.memory.kernel(step * f64::from(k)))
-        .collect();
-    let last = |i: usize| {
-        let largest = kernels
-            .iter()
-            .fold(0.0, |most: f64, k| most.max(k[(i, i)].abs()));
-        kernels
-            .iter()
-            .rposition(|k| k[(i, i)].abs() > 0.02 * largest)
-            .unwrap_or(0)
-    };
-    step * (0..3).map(last).max().unwrap_or(0) as f64
-}
-
-fn of_block(block: &BlockQuality, warnings: &mut Vec<Warning>) {
-    let names = block.freedoms.iter().map(|i| FREEDOMS[*i]);
-    let names = names.collect::<Vec<_>>().join(" and ");
-    if block.rms > POOR {
-        let words = format!(
-            "the memory of {names} fits the file to {:.1} % only; results are no better",
-            100.0 * block.rms
-        );
-        warnings.push(Warning::new("fit", words));
-    }
-    if !block.left_out_rad_s.is_empty() {
-        let words = format!(
-            "the coefficients of {names} at ω = {} rad/s stand apart from the others and were left \
-             out of the memory: irregular frequencies, most likely. Compute the file again with a \
-             lid",
-            list(&block.left_out_rad_s)
-        );
-        warnings.push(Warning::new("irregular frequencies", words));
-    }
-    if block.damped {
-        let words = format!(
-            "the memory of {names} could not be made passive for less than {:.0} % of fit; it is \
-             kept as it is, and linear damping of {:.2} % of the largest is added",
-            100.0 * PRICE,
-            -100.0 * block.least
-        );
-        warnings.push(Warning::new("passivity", words));
-    }
-}
-
-/// The first few frequencies.
-fn list(omega: &[f64]) -> String {
-    let shown: Vec<String> = omega
-        .iter()
-        .take(12)
-        .map(|omega| format!("{omega:.3}"))
-        .collect();
-    shown.join(", ")
 }
 
 /// A memory that is given, with its quality beside a file's coefficients.

@@ -8,6 +8,7 @@ mod least_squares;
 mod passivity;
 mod poles;
 mod quality;
+mod warnings;
 
 pub use curve::{DampingCurve, added_mass_at_infinity};
 pub use fit::{Fit, FitOptions, fit, given};
