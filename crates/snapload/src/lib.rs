@@ -55,6 +55,7 @@ pub use model::rules::{Rules, Stop};
 pub use model::state::State;
 pub use model::system::{System, anchor_height};
 pub use model::taut_set::{MAX_CABLES, Mode, PerCable, TautSet};
+pub use motion::held::Held;
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};

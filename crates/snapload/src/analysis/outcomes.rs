@@ -90,7 +90,16 @@ pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>,
 /// # Errors
 /// As for [`outcomes`].
 pub fn outcomes_on_one_thread(
-    cases: impl Iterator<Item = Case>,
+    mut cases: impl Iterator<Item = Case>,
+    counter: &Counter,
+) -> Result<Vec<Outcome>, Cancelled> {
+    outcomes_of(&mut cases, counter)
+}
+
+/// Compiled here, once: it is the whole engine, which every crate that asks would otherwise compile
+/// anew.
+fn outcomes_of(
+    cases: &mut dyn Iterator<Item = Case>,
     counter: &Counter,
 ) -> Result<Vec<Outcome>, Cancelled> {
     let runs = cases.map(|case| (case.into_simulation(), Unfollowed));

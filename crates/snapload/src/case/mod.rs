@@ -101,21 +101,41 @@ impl Case {
         &self,
         number: impl FnMut(&'static str, f64) -> T,
     ) -> Result<Simulation<T>, StartError> {
-        let p = &self.parameters;
-        let mut numbers = p.map(number);
-        if let (Some(inertia), Some(given)) = (p.inertia, numbers.inertia)
-            && p.inertia_follows()
-        {
-            // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
-            let beyond = given - T::from_decimal(inertia);
-            numbers.inertia = natural_inertia(numbers.a, numbers.b).map(|natural| natural + beyond);
-        }
+        let numbers = self.parameters.over(number);
         begin(&numbers)
     }
 
     /// Runs it to its end and keeps all of it.
     pub fn run(&self) -> Trajectory {
         Trajectory::record(self.simulation())
+    }
+}
+
+impl Parameters {
+    /// The same values in another arithmetic; `number` is told each one's key. An inertia that is the
+    /// natural one of the size stays so.
+    pub fn over<T: Real>(&self, number: impl FnMut(&'static str, f64) -> T) -> Parameters<T> {
+        let mut numbers = self.map(number);
+        if let (Some(inertia), Some(given)) = (self.inertia, numbers.inertia)
+            && self.inertia_follows()
+        {
+            // What `number` makes of the inertia beyond its value, such as a derivative, is kept.
+            let beyond = given - T::from_decimal(inertia);
+            numbers.inertia = natural_inertia(numbers.a, numbers.b).map(|natural| natural + beyond);
+        }
+        numbers
+    }
+}
+
+impl<T: Real> Parameters<T> {
+    /// The system that they describe.
+    pub fn system(&self) -> System<T> {
+        system(self)
+    }
+
+    /// The rules that end its runs.
+    pub fn rules(&self) -> Rules<T> {
+        rules(self)
     }
 }
 

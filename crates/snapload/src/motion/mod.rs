@@ -10,6 +10,7 @@ pub(crate) mod contact;
 pub(crate) mod events;
 pub(crate) mod extremes;
 pub(crate) mod flight;
+pub(crate) mod held;
 pub(crate) mod impact;
 pub(crate) mod least_norm;
 pub(crate) mod limits;

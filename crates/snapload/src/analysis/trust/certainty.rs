@@ -110,7 +110,16 @@ impl Certainty {
     /// [`Cancelled`] if the work that is counted is to end before.
     pub fn with_outcomes(
         lanes: Lanes,
-        cases: impl Iterator<Item = Case>,
+        mut cases: impl Iterator<Item = Case>,
+        counter: &Counter,
+    ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
+        Self::beside_outcomes(lanes, &mut cases, counter)
+    }
+
+    /// Compiled here, once.
+    fn beside_outcomes(
+        lanes: Lanes,
+        cases: &mut dyn Iterator<Item = Case>,
         counter: &Counter,
     ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
         let runs = cases.map(|case| {
