@@ -25,6 +25,7 @@ mod store;
 mod study;
 mod sweep;
 mod table;
+mod table_file;
 mod threads;
 mod whole;
 
@@ -42,6 +43,7 @@ pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
 pub use study::{Drawn, NoCase, Study};
 pub use sweep::{Ending, sweep};
 pub use table::{Column, Take, columns};
+pub use table_file::write_table;
 pub use threads::threads_for;
 pub use whole::{
     Shown, Tally, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,

@@ -124,7 +124,7 @@ fn identity(reader: &Reader) -> Option<Identity> {
 }
 
 /// The system's error where there is one, such as a full disk.
-fn to_io(error: ParquetError) -> io::Error {
+pub(crate) fn to_io(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(inner) => match inner.downcast::<io::Error>() {
             Ok(error) => *error,

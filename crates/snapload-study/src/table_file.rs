@@ -1,0 +1,65 @@
+//! A table as a Parquet file, for answers that are tables and no studies.
+
+use crate::parquet_file::{Holds, Values};
+use crate::parquet_writer::{Field, Writer};
+use crate::whole::to_io;
+use parquet::basic::{Compression, ZstdLevel};
+use parquet::file::properties::WriterProperties;
+use std::io::{self, Write};
+
+fn holds(values: &Values) -> Holds {
+    match values {
+        Values::Numbers(_) => Holds::Numbers,
+        Values::Counts(_) => Holds::Counts,
+        Values::Flags(_) => Holds::Flags,
+        Values::Words(_) => Holds::Words,
+    }
+}
+
+/// Writes columns of equal lengths, each with its name.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_table(columns: &[(&'static str, Values)], out: &mut dyn Write) -> io::Result<()> {
+    let fields: Vec<Field> = columns
+        .iter()
+        .map(|(name, values)| Field {
+            name,
+            holds: holds(values),
+            required: false,
+        })
+        .collect();
+    let write = || {
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::ZSTD(ZstdLevel::try_new(1)?))
+            .set_created_by("snapload".to_owned())
+            .build();
+        let mut writer = Writer::new(Vec::new(), &fields, properties)?;
+        let values: Vec<Values> = columns.iter().map(|(_, values)| values.clone()).collect();
+        writer.write(&values)?;
+        writer.into_inner()
+    };
+    out.write_all(&write().map_err(to_io)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parquet_file::Reader;
+
+    #[test]
+    fn a_table_is_read_as_it_was_written() -> Result<(), Box<dyn std::error::Error>> {
+        let numbers = Values::Numbers(vec![Some(1.5), None]);
+        let words = Values::Words(vec![Some("a".into()), Some("b".into())]);
+        let mut file = tempfile::tempfile()?;
+        write_table(&[("x", numbers), ("why", words)], &mut file)?;
+        let reader = Reader::open(file)?;
+        assert_eq!(reader.about().num_rows(), 2);
+        let schema = reader.about().schema_descr();
+        assert_eq!(
+            (schema.column(0).name(), schema.column(1).name()),
+            ("x", "why")
+        );
+        Ok(())
+    }
+}
