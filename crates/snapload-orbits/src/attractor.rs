@@ -1,0 +1,161 @@
+//! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
+
+use crate::hybrid::Point;
+use crate::moored::Moored;
+use crate::multipliers::Stability;
+use crate::orbit::{NoOrbit, Orbit, Wanted, distance};
+use crate::section::{LONGEST_PERIOD, Section, Stretch, period_of};
+use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
+use snapload::{Case, Parameters};
+
+/// Periods that are left out before the attractor is looked at, and periods that are looked at.
+pub const TRANSIENT: u64 = 400;
+const LOOKED_AT: u64 = 600;
+
+/// The orbit that the motion of a case comes to, if it is periodic.
+///
+/// # Errors
+/// [`NoOrbit`] says what the motion does instead.
+pub fn of_attractor(
+    parameters: &Parameters,
+    wanted: &Wanted,
+    on_progress: OnProgress,
+) -> Result<Result<Orbit, NoOrbit>, Unfinished> {
+    let stretch = Stretch {
+        phase: wanted.phase,
+        skip: TRANSIENT,
+        keep: LOOKED_AT,
+        exponents: true,
+    };
+    let section = Section::of(parameters, &stretch, on_progress)?;
+    if let Some(stop) = section.stop {
+        let t = section.end.1;
+        return Ok(Err(NoOrbit(format!(
+            "the motion of this start stops at t = {t:.4}: {}; begin elsewhere with --start, or look \
+             for unstable orbits with --find N",
+            stop.meaning()
+        ))));
+    }
+    let Some(period) = section.period() else {
+        let exponent = section
+            .exponents
+            .first()
+            .map_or(f64::NAN, |[mean, _]| *mean);
+        let error = section
+            .exponents
+            .first()
+            .map_or(f64::NAN, |[_, error]| *error);
+        return Ok(Err(NoOrbit(format!(
+            "the motion of this start repeats itself with no period up to {LONGEST_PERIOD} after {} \
+             periods of the forcing (largest Lyapunov exponent {exponent:.4} +- {error:.4}); look for \
+             unstable orbits with --find N, or at snapload section",
+            TRANSIENT + LOOKED_AT
+        ))));
+    };
+    if wanted
+        .periods
+        .is_some_and(|periods| period as u32 != periods)
+    {
+        return Ok(Err(NoOrbit(format!(
+            "the motion of this start repeats itself after {period} periods of the forcing, and an orbit \
+             of {} was asked for",
+            wanted.periods.unwrap_or(1)
+        ))));
+    }
+    let wanted = Wanted {
+        periods: Some(period as u32),
+        ..wanted.clone()
+    };
+    let last = section.points.last().copied().unwrap_or(section.end.0);
+    let family = Moored::case(*parameters, [None; 2]);
+    Ok(Orbit::find(&family, [0.0; 2], &last, &wanted))
+}
+
+/// Starts for each unit of work.
+const BATCH: usize = 16;
+/// Two orbits whose sections are nearer than this are one.
+const SAME: f64 = 1e-8;
+
+/// All orbits that Newton's method finds from so many random starts in the box |x| ≤ w, −w ≤ y ≤ h,
+/// |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a body has, the
+/// most stable ones first.
+///
+/// # Errors
+/// [`Unfinished`] if the case can not be, or it is told to end.
+pub fn find_orbits(
+    parameters: &Parameters,
+    starts: usize,
+    seed: u64,
+    wanted: &Wanted,
+    on_progress: OnProgress,
+) -> Result<Vec<Orbit>, Unfinished> {
+    period_of(parameters)?;
+    let family = Moored::case(*parameters, [None; 2]);
+    let counter = Counter::new("starts", 0, starts as u64, on_progress);
+    let batches = starts.div_ceil(BATCH);
+    let made = on_all_threads(batches, |numbers| {
+        let mut all = Vec::new();
+        for batch in numbers {
+            let first = batch * BATCH;
+            let last = (first + BATCH).min(starts);
+            let mut found: Vec<Orbit> = Vec::new();
+            for k in first..last {
+                let start = random_start(parameters, seed, k as u64);
+                found.extend(start.and_then(|z| crate::orbit::from_afar(&family, &z, wanted)));
+            }
+            counter.add((last - first) as u64)?;
+            all.push(found);
+        }
+        Ok::<_, snapload::analysis::Cancelled>(all)
+    })?;
+    let mut orbits: Vec<Orbit> = Vec::new();
+    for orbit in made.into_vec().into_iter().flatten() {
+        if !orbits
+            .iter()
+            .any(|known| distance(&known.z, &orbit.z) < SAME)
+        {
+            orbits.push(orbit);
+        }
+    }
+    orbits.sort_by(|a, b| a.multipliers.largest().total_cmp(&b.multipliers.largest()));
+    Ok(orbits)
+}
+
+/// The k-th random start; none where it is not legal.
+fn random_start(p: &Parameters, seed: u64, k: u64) -> Option<Point> {
+    let mut state =
+        seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ k.wrapping_mul(0xD1B5_4A32_D192_ED03);
+    let mut within = |low: f64, high: f64| low + (high - low) * uniform(&mut state);
+    let wide = (0.5 * p.r).min(0.6);
+    let turns = f64::from(u8::from(!p.is_point()));
+    let top = p.rules().upper_bound.unwrap_or(wide);
+    let start = Parameters {
+        x: within(-wide, wide),
+        y: within(-0.1, top),
+        theta: turns * within(-1.05, 1.05),
+        vx: within(-1.0, 1.0),
+        vy: within(-1.0, 1.0),
+        vtheta: turns * within(-2.0, 2.0),
+        ..*p
+    };
+    Case::new(start)
+        .ok()
+        .map(|case| crate::section::start_of(case.parameters()))
+}
+
+/// SplitMix64 (G. L. Steele, D. Lea & C. H. Flood, OOPSLA 2014), as a number from 0 to 1.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Whether neighbours come back to an orbit.
+pub fn attracts(orbit: &Orbit) -> bool {
+    matches!(
+        orbit.stability(),
+        Stability::Stable | Stability::Superstable
+    )
+}

@@ -1,0 +1,369 @@
+//! Safe basins: which starts, or which values of any two keys, keep a body below its limits.
+//!
+//! J. M. T. Thompson, *Proc. R. Soc. A* 421 (1989) 195; M. S. Soliman & J. M. T. Thompson, *J. Sound
+//! Vib.* 135 (1989) 453; G. Rega & S. Lenci, *Nonlinear Anal.* 63 (2005) 902.
+
+use crate::distances::squared_distances;
+use snapload::analysis::{
+    Cancelled, Certainty, Counter, OnProgress, Share, Unfinished, on_all_threads,
+    outcomes_on_one_thread,
+};
+use snapload::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
+
+/// Two keys and the values that they take: a grid of cells.
+#[derive(Clone, Debug)]
+pub struct Window {
+    /// What the other keys are.
+    pub base: Parameters,
+    /// The keys.
+    pub keys: [&'static str; 2],
+    /// Their values, evenly spaced.
+    pub values: [Vec<f64>; 2],
+}
+
+/// What became of one cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// How its run ended, and when; none where it is not legal.
+    pub end: Option<(Stop, f64)>,
+    /// Whether its neighbours end alike.
+    pub decided: bool,
+    /// Whether the horizon of trust lies past the end of its run.
+    pub trusted: bool,
+}
+
+/// A window with what became of its cells.
+#[derive(Clone, Debug)]
+pub struct Basin {
+    /// The window.
+    pub window: Window,
+    /// The cells, the second key varying fastest.
+    pub cells: Vec<Cell>,
+    /// Whether neighbours and horizons were looked at.
+    pub looked_beside: bool,
+    /// How much of it is safe.
+    pub measures: Measures,
+}
+
+/// How much of a window is safe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// Cells that are legal.
+    pub legal: usize,
+    /// Legal cells that reach no limit.
+    pub safe: usize,
+    /// Legal cells some neighbours of which end otherwise.
+    pub undecided: usize,
+    /// Legal cells whose run has its horizon of trust before its end. Those among them that are
+    /// decided are so by more neighbours.
+    pub past_horizon: usize,
+    /// Safe cells as a part of the legal ones: the global integrity measure.
+    pub gim: f64,
+    /// Wilson's interval of 95 % about it.
+    pub interval: [f64; 2],
+    /// The least distance from the equilibrium to an unsafe cell: the local integrity measure.
+    pub lim: Option<f64>,
+    /// The radius of the largest disc without unsafe cells: the integrity factor.
+    pub integrity_factor: Option<f64>,
+    /// The least distance along the velocity: the impulsive integrity measure.
+    pub iim: Option<f64>,
+}
+
+/// Neighbours are so far away, along either key and both.
+const BESIDE: f64 = 1e-8;
+/// Where rounding may decide a run, there are more of them, nearer and nearer.
+const NEARER: [f64; 3] = [BESIDE, 1e-10, 1e-12];
+const NEIGHBOURS: [[f64; 2]; 8] = [
+    [1.0, 0.0],
+    [-1.0, 0.0],
+    [0.0, 1.0],
+    [0.0, -1.0],
+    [1.0, 1.0],
+    [-1.0, -1.0],
+    [1.0, -1.0],
+    [-1.0, 1.0],
+];
+const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
+const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
+
+impl Window {
+    /// The two values of a cell.
+    pub fn at(&self, cell: usize) -> [f64; 2] {
+        let columns = self.values[1].len();
+        [
+            self.values[0][cell / columns],
+            self.values[1][cell % columns],
+        ]
+    }
+
+    /// How many cells there are.
+    pub fn count(&self) -> usize {
+        self.values[0].len() * self.values[1].len()
+    }
+
+    /// The size of a cell; 0 along a key of one value.
+    pub fn cell(&self) -> [f64; 2] {
+        [0, 1].map(|axis: usize| match &self.values[axis][..] {
+            [first, .., last] => (last - first) / (self.values[axis].len() - 1) as f64,
+            _ => 0.0,
+        })
+    }
+
+    /// The values of all keys at two values of the two; what follows from them follows anew.
+    pub fn parameters(&self, at: [f64; 2]) -> Parameters {
+        let [first, second] = self.keys;
+        self.base.over(|name, value| match name {
+            _ if name == first => at[0],
+            _ if name == second => at[1],
+            _ => value,
+        })
+    }
+
+    /// The case of a cell; none where its start is not legal.
+    fn case(&self, at: [f64; 2]) -> Option<Case> {
+        Case::new(self.parameters(at)).ok()
+    }
+
+    /// Refuses keys that are not numbers of a case, and values out of their ranges.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key.
+    pub fn check(&self) -> Result<(), CaseError> {
+        for key in self.keys {
+            if !matches!(self.base.get(key), Some(Value::Number(_))) {
+                let allowed = "a key that holds a number, of this body";
+                return Err(CaseError::value(
+                    "vary",
+                    Value::Text(key.to_owned()),
+                    allowed,
+                ));
+            }
+        }
+        if self.keys[0] == self.keys[1] {
+            let twice = Value::Text(self.keys[0].to_owned());
+            return Err(CaseError::value("vary", twice, "two keys, each once"));
+        }
+        for value in &self.values[0] {
+            self.parameters([*value, self.values[1][0]]).check()?;
+        }
+        for value in &self.values[1] {
+            self.parameters([self.values[0][0], *value]).check()?;
+        }
+        Ok(())
+    }
+
+    /// Whether both keys are values of the start.
+    pub(crate) fn are_starts(&self) -> bool {
+        self.keys.iter().all(|key| STARTS.contains(key))
+    }
+}
+
+impl Basin {
+    /// Runs every cell; with `trust` also its neighbours, and looks at rounding.
+    ///
+    /// # Errors
+    /// [`Unfinished`] where a key or a value can not be, or it is told to end.
+    pub fn of(window: Window, trust: bool, on_progress: OnProgress) -> Result<Self, Unfinished> {
+        window.check()?;
+        let mut cells = centres(&window, trust, on_progress)?;
+        if trust {
+            look_beside(&window, &mut cells, on_progress)?;
+        }
+        let measures = Measures::of(&window, &cells);
+        Ok(Self {
+            window,
+            cells,
+            looked_beside: trust,
+            measures,
+        })
+    }
+
+    /// How many cells ended in each way.
+    pub fn by_outcome(&self) -> Vec<(Stop, usize)> {
+        let count = |stop: Stop| {
+            let of = |cell: &&Cell| cell.end.is_some_and(|(end, _)| end == stop);
+            (stop, self.cells.iter().filter(of).count())
+        };
+        Stop::ALL.into_iter().map(count).collect()
+    }
+}
+
+impl Cell {
+    /// Whether it is legal and reaches a limit.
+    pub fn escapes(&self) -> bool {
+        self.end.is_some_and(|(stop, _)| stop.exceeds())
+    }
+}
+
+/// The runs of the cells themselves.
+fn centres(window: &Window, trust: bool, on_progress: OnProgress) -> Result<Vec<Cell>, Cancelled> {
+    let counter = Counter::new("cells", 0, window.count() as u64, on_progress);
+    let made = on_all_threads(window.count(), |numbers| {
+        run(numbers, |k| window.case(window.at(k)), trust, &counter)
+    })?;
+    Ok(made.into_vec())
+}
+
+/// Runs the legal ones of some cases side by side.
+fn run(
+    numbers: &mut dyn Iterator<Item = usize>,
+    case: impl Fn(usize) -> Option<Case>,
+    trust: bool,
+    counter: &Counter,
+) -> Result<Vec<Cell>, Cancelled> {
+    let mut legal = Vec::new();
+    let cases = numbers.filter_map(|k| {
+        let case = case(k);
+        legal.push(case.is_some());
+        if case.is_none() {
+            // Whoever is told to end hears of it with the next legal one.
+            let _ = counter.add(1);
+        }
+        case
+    });
+    let ended = |outcome: Outcome, trusted| Cell {
+        end: Some((outcome.end.reason, outcome.end.t)),
+        decided: true,
+        trusted,
+    };
+    let told: Vec<Cell> = if trust {
+        let told = Certainty::with_outcomes(Lanes::best(), cases, counter)?;
+        let cell = |(outcome, certainty): (Outcome, Certainty)| {
+            ended(outcome, certainty.decides_the_end())
+        };
+        told.into_iter().map(cell).collect()
+    } else {
+        let told = outcomes_on_one_thread(cases, counter)?;
+        told.into_iter()
+            .map(|outcome| ended(outcome, true))
+            .collect()
+    };
+    let mut told = told.into_iter();
+    let illegal = Cell {
+        end: None,
+        decided: true,
+        trusted: true,
+    };
+    let cell = |legal| if legal { told.next() } else { Some(illegal) };
+    Ok(legal.into_iter().filter_map(cell).collect())
+}
+
+/// Runs the neighbours of the legal cells.
+fn look_beside(
+    window: &Window,
+    cells: &mut [Cell],
+    on_progress: OnProgress,
+) -> Result<(), Cancelled> {
+    let mut neighbours = Vec::new();
+    for (k, cell) in cells
+        .iter()
+        .enumerate()
+        .filter(|(_, cell)| cell.end.is_some())
+    {
+        let distances = if cell.trusted {
+            &NEARER[..1]
+        } else {
+            &NEARER[..]
+        };
+        for distance in distances {
+            neighbours.extend(NEIGHBOURS.map(|[a, b]| (k, [a * distance, b * distance])));
+        }
+    }
+    let counter = Counter::new("their neighbours", 0, neighbours.len() as u64, on_progress);
+    let made = on_all_threads(neighbours.len(), |numbers| {
+        let case = |k: usize| {
+            let (centre, [a, b]) = neighbours[k];
+            let at = window.at(centre);
+            window.case([at[0] + a, at[1] + b])
+        };
+        run(numbers, case, false, &counter)
+    })?;
+    let reason = |cell: &Cell| cell.end.map(|(stop, _)| stop);
+    for (neighbour, (centre, _)) in made.iter().zip(&neighbours) {
+        let centre = &mut cells[*centre];
+        if neighbour.end.is_some() && reason(neighbour) != reason(centre) {
+            centre.decided = false;
+        }
+    }
+    Ok(())
+}
+
+impl Measures {
+    fn of(window: &Window, cells: &[Cell]) -> Self {
+        let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
+        let unsafe_cells = cells.iter().filter(|cell| cell.escapes()).count();
+        let undecided = cells.iter().filter(|cell| !cell.decided).count();
+        let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
+        let safe = legal - unsafe_cells;
+        let [lim, integrity_factor, iim] = if window.are_starts() {
+            [
+                nearest_unsafe(window, cells),
+                largest_disc(window, cells),
+                nearest_along_velocity(window, cells),
+            ]
+        } else {
+            [None; 3]
+        };
+        let share = Share {
+            count: safe,
+            of: legal,
+            clear: false,
+        };
+        Self {
+            legal,
+            safe,
+            undecided,
+            past_horizon,
+            gim: share.part(),
+            interval: share.interval(),
+            lim,
+            integrity_factor,
+            iim,
+        }
+    }
+}
+
+/// Distance of the nearest unsafe cell from the equilibrium, where all start values are 0.
+fn nearest_unsafe(window: &Window, cells: &[Cell]) -> Option<f64> {
+    let escaping = cells.iter().enumerate().filter(|(_, cell)| cell.escapes());
+    let distance = |(k, _)| {
+        let [a, b] = window.at(k);
+        a.hypot(b)
+    };
+    escaping.map(distance).min_by(f64::total_cmp)
+}
+
+/// The largest distance of a safe cell from the nearest unsafe one.
+fn largest_disc(window: &Window, cells: &[Cell]) -> Option<f64> {
+    let marked: Vec<bool> = cells.iter().map(Cell::escapes).collect();
+    if !marked.contains(&true) {
+        return None;
+    }
+    let sizes = [window.values[0].len(), window.values[1].len()];
+    let squares = squared_distances(&marked, sizes, window.cell());
+    let safe = cells
+        .iter()
+        .zip(&squares)
+        .filter(|(cell, _)| cell.end.is_some());
+    safe.map(|(_, square)| square.sqrt()).max_by(f64::total_cmp)
+}
+
+/// Distance along the velocity, in the row of cells nearest to the equilibrium in the other key.
+fn nearest_along_velocity(window: &Window, cells: &[Cell]) -> Option<f64> {
+    let axis = window
+        .keys
+        .iter()
+        .position(|key| VELOCITIES.contains(key))?;
+    let other = 1 - axis;
+    let nearest = window.values[other]
+        .iter()
+        .map(|v| v.abs())
+        .min_by(f64::total_cmp)?;
+    let escaping = cells
+        .iter()
+        .enumerate()
+        .filter(|(k, cell)| cell.escapes() && window.at(*k)[other].abs() == nearest);
+    escaping
+        .map(|(k, _)| window.at(k)[axis].abs())
+        .min_by(f64::total_cmp)
+}

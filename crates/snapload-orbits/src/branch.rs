@@ -1,0 +1,345 @@
+//! Branches: an orbit as a parameter changes, with everything that happens to it on the way.
+
+use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
+use crate::hybrid::{Family, Point};
+use crate::orbit::Orbit;
+use crate::switch::doubled;
+use crate::tracer::{Segment, Tracer, Unknowns};
+use nalgebra::DVector;
+use snapload::analysis::{Cancelled, OnProgress, Progress};
+
+/// How a branch is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    /// The least and the greatest value of the parameter.
+    pub range: [f64; 2],
+    /// The length of the first step, in the space of state, times and parameter.
+    pub step: f64,
+    /// Points in either direction at most.
+    pub most: usize,
+}
+
+/// A point of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchPoint {
+    /// The orbit, which a body may not have.
+    pub orbit: Orbit,
+    /// The length along the branch from the orbit that it was begun with.
+    pub arclength: f64,
+}
+
+/// Where a branch ends, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BranchEnd {
+    /// The value of the parameter.
+    pub at: f64,
+    /// Why.
+    pub because: String,
+}
+
+/// A branch of orbits.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Its points, from one end to the other.
+    pub points: Vec<BranchPoint>,
+    /// What happens along it, in the same order.
+    pub events: Vec<BranchEvent>,
+    /// Its two ends.
+    pub ends: [BranchEnd; 2],
+}
+
+/// The longest and the shortest step, as parts of the first.
+const LONGER: f64 = 6.0;
+const SHORTER: f64 = 1e-7;
+/// The corrector's steps from which on a step is made shorter, and up to which longer.
+const MANY: usize = 6;
+const FEW: usize = 4;
+/// No event comes nearer to the next or farther from it by more than this in one step.
+const TIMES: f64 = 0.3;
+/// A cable that would have to be longer than this ends a branch.
+const DEEP: f64 = 0.02;
+/// A branch that comes back this near to where it began, in parts of its step, is closed.
+const BACK: f64 = 0.5;
+/// It has to have gone so many steps before.
+const FAR: f64 = 10.0;
+
+impl Branch {
+    /// The branch of an orbit in the first parameter, in both directions.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if it is told to end.
+    pub fn of<F: Family>(
+        family: &F,
+        orbit: &Orbit,
+        along: &Along,
+        on_progress: OnProgress,
+    ) -> Result<Self, Cancelled> {
+        let tracer = Tracer {
+            family,
+            sequence: orbit.lap.sequence.clone(),
+            phase: orbit.phase,
+            periods: orbit.periods,
+        };
+        let start = Unknowns {
+            z: orbit.z,
+            durations: orbit.lap.durations.clone(),
+            at: orbit.at,
+        };
+        let Some(up) = tracer.first_tangent(&start) else {
+            let end = BranchEnd {
+                at: orbit.at[0],
+                because: "the equations have no direction here".to_owned(),
+            };
+            return Ok(Self {
+                points: vec![point(orbit.clone(), 0.0)],
+                events: Vec::new(),
+                ends: [end.clone(), end],
+            });
+        };
+        let mut walk = Walk {
+            along,
+            on_progress,
+            done: 0,
+        };
+        let backward = walk.run(&tracer, &start, &(-&up), orbit)?;
+        let forward = if backward.closed {
+            Side::nowhere(orbit.at[0], "the branch is closed")
+        } else {
+            walk.run(&tracer, &start, &up, orbit)?
+        };
+        Ok(joined(orbit, backward, forward))
+    }
+}
+
+impl Branch {
+    /// The branch of twice the length that is born at a period doubling; none where its direction is
+    /// not found. Only one of its halves is followed, as the other is the same a lap later.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if it is told to end.
+    pub fn of_doubling<F: Family>(
+        family: &F,
+        event: &BranchEvent,
+        along: &Along,
+        on_progress: OnProgress,
+    ) -> Result<Option<Self>, Cancelled> {
+        let Some((tracer, start, apart)) = doubled(family, event) else {
+            return Ok(None);
+        };
+        let orbit = Orbit::of(&tracer.lap(start.at), &start.closed());
+        let mut walk = Walk {
+            along,
+            on_progress,
+            done: 0,
+        };
+        let born = Side::nowhere(orbit.at[0], "the period doubling");
+        let forward = walk.run(&tracer, &start, &apart, &orbit)?;
+        Ok(Some(joined(&orbit, born, forward)))
+    }
+}
+
+fn point(orbit: Orbit, arclength: f64) -> BranchPoint {
+    BranchPoint { orbit, arclength }
+}
+
+/// One direction.
+struct Side {
+    points: Vec<BranchPoint>,
+    events: Vec<BranchEvent>,
+    end: BranchEnd,
+    closed: bool,
+}
+
+impl Side {
+    fn nowhere(at: f64, because: &str) -> Self {
+        Self {
+            points: Vec::new(),
+            events: Vec::new(),
+            end: BranchEnd {
+                at,
+                because: because.to_owned(),
+            },
+            closed: false,
+        }
+    }
+}
+
+fn joined(orbit: &Orbit, backward: Side, forward: Side) -> Branch {
+    let turned = |mut p: BranchPoint| {
+        p.arclength = -p.arclength;
+        p
+    };
+    let mut points: Vec<_> = backward.points.into_iter().rev().map(turned).collect();
+    points.push(point(orbit.clone(), 0.0));
+    points.extend(forward.points);
+    let mut events: Vec<_> = backward.events.into_iter().rev().collect();
+    events.extend(forward.events);
+    Branch {
+        points,
+        events,
+        ends: [backward.end, forward.end],
+    }
+}
+
+/// Walks along branches.
+struct Walk<'a> {
+    along: &'a Along,
+    on_progress: OnProgress<'a>,
+    done: usize,
+}
+
+impl Walk<'_> {
+    fn run<F: Family>(
+        &mut self,
+        tracer: &Tracer<F>,
+        start: &Unknowns,
+        tangent: &DVector<f64>,
+        orbit: &Orbit,
+    ) -> Result<Side, Cancelled> {
+        let mut tracer = tracer.clone();
+        let (mut here, mut tangent) = (start.clone(), tangent.clone());
+        let mut tests = tests_of(orbit, &tangent);
+        let mut side = Side::nowhere(orbit.at[0], "");
+        let (mut step, mut arclength) = (self.along.step, 0.0);
+        while side.end.because.is_empty() {
+            if side.points.len() >= self.along.most {
+                side.end.because = format!("{} points are enough", self.along.most);
+                break;
+            }
+            let Some((next, steps)) = stepped(&tracer, &here, &tangent, step) else {
+                step *= 0.5;
+                if step < self.along.step * SHORTER {
+                    side.end.because = "Newton's method finds no further point".to_owned();
+                }
+                continue;
+            };
+            let Some(direction) = tracer.tangent(&next, &tangent) else {
+                side.end.because = "the equations have no direction here".to_owned();
+                break;
+            };
+            let found = Orbit::of(&tracer.lap(next.at), &next.closed());
+            let reached = tests_of(&found, &direction);
+            let segment = Segment {
+                tracer: &tracer,
+                from: &here,
+                tangent: &tangent,
+                length: step,
+            };
+            arclength += step;
+            let ended = self.take_events(&segment, &tests, &reached, &mut side);
+            let ended = ended.or_else(|| {
+                side.end.at = found.at[0];
+                self.left(&found, arclength, start, orbit)
+            });
+            if let Some(because) = ended {
+                side.closed = because.contains("closed");
+                side.end.because = because;
+                break;
+            }
+            (here, tangent, tests) = (next, direction, reached);
+            let anew = counted_anew(&mut tracer, &mut here, &mut tangent);
+            side.points.push(point(anew.unwrap_or(found), arclength));
+            self.done += 1;
+            let of = (2 * self.along.most) as f64;
+            Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
+            step = self.next_step(step, steps);
+        }
+        Ok(side)
+    }
+
+    /// The length of the next step, by how many steps the corrector took.
+    fn next_step(&self, step: f64, steps: usize) -> f64 {
+        match steps {
+            MANY.. => step * 0.6,
+            0..=FEW => (step * 1.4).min(self.along.step * LONGER),
+            _ => step,
+        }
+    }
+
+    /// Locates what happens between two points; why the branch ends there, if it does.
+    fn take_events<F: Family>(
+        &self,
+        segment: &Segment<F>,
+        before: &[(Test, f64)],
+        after: &[(Test, f64)],
+        side: &mut Side,
+    ) -> Option<String> {
+        let mut found: Vec<BranchEvent> = Vec::new();
+        for ((test, a), (_, b)) in before.iter().zip(after) {
+            if a.is_finite() && b.is_finite() && (*a < 0.0) != (*b < 0.0) {
+                found.extend(located(segment, *test, *a, *b));
+            }
+        }
+        let [low, high] = self.along.range;
+        found.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
+        for event in found {
+            let within = (low..=high).contains(&event.value[0]);
+            let (kind, virtually) = (event.kind, event.is_own_snap);
+            if within {
+                side.events.push(event.clone());
+            }
+            if kind == Kind::Corner || (kind == Kind::Graze && virtually) {
+                side.end.at = event.value[0];
+                return Some(match kind {
+                    Kind::Corner => "corner: two cables snap at once, and come in the other order beyond it",
+                    _ => "graze: a snap of the sequence has no speed left, and would open its cable beyond it",
+                }
+                .to_owned());
+            }
+        }
+        None
+    }
+
+    /// Why a branch ends at a point that it has come to.
+    fn left(
+        &self,
+        found: &Orbit,
+        arclength: f64,
+        start: &Unknowns,
+        first: &Orbit,
+    ) -> Option<String> {
+        let [low, high] = self.along.range;
+        if !(low..=high).contains(&found.at[0]) {
+            return Some("the end of the range".to_owned());
+        }
+        let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
+        if gap > DEEP {
+            return Some(format!("a cable would have to be longer by {DEEP}"));
+        }
+        let near = |z: &Point| crate::distance(z, &start.z);
+        let same = found.lap.sequence == first.lap.sequence;
+        let back = near(&found.z).max((found.at[0] - start.at[0]).abs());
+        (arclength > FAR * self.along.step && same && back < BACK * self.along.step)
+            .then(|| "the branch is closed".to_owned())
+    }
+}
+
+/// Counts the events anew where one has passed the section; the orbit then.
+fn counted_anew<F: Family>(
+    tracer: &mut Tracer<F>,
+    here: &mut Unknowns,
+    tangent: &mut DVector<f64>,
+) -> Option<Orbit> {
+    let mut orbit = None;
+    while let Some((moved, anew, shift)) = tracer.renumbered(here) {
+        *tangent = moved.tangent_after(&anew, tangent, shift)?;
+        (*tracer, *here) = (moved, anew);
+        orbit = Some(Orbit::of(&tracer.lap(here.at), &here.closed()));
+    }
+    orbit
+}
+
+/// The next point, if the corrector finds one near enough.
+fn stepped<F: Family>(
+    tracer: &Tracer<F>,
+    here: &Unknowns,
+    tangent: &DVector<f64>,
+    step: f64,
+) -> Option<(Unknowns, usize)> {
+    let (next, steps) = tracer.corrected(here, tangent, step)?;
+    let moved = here.durations.iter().zip(&next.durations);
+    let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let off = crate::distance(&here.z, &next.z).max((here.at[0] - next.at[0]).abs());
+    let turned = tracer.tangent(&next, tangent)?.dot(tangent);
+    (most < TIMES && off <= 2.0 * step && turned > 0.9).then_some((next, steps))
+}

@@ -1,0 +1,246 @@
+//! What happens along a branch: test functions, and where they are zero.
+
+use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
+use crate::orbit::Orbit;
+use crate::survey::{Extreme, root};
+use crate::tracer::Segment;
+use nalgebra::DVector;
+
+/// What happens at a point of a branch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The branch turns back in the parameter: μ = 1.
+    Fold,
+    /// μ = −1: an orbit of twice the length is born.
+    PeriodDoubling,
+    /// |μ| = 1 of a complex pair: a torus is born.
+    NeimarkSacker,
+    /// A surface is touched at no speed.
+    Graze,
+    /// Two surfaces are struck at one instant.
+    Corner,
+    /// The tension of a held surface is zero.
+    TensionLost,
+    /// The rotation limit is reached.
+    RotationLimit,
+    /// The upper bound is reached.
+    UpperBound,
+}
+
+impl Kind {
+    /// Its name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::PeriodDoubling => "period_doubling",
+            Self::NeimarkSacker => "neimark_sacker",
+            Self::Graze => "graze",
+            Self::Corner => "corner",
+            Self::TensionLost => "tension_lost",
+            Self::RotationLimit => "rotation_limit",
+            Self::UpperBound => "upper_bound",
+        }
+    }
+}
+
+/// An event of a branch.
+#[derive(Clone, Debug)]
+pub struct BranchEvent {
+    /// What it is.
+    pub kind: Kind,
+    /// The values of the two parameters.
+    pub value: [f64; 2],
+    /// The orbit there.
+    pub orbit: Orbit,
+    /// The surface that it is about.
+    pub surface: Option<usize>,
+    /// When in the lap.
+    pub t: Option<f64>,
+    /// a = −g̈/2r at a graze: what bends the gap away.
+    pub normal_acceleration: Option<f64>,
+    /// (1 + e) √(2a): the jump of the velocity along the normal for each root of the length h by which
+    /// the surface would be passed (A. B. Nordmark, *J. Sound Vib.* 145 (1991) 279).
+    pub sqrt_coefficient: Option<f64>,
+    /// Whether a snap of the sequence grazes, and not a contact beside it.
+    pub is_own_snap: bool,
+    /// The place between the points.
+    pub(crate) sigma: f64,
+}
+
+/// A function that is zero at an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Test {
+    Fold,
+    PeriodDoubling,
+    NeimarkSacker,
+    Speed,
+    Gap,
+    Corner,
+    Tension,
+    Rotation,
+    UpperBound,
+}
+
+const TESTS: [Test; 9] = [
+    Test::Fold,
+    Test::PeriodDoubling,
+    Test::NeimarkSacker,
+    Test::Speed,
+    Test::Gap,
+    Test::Corner,
+    Test::Tension,
+    Test::Rotation,
+    Test::UpperBound,
+];
+
+/// A test function that is smaller than this is zero throughout, as on a family of neutral orbits.
+const NOTHING: f64 = 1e-9;
+/// How far off a test function may be at a place that is to be its zero.
+const ZERO: f64 = 1e-6;
+
+/// The values of all test functions; NaN where there is none.
+pub(crate) fn tests_of(orbit: &Orbit, tangent: &DVector<f64>) -> Vec<(Test, f64)> {
+    TESTS
+        .map(|test| (test, value(test, orbit, tangent)))
+        .to_vec()
+}
+
+fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
+    let survey = &orbit.survey;
+    let extreme = |extreme: Option<Extreme>, none| extreme.map_or(none, |e: Extreme| e.value);
+    let multipliers = &orbit.multipliers.values;
+    let cleared = |value: f64| {
+        if value.abs() < NOTHING {
+            f64::NAN
+        } else {
+            value
+        }
+    };
+    match test {
+        Test::Fold => cleared(tangent[tangent.len() - 1]),
+        Test::PeriodDoubling => {
+            cleared(product(multipliers.iter().map(|[re, im]| [1.0 + re, *im])))
+        }
+        Test::NeimarkSacker => cleared(pairs(multipliers)),
+        Test::Speed => extreme(survey.least_speed, f64::NAN),
+        Test::Gap => extreme(survey.largest_gap, -1.0),
+        Test::Corner => extreme(survey.corner_gap, -1.0),
+        Test::Tension => extreme(survey.least_tension, f64::NAN),
+        Test::Rotation => survey.limits[0],
+        Test::UpperBound => survey.limits[1],
+    }
+}
+
+/// The product of complex numbers that come in conjugate pairs.
+fn product(numbers: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+    numbers.fold([1.0, 0.0], times)[0]
+}
+
+/// Π (1 − μ_i μ_j), i < j: zero where a pair has the product 1.
+fn pairs(multipliers: &[[f64; 2]]) -> f64 {
+    let mut factors = Vec::new();
+    for (i, [a, b]) in multipliers.iter().enumerate() {
+        for [c, d] in &multipliers[i + 1..] {
+            factors.push([1.0 - (a * c - b * d), -(a * d + b * c)]);
+        }
+    }
+    product(factors.into_iter())
+}
+
+/// The event between two points at which a test function changes its sign; none where that is no zero
+/// of it, or not the event that is sought.
+pub(crate) fn located<F: Family>(
+    segment: &Segment<F>,
+    test: Test,
+    before: f64,
+    after: f64,
+) -> Option<BranchEvent> {
+    let (tracer, tangent) = (segment.tracer, segment.tangent);
+    let orbit_at = |sigma: f64| {
+        let (u, _) = tracer.corrected(segment.from, tangent, sigma)?;
+        let direction = tracer.tangent(&u, tangent)?;
+        Some((Orbit::of(&tracer.lap(u.at), &u.closed()), direction))
+    };
+    let of = |sigma: f64| {
+        let found = orbit_at(sigma);
+        found.map_or(f64::NAN, |(orbit, direction)| raw(test, &orbit, &direction))
+    };
+    let sigma = root(&of, (0.0, before), (segment.length, after));
+    let (orbit, direction) = orbit_at(sigma)?;
+    if raw(test, &orbit, &direction).abs() > ZERO || !is_meant(test, &orbit) {
+        return None;
+    }
+    let survey = &orbit.survey;
+    let (kind, extreme) = match test {
+        Test::Fold => (Kind::Fold, None),
+        Test::PeriodDoubling => (Kind::PeriodDoubling, None),
+        Test::NeimarkSacker => (Kind::NeimarkSacker, None),
+        Test::Speed => (Kind::Graze, survey.least_speed),
+        Test::Gap => (Kind::Graze, survey.largest_gap),
+        Test::Corner => (Kind::Corner, survey.corner_gap),
+        Test::Tension => (Kind::TensionLost, survey.least_tension),
+        Test::Rotation => (Kind::RotationLimit, None),
+        Test::UpperBound => (Kind::UpperBound, None),
+    };
+    let grazes = extreme.filter(|_| kind == Kind::Graze);
+    let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));
+    // Told with its events counted from the section that they have passed, if they have.
+    let (u, _) = tracer.corrected(segment.from, tangent, sigma)?;
+    let anew = tracer.renumbered(&u);
+    let orbit = anew.map_or(orbit, |(moved, u, _)| {
+        Orbit::of(&moved.lap(u.at), &u.closed())
+    });
+    let restitution = tracer.family.snap_contraction(orbit.at).sqrt();
+    Some(BranchEvent {
+        kind,
+        value: orbit.at,
+        surface: extreme.map(|extreme| extreme.surface),
+        t: extreme.map(|extreme| extreme.t),
+        normal_acceleration: bend,
+        sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
+        is_own_snap: test == Test::Speed,
+        sigma,
+        orbit,
+    })
+}
+
+/// a = −g̈/2r of a surface at an instant of a lap.
+fn normal_acceleration<F: Family>(segment: &Segment<F>, orbit: &Orbit, at: &Extreme) -> f64 {
+    let tracer = segment.tracer;
+    let system = tracer.family.plain(orbit.at);
+    let legs = tracer
+        .lap(orbit.at)
+        .legs(&system, &orbit.z, &orbit.lap.durations);
+    let leg = legs[at.leg];
+    let jets = tracer.family.jets(orbit.at);
+    let start: Point<Jet> = leg.start.map(constant);
+    let s = Jet::variable(at.t - leg.t, DURATION);
+    let there = jets.flow(leg.held, constant(leg.t), &start, s);
+    -jets.speed(at.surface, &there).slope[DURATION]
+}
+
+/// The test function without the guard against families of neutral orbits.
+fn raw(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
+    let multipliers = &orbit.multipliers.values;
+    match test {
+        Test::Fold => tangent[tangent.len() - 1],
+        Test::PeriodDoubling => product(multipliers.iter().map(|[re, im]| [1.0 + re, *im])),
+        Test::NeimarkSacker => pairs(multipliers),
+        _ => value(test, orbit, tangent),
+    }
+}
+
+/// Whether the multipliers are those of the event: two real ones whose product is 1 are no torus.
+fn is_meant(test: Test, orbit: &Orbit) -> bool {
+    let multipliers = &orbit.multipliers.values;
+    match test {
+        Test::PeriodDoubling => multipliers
+            .iter()
+            .any(|[re, im]| (re + 1.0).hypot(*im) < 1e-4),
+        Test::NeimarkSacker => multipliers
+            .iter()
+            .any(|[re, im]| *im != 0.0 && (re.hypot(*im) - 1.0).abs() < 1e-5),
+        _ => true,
+    }
+}

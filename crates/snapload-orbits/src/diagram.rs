@@ -1,0 +1,92 @@
+//! Diagrams: the attractor followed along a key, each value begun where the last one ended.
+
+use crate::hybrid::Point;
+use crate::section::{Section, Stretch, period_of, start_of};
+use snapload::analysis::{OnProgress, Progress, Unfinished};
+use snapload::{Parameters, Stop};
+
+/// What there is at one value.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// The value of the key.
+    pub value: f64,
+    /// The state that the motion began with.
+    pub seed: Point,
+    /// Whether that was the case's own start, and not where the value before ended.
+    pub restarted: bool,
+    /// The section points and what is told of them.
+    pub section: Section,
+    /// The period in periods of the forcing, if the motion repeats itself.
+    pub period: Option<usize>,
+}
+
+impl At {
+    /// Why the motion stopped, where it did.
+    pub fn stop(&self) -> Option<Stop> {
+        self.section.stop
+    }
+
+    /// Snaps a period.
+    pub fn snaps(&self) -> Option<f64> {
+        let periods = self
+            .section
+            .points
+            .len()
+            .checked_sub(1)
+            .filter(|n| *n > 0)?;
+        Some(self.section.snaps as f64 / periods as f64)
+    }
+}
+
+/// Follows the attractor of a case along values of a key, in their order. Where a motion stops at a
+/// limit the next value begins with the case's own start again.
+///
+/// # Errors
+/// As for [`Section::of`], at the first value; a start that is not legal at a later one begins anew.
+pub fn diagram(
+    base: &Parameters,
+    key: &str,
+    values: &[f64],
+    stretch: &Stretch,
+    on_progress: OnProgress,
+) -> Result<Vec<At>, Unfinished> {
+    let mut found: Vec<At> = Vec::with_capacity(values.len());
+    for (done, value) in values.iter().enumerate() {
+        let here = base.over(|name, other| if name == key { *value } else { other });
+        here.check()?;
+        let begun = stretch.phase * period_of(&here)?;
+        let share = |progress: Progress| {
+            let part = done as f64 + progress.done / progress.of;
+            on_progress(Progress::new(
+                "following the attractor",
+                part,
+                values.len() as f64,
+            ))
+        };
+        let before = found
+            .last()
+            .filter(|at| at.stop().is_none())
+            .map(|at| at.section.end.0);
+        let go_on = before.map(|seed| {
+            Section::from(&here, (begun, &seed), stretch, &share).map(|section| (section, seed))
+        });
+        let (section, seed, restarted) = match go_on {
+            Some(Ok((section, seed))) => (section, seed, false),
+            Some(Err(Unfinished::Cancelled(cancelled))) => return Err(cancelled.into()),
+            Some(Err(Unfinished::Case(_))) | None => {
+                let seed = start_of(&here);
+                let section = Section::from(&here, (begun, &seed), stretch, &share)?;
+                (section, seed, true)
+            }
+        };
+        let period = section.stop.is_none().then(|| section.period()).flatten();
+        found.push(At {
+            value: *value,
+            seed,
+            restarted,
+            section,
+            period,
+        });
+    }
+    Ok(found)
+}

@@ -1,0 +1,119 @@
+//! Hybrid systems: flows between events, events on surfaces, laws at events.
+//!
+//! Orbits, multipliers and branches are found for anything that can do what [`Hybrid`] asks for: a
+//! body on cables ([`crate::Moored`]), or an oscillator against a wall. It is asked for over plain
+//! doubles and over [`Jet`]s, whose derivatives by state, time and parameters make Newton's method
+//! and the saltation matrices.
+
+use snapload::{Dual, PerCable, Real, Stop, TautSet};
+
+/// Six numbers: x, y, θ, ẋ, ẏ, θ̇, of which a system may use fewer.
+pub type Point<T = f64> = [T; 6];
+
+/// A number with its derivatives by the six components of the state at the start of a leg, by the time
+/// there, by the leg's duration, and by two parameters.
+pub type Jet = Dual<f64, 10>;
+
+/// The place of the time among the derivatives of a [`Jet`].
+pub const TIME: usize = 6;
+/// That of the duration.
+pub const DURATION: usize = 7;
+/// That of the first of two parameters.
+pub const PARAMETER: usize = 8;
+
+/// A system that flows, meets surfaces, and jumps there. A surface that is held (a taut cable) is a
+/// constraint of the flow.
+pub trait Hybrid<T: Real> {
+    /// All surfaces.
+    fn surfaces(&self) -> TautSet;
+
+    /// The state a time `s`, of either sign, after `z` at time `t`, with `held` surfaces.
+    fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
+
+    /// How far the state is beyond a surface, as a length: negative where it is legal.
+    fn gap(&self, surface: usize, z: &Point<T>) -> T;
+
+    /// The velocity v_n at which it closes.
+    fn speed(&self, surface: usize, z: &Point<T>) -> T;
+
+    /// The force by which a held surface holds; it lets go where this is zero.
+    fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T;
+
+    /// The law where `struck` surfaces are met and those of `pulling` take up impulses: the state
+    /// after it, and the impulses.
+    fn law(&self, struck: TautSet, pulling: TautSet, z: &Point<T>) -> (Point<T>, PerCable<T>);
+
+    /// Moved onto `closed` surfaces, and along `still` ones.
+    fn placed(&self, closed: TautSet, still: TautSet, z: &Point<T>) -> Point<T>;
+}
+
+/// What limits the motion, as quantity − bound, in this order: |θ|, height; −∞ where there is no
+/// such limit.
+pub type Limits = [f64; 2];
+
+/// Hybrid systems with two parameters, forced periodically.
+pub trait Family: Sync {
+    /// The system over doubles.
+    type Plain: Hybrid<f64>;
+    /// The same over jets.
+    type Jets: Hybrid<Jet>;
+
+    /// Which components of a [`Point`] it uses.
+    fn variables(&self) -> &'static [usize];
+
+    /// The system at two values of the parameters.
+    fn plain(&self, at: [f64; 2]) -> Self::Plain;
+
+    /// The same over jets, with the derivatives by the parameters.
+    fn jets(&self, at: [f64; 2]) -> Self::Jets;
+
+    /// The period of the forcing, with its derivatives by the parameters.
+    fn forcing_period(&self, at: [f64; 2]) -> Jet;
+
+    /// How much volumes shrink in flight, per unit of time: the negative divergence; `None` where it
+    /// is not constant.
+    fn contraction(&self, at: [f64; 2]) -> Option<f64>;
+
+    /// The factor by which one snap multiplies volumes: e².
+    fn snap_contraction(&self, at: [f64; 2]) -> f64;
+
+    /// The limits at a state.
+    fn limits(&self, system: &Self::Plain, z: &Point) -> Limits;
+
+    /// A gap that is given as a length, in the measure in which it is told.
+    fn told_gap(&self, _system: &Self::Plain, _surface: usize, length: f64) -> f64 {
+        length
+    }
+
+    /// The motion as it is, with its events detected, from `z` at time `t` to `t_end`. None where
+    /// the system has no other motion than the prescribed one of [`crate::scan`].
+    fn simulate(&self, at: [f64; 2], t: f64, z: &Point, t_end: f64) -> Option<Simulated>;
+}
+
+/// A motion as it was found by simulation, or why there is none.
+#[derive(Clone, Debug)]
+pub struct Simulated {
+    /// Its events.
+    pub lap: crate::sequence::Timed,
+    /// Where it ended.
+    pub end: Point,
+    /// Why and when it stopped before its time.
+    pub stop: Option<(Stop, f64)>,
+    /// A start that is not legal, in words.
+    pub illegal: Option<String>,
+}
+
+/// A jet without derivatives.
+pub fn constant(value: f64) -> Jet {
+    Jet::constant(value)
+}
+
+/// A state, by whose components derivatives are taken.
+pub fn variable(z: &Point) -> Point<Jet> {
+    std::array::from_fn(|i| Jet::variable(z[i], i))
+}
+
+/// The values of a state's components.
+pub fn values(z: &Point<Jet>) -> Point {
+    z.map(|component| component.value)
+}

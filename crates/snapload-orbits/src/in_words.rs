@@ -1,0 +1,160 @@
+//! The answers in a few lines, for a person.
+
+use crate::attraction::Attraction;
+use crate::basin::Basin;
+use crate::diagram::At;
+use crate::erosion::Erosion;
+use crate::multipliers::Stability;
+use crate::orbit::{Orbit, words};
+use crate::section::Section;
+use std::fmt::Write;
+
+/// An orbit.
+pub fn orbit_in_words(orbit: &Orbit) -> String {
+    let stability = match orbit.stability() {
+        Stability::Stable => "stable",
+        Stability::Unstable => "unstable",
+        Stability::Neutral => "neutral",
+        Stability::Superstable => "superstable",
+    };
+    let mut text = format!(
+        "Orbit     {} of {}, t = {:.6}: {}\n",
+        stability,
+        periods(orbit.periods as usize),
+        orbit.length,
+        words(&orbit.lap.sequence)
+    );
+    let state: Vec<String> = orbit.z.iter().map(|c| format!("{c:.9}")).collect();
+    let _ = writeln!(text, "Section   {}", state.join(" "));
+    let multiplier = |[re, im]: &[f64; 2]| match *im {
+        0.0 => format!("{re:.6}"),
+        im => format!("{re:.6}{im:+.6}i"),
+    };
+    let all: Vec<String> = orbit.multipliers.values.iter().map(multiplier).collect();
+    let _ = writeln!(text, "Multiplier {}", all.join(", "));
+    for why in &orbit.why_not {
+        let _ = writeln!(text, "Not a motion: {why}");
+    }
+    if let Some(error) = orbit.return_error {
+        let _ = writeln!(text, "Returns   to {error:.1e} when it is run");
+    }
+    text
+}
+
+fn periods(n: usize) -> String {
+    match n {
+        1 => "one period".to_owned(),
+        n => format!("{n} periods"),
+    }
+}
+
+/// A section.
+pub fn section_in_words(section: &Section) -> String {
+    let mut text = String::new();
+    if let Some(stop) = section.stop {
+        let _ = writeln!(
+            text,
+            "Stopped   at t = {:.4}: {}",
+            section.end.1,
+            stop.meaning()
+        );
+        return text;
+    }
+    let _ = match section.period() {
+        Some(n) => writeln!(text, "Repeats   itself after {}", periods(n)),
+        None => writeln!(
+            text,
+            "Repeats   itself with no period up to {}",
+            crate::LONGEST_PERIOD
+        ),
+    };
+    let exponent = |[mean, error]: &[f64; 2]| match mean.is_finite() {
+        true => format!("{mean:.4} +- {error:.4}"),
+        false => "closed".to_owned(),
+    };
+    let all: Vec<String> = section.exponents.iter().map(exponent).collect();
+    let _ = writeln!(text, "Exponents {}", all.join(", "));
+    text
+}
+
+/// A diagram.
+pub fn diagram_in_words(key: &str, found: &[At]) -> String {
+    let mut text = format!("{key:<12} period  snaps    exponent\n");
+    for at in found {
+        let period = at.period.map_or("none".to_owned(), |n| n.to_string());
+        let snaps = at
+            .snaps()
+            .map_or("-".to_owned(), |snaps| format!("{snaps:.3}"));
+        let exponent = at.section.exponents.first();
+        let exponent = exponent.map_or("-".to_owned(), |[m, e]| format!("{m:.4} +- {e:.4}"));
+        let _ = match at.stop() {
+            Some(stop) => writeln!(text, "{:<12} {}", at.value, stop.words()),
+            None => writeln!(text, "{:<12} {period:<7} {snaps:<8} {exponent}", at.value),
+        };
+    }
+    text
+}
+
+/// A safe basin.
+pub fn basin_in_words(basin: &Basin) -> String {
+    let m = &basin.measures;
+    let mut text = format!(
+        "Safe      {} of {} legal cells: {:.4} ({:.4} to {:.4})\n",
+        m.safe, m.legal, m.gim, m.interval[0], m.interval[1]
+    );
+    for (stop, count) in basin
+        .by_outcome()
+        .into_iter()
+        .filter(|(_, count)| *count > 0)
+    {
+        let _ = writeln!(text, "          {count} {}", stop.words());
+    }
+    if basin.looked_beside {
+        let _ = writeln!(text, "Undecided {}", m.undecided);
+    }
+    for (name, value) in [("LIM", m.lim), ("IF", m.integrity_factor), ("IIM", m.iim)] {
+        if let Some(value) = value {
+            let _ = writeln!(text, "{name:<9} {value:.4}");
+        }
+    }
+    text
+}
+
+/// An erosion.
+pub fn erosion_in_words(erosion: &Erosion) -> String {
+    let mut text = format!("{:<12} safe     LIM      IF\n", erosion.key);
+    let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+    for (value, basin) in &erosion.points {
+        let m = &basin.measures;
+        let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
+        let _ = writeln!(text, "{value:<12} {:<8.4} {lim:<8} {disc}", m.gim);
+    }
+    if let Some(knee) = erosion.knee() {
+        let _ = writeln!(text, "Knee      at {} = {knee}", erosion.key);
+    }
+    text
+}
+
+/// Basins of attraction.
+pub fn attraction_in_words(found: &Attraction) -> String {
+    let mut text = String::new();
+    for (attractor, number) in found.attractors.iter().zip(1..) {
+        let symbol = attractor
+            .orbit
+            .as_ref()
+            .map(|orbit| words(&orbit.lap.sequence));
+        let _ = writeln!(
+            text,
+            "Attractor {number}: {} cells, {}, {}",
+            attractor.cells,
+            periods(attractor.period),
+            symbol.unwrap_or_else(|| "not closed".to_owned())
+        );
+    }
+    let others = found
+        .fates
+        .iter()
+        .filter(|fate| matches!(fate, crate::Fate::Stopped(..)));
+    let _ = writeln!(text, "Stopped   {} cells", others.count());
+    text
+}

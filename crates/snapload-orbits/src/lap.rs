@@ -1,0 +1,288 @@
+//! The composed map: flow to an event, law, flow to the next, for a given sequence of events, and its
+//! derivatives.
+//!
+//! The times from event to event are unknowns beside the state, so that neither an orbit's
+//! instability nor a snap at zero speed spoils Newton's method:
+//!
+//! ```text
+//! F(z, s) = ( P(z, s) − z,  h_1, …, h_N ) = 0,      h_k the gap, or the tension, at event k
+//! ```
+//!
+//! Where the times follow from the state, δs_k = −(∂h_k δz + ∂_t h_k δt)/(∂_s h_k), the same
+//! derivatives give the saltation matrices and their product, the monodromy matrix.
+
+use crate::hybrid::{DURATION, Family, Hybrid, Jet, PARAMETER, Point, TIME, values, variable};
+use crate::sequence::{Event, Happening, Sequence};
+use nalgebra::{DMatrix, DVector};
+use snapload::TautSet;
+
+/// A sequence of events of a system, and how long it lasts.
+pub struct Lap<'a, F: Family> {
+    /// The systems.
+    pub family: &'a F,
+    /// The values of the two parameters.
+    pub at: [f64; 2],
+    /// The events.
+    pub sequence: &'a Sequence,
+    /// Time of the section, in periods of the forcing.
+    pub phase: f64,
+    /// How many periods of the forcing it lasts.
+    pub periods: u32,
+}
+
+/// One leg of a lap over plain numbers: from after an event to before the next.
+#[derive(Clone, Copy, Debug)]
+pub struct Leg {
+    /// The held surfaces.
+    pub held: TautSet,
+    /// When it begins.
+    pub t: f64,
+    /// The state then.
+    pub start: Point,
+    /// How long it lasts.
+    pub s: f64,
+    /// The state at its end, before the event there.
+    pub end: Point,
+}
+
+/// Numbers of a jet, without its value.
+type Slopes = [f64; 10];
+
+/// One leg and the event at its end, linearised.
+struct Linear {
+    /// Zero at the event, and its derivatives; none at the section.
+    event: Option<(f64, Slopes)>,
+    /// The state after the event, and its derivatives by what stands at the leg's start.
+    after: Point,
+    slopes: [Slopes; 6],
+}
+
+/// A lap, linearised.
+pub struct Linearised {
+    /// ∂(the state at the section, on its surfaces)/∂(the state given).
+    placed: [[f64; 6]; 6],
+    legs: Vec<Linear>,
+    /// Derivatives of the lap's length by the two parameters, and of the time of the section.
+    length_slopes: [f64; 2],
+    start_slopes: [f64; 2],
+}
+
+impl<F: Family> Lap<'_, F> {
+    /// The time of the section and the length of the lap.
+    pub fn times(&self) -> (f64, f64) {
+        let period = self.family.forcing_period(self.at).value;
+        (self.phase * period, f64::from(self.periods) * period)
+    }
+
+    /// Its legs over doubles.
+    pub fn legs(&self, system: &F::Plain, z: &Point, durations: &[f64]) -> Vec<Leg> {
+        let (mut t, length) = self.times();
+        let end = t + length;
+        let start = self.sequence.start;
+        let mut z = system.placed(start, start, z);
+        let held = self.sequence.held();
+        let mut legs = Vec::with_capacity(held.len());
+        for (k, held) in held.into_iter().enumerate() {
+            let s = durations.get(k).map_or(end - t, |s| *s);
+            let end = system.flow(held, t, &z, s);
+            legs.push(Leg {
+                held,
+                t,
+                start: z,
+                s,
+                end,
+            });
+            t += s;
+            if let Some(event) = self.sequence.events.get(k) {
+                z = after(system, event, &end);
+            }
+        }
+        legs
+    }
+
+    /// Its derivatives.
+    pub fn linearise(&self, z: &Point, durations: &[f64]) -> Linearised {
+        let system = self.family.jets(self.at);
+        let period = self.family.forcing_period(self.at);
+        let (mut t, length) = self.times();
+        let end = t + length;
+        let start = self.sequence.start;
+        let placed = system.placed(start, start, &variable(z));
+        let mut state = values(&placed);
+        let mut legs = Vec::new();
+        for (k, held) in self.sequence.held().into_iter().enumerate() {
+            let s = durations.get(k).map_or(end - t, |s| *s);
+            let [at, lasts] = [Jet::variable(t, TIME), Jet::variable(s, DURATION)];
+            let reached = system.flow(held, at, &variable(&state), lasts);
+            let leg = match self.sequence.events.get(k) {
+                None => Linear::new(None, &reached),
+                Some(event) => {
+                    let zero = match event.happening {
+                        Happening::Snap { .. } => system.gap(event.surface(), &reached),
+                        Happening::Release(_) => {
+                            system.tension(event.surface(), held, at + lasts, &reached)
+                        }
+                    };
+                    Linear::new(Some(zero), &after(&system, event, &reached))
+                }
+            };
+            state = leg.after;
+            t += s;
+            legs.push(leg);
+        }
+        let by = |factor: f64| [0, 1].map(|i| period.slope[PARAMETER + i] * factor);
+        Linearised {
+            placed: placed.map(|row| std::array::from_fn(|j| row.slope[j])),
+            legs,
+            length_slopes: by(f64::from(self.periods)),
+            start_slopes: by(self.phase),
+        }
+    }
+}
+
+/// The state after an event.
+pub(crate) fn after<T: snapload::Real>(
+    system: &impl Hybrid<T>,
+    event: &Event,
+    z: &Point<T>,
+) -> Point<T> {
+    match event.happening {
+        Happening::Snap { struck, pulling } => {
+            let (z, _) = system.law(struck, pulling, z);
+            system.placed(TautSet::SLACK, event.after, &z)
+        }
+        Happening::Release(_) => *z,
+    }
+}
+
+impl Linear {
+    fn new(event: Option<Jet>, after: &Point<Jet>) -> Self {
+        Self {
+            event: event.map(|jet| (jet.value, jet.slope)),
+            after: values(after),
+            slopes: after.map(|jet| jet.slope),
+        }
+    }
+}
+
+/// A row of derivatives by the unknowns: of the state in columns, of the durations, of parameters.
+type Rows = DMatrix<f64>;
+
+impl Linearised {
+    /// How many events there are.
+    pub fn events(&self) -> usize {
+        self.legs.len() - 1
+    }
+
+    /// F and its derivatives by the state's `variables`, the durations, and `parameters` of the two.
+    pub fn equations(
+        &self,
+        z: &Point,
+        variables: &[usize],
+        parameters: usize,
+    ) -> (DVector<f64>, DMatrix<f64>) {
+        let (m, n) = (variables.len(), self.events());
+        let columns = m + n + parameters;
+        let mut residual = DVector::zeros(m + n);
+        let mut jacobian = DMatrix::zeros(m + n, columns);
+        let mut state = self.start(variables, columns);
+        let mut time = DMatrix::zeros(1, columns);
+        for i in 0..parameters {
+            time[m + n + i] = self.start_slopes[i];
+        }
+        let begun = time.clone();
+        for (k, leg) in self.legs.iter().enumerate() {
+            let mut lasts = DMatrix::zeros(1, columns);
+            match leg.event {
+                Some((zero, slopes)) => {
+                    lasts[m + k] = 1.0;
+                    residual[m + k] = zero;
+                    let row = chained(&slopes, &state, &time, &lasts, m + n, parameters);
+                    jacobian.row_mut(m + k).copy_from(&row);
+                }
+                None => {
+                    lasts = &begun - &time;
+                    for i in 0..parameters {
+                        lasts[m + n + i] += self.length_slopes[i];
+                    }
+                }
+            }
+            state = moved(&leg.slopes, &state, &time, &lasts, m + n, parameters);
+            time += lasts;
+        }
+        if let Some(last) = self.legs.last() {
+            for (row, &i) in variables.iter().enumerate() {
+                residual[row] = last.after[i] - z[i];
+                jacobian.row_mut(row).copy_from(&state.row(i));
+                jacobian[(row, row)] -= 1.0;
+            }
+        }
+        (residual, jacobian)
+    }
+
+    /// The monodromy matrix ∂P/∂z over the `variables`, the times being those of the events.
+    pub fn monodromy(&self, variables: &[usize]) -> DMatrix<f64> {
+        let m = variables.len();
+        let mut state = self.start(variables, m);
+        let mut time = DMatrix::zeros(1, m);
+        for leg in &self.legs {
+            let zero = DMatrix::zeros(1, m);
+            let lasts = match leg.event {
+                Some((_, slopes)) => {
+                    chained(&slopes, &state, &time, &zero, m, 0) * (-1.0 / slopes[DURATION])
+                }
+                None => -&time,
+            };
+            state = moved(&leg.slopes, &state, &time, &lasts, m, 0);
+            time += lasts;
+        }
+        DMatrix::from_fn(m, m, |i, j| state[(variables[i], j)])
+    }
+
+    fn start(&self, variables: &[usize], columns: usize) -> Rows {
+        let mut rows = DMatrix::zeros(6, columns);
+        for i in 0..6 {
+            for (column, &j) in variables.iter().enumerate() {
+                rows[(i, column)] = self.placed[i][j];
+            }
+        }
+        rows
+    }
+}
+
+/// The derivatives of a number by the unknowns, from those by what stands at the leg's start.
+fn chained(
+    slopes: &Slopes,
+    state: &Rows,
+    time: &Rows,
+    lasts: &Rows,
+    first: usize,
+    parameters: usize,
+) -> Rows {
+    let mut row = time * slopes[TIME] + lasts * slopes[DURATION];
+    for (i, slope) in slopes[..6].iter().enumerate() {
+        if *slope != 0.0 {
+            row += state.row(i) * *slope;
+        }
+    }
+    for i in 0..parameters {
+        row[first + i] += slopes[PARAMETER + i];
+    }
+    row
+}
+
+fn moved(
+    slopes: &[Slopes; 6],
+    state: &Rows,
+    time: &Rows,
+    lasts: &Rows,
+    first: usize,
+    parameters: usize,
+) -> Rows {
+    let mut rows = DMatrix::zeros(6, state.ncols());
+    for (i, slopes) in slopes.iter().enumerate() {
+        let row = chained(slopes, state, time, lasts, first, parameters);
+        rows.row_mut(i).copy_from(&row);
+    }
+    rows
+}

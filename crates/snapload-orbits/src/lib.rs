@@ -1,0 +1,73 @@
+//! Nonlinear dynamics of bodies on cables: periodic orbits, branches, safe basins.
+//!
+//! A long motion of a body on cables may come to rest, repeat itself, or neither. This crate finds
+//! motions that repeat themselves by Newton's method on the sequence of their events, tells their
+//! Floquet multipliers, and whether a body has them at all: a sequence that closes need not be a
+//! motion.
+//!
+//! ```
+//! use snapload::Parameters;
+//! use snapload_orbits::{Moored, Orbit, Stability, Wanted};
+//!
+//! let case = Parameters {
+//!     inertia: None, a: 0.0, r: 1.7, e: 0.35, f_o: 1.4, nu: 0.8, omega: 3.1,
+//!     ..Parameters::STANDARD
+//! };
+//! let family = Moored::case(case, [None; 2]);
+//! let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
+//! let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default())?;
+//! assert_eq!(orbit.lap.sequence.symbol(), ["2", "1"]);
+//! assert_eq!(orbit.stability(), Stability::Stable);
+//! # Ok::<(), snapload_orbits::NoOrbit>(())
+//! ```
+
+mod attraction;
+mod attractor;
+mod basin;
+mod branch;
+mod branch_events;
+mod branch_rows;
+mod diagram;
+mod distances;
+mod erosion;
+mod hybrid;
+mod in_words;
+mod lap;
+mod moored;
+mod multipliers;
+mod newton;
+mod orbit;
+mod rows;
+mod scan;
+mod section;
+mod sequence;
+mod survey;
+mod switch;
+mod tracer;
+
+pub use attraction::{Attraction, Attractor, Fate};
+pub use attractor::{TRANSIENT, attracts, find_orbits, of_attractor};
+pub use basin::{Basin, Cell, Measures, Window};
+pub use branch::{Along, Branch, BranchEnd, BranchPoint};
+pub use branch_events::{BranchEvent, Kind};
+pub use branch_rows::{BranchRow, branch_in_words};
+pub use diagram::{At, diagram};
+pub use erosion::{Erosion, KNEE};
+pub use hybrid::{
+    DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, values,
+    variable,
+};
+pub use in_words::{
+    attraction_in_words, basin_in_words, diagram_in_words, erosion_in_words, orbit_in_words,
+    section_in_words,
+};
+pub use lap::{Lap, Leg, Linearised};
+pub use moored::{Cables, Moored};
+pub use multipliers::{Multipliers, Stability, multipliers};
+pub use newton::{Closed, close};
+pub use orbit::{EventRow, NoOrbit, Orbit, Wanted, distance, words};
+pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, OrbitRow, SectionRow};
+pub use scan::scan;
+pub use section::{LONGEST_PERIOD, Section, Stretch, period_of, start_of};
+pub use sequence::{Event, Happening, Sequence, Timed};
+pub use survey::{Extreme, Survey, survey};

@@ -1,0 +1,278 @@
+//! Bodies on cables as hybrid systems.
+
+use crate::hybrid::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
+use crate::sequence::{Event, Happening, Sequence, Timed};
+use snapload::{
+    Held, Parameters, PerCable, Real, Rules, Simulation, State, System, TautSet, Value,
+};
+use std::sync::Arc;
+
+/// Snaps slower than this come to rest: the state after an accumulation is off by its square.
+const V_STICK: f64 = 1e-7;
+/// More events than this in a motion that is looked at are too many.
+const MOST_IMPACTS: u64 = 20_000;
+
+/// A body on cables over some numbers.
+pub struct Cables<T: Real> {
+    held: Held<T>,
+    rules: Rules<T>,
+}
+
+impl<T: Real> Cables<T> {
+    fn new((system, rules): (System<T>, Rules<T>)) -> Self {
+        Self {
+            held: Held::new(system),
+            rules,
+        }
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System<T> {
+        self.held.system()
+    }
+}
+
+impl<T: Real> Hybrid<T> for Cables<T> {
+    fn surfaces(&self) -> TautSet {
+        self.system().all_cables()
+    }
+
+    fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T> {
+        let state = State::from_components(*z);
+        self.held.carried(held, t, &state, s).components()
+    }
+
+    /// g/2r.
+    fn gap(&self, surface: usize, z: &Point<T>) -> T {
+        let cable = &self.system().cables[surface];
+        cable.gap(&State::from_components(*z)) / (cable.length() * 2.0)
+    }
+
+    /// ġ/2r, which is v_n where the gap is closed.
+    fn speed(&self, surface: usize, z: &Point<T>) -> T {
+        let state = State::from_components(*z);
+        self.system().cables[surface]
+            .normal(&state)
+            .velocity(&state)
+    }
+
+    fn tension(&self, surface: usize, held: TautSet, t: T, z: &Point<T>) -> T {
+        self.held.tensions(held, t, &State::from_components(*z))[surface]
+    }
+
+    fn law(&self, struck: TautSet, pulling: TautSet, z: &Point<T>) -> (Point<T>, PerCable<T>) {
+        let (after, impulse) = self
+            .held
+            .struck(&State::from_components(*z), struck, pulling);
+        (after.components(), impulse)
+    }
+
+    fn placed(&self, closed: TautSet, still: TautSet, z: &Point<T>) -> Point<T> {
+        let state = State::from_components(*z);
+        self.held.projected(&state, closed, still).components()
+    }
+}
+
+/// A system and its rules over doubles, at two values of its parameters.
+type OfDoubles = dyn Fn([f64; 2]) -> (System, Rules) + Send + Sync;
+/// The same over jets.
+type OfJets = dyn Fn([Jet; 2]) -> (System<Jet>, Rules<Jet>) + Send + Sync;
+
+/// Bodies on cables with two parameters, forced periodically.
+#[derive(Clone)]
+pub struct Moored {
+    doubles: Arc<OfDoubles>,
+    jets: Arc<OfJets>,
+    turns: bool,
+}
+
+/// The parameters as jets.
+fn jets_of(at: [f64; 2]) -> [Jet; 2] {
+    [0, 1].map(|i| Jet::variable(at[i], PARAMETER + i))
+}
+
+impl Moored {
+    /// Any system, with its first harmonic as the forcing whose period counts; `turns` says whether
+    /// the body is rigid.
+    pub fn new(
+        turns: bool,
+        doubles: impl Fn([f64; 2]) -> (System, Rules) + Send + Sync + 'static,
+        jets: impl Fn([Jet; 2]) -> (System<Jet>, Rules<Jet>) + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            doubles: Arc::new(doubles),
+            jets: Arc::new(jets),
+            turns,
+        }
+    }
+
+    /// The thesis's case, with the keys that may change; the stops by settling are off.
+    pub fn case(parameters: Parameters, keys: [Option<&'static str>; 2]) -> Self {
+        let parameters = Parameters {
+            stop_when_settled: false,
+            stop_when_sliding: false,
+            ..parameters
+        };
+        Self::new(
+            !parameters.is_point(),
+            move |at| of_case(&parameters, keys, at, |number| number),
+            move |at| of_case(&parameters, keys, at, Jet::constant),
+        )
+    }
+
+    /// The values of the keys that [`Moored::case`] was given.
+    pub fn values(parameters: &Parameters, keys: [Option<&'static str>; 2]) -> [f64; 2] {
+        keys.map(|key| {
+            let value = key.and_then(|key| parameters.get(key));
+            value.as_ref().and_then(Value::number).unwrap_or(0.0)
+        })
+    }
+
+    /// The period of the forcing.
+    pub fn period(&self, at: [f64; 2]) -> f64 {
+        self.forcing_period(at).value
+    }
+}
+
+fn of_case<T: Real>(
+    parameters: &Parameters,
+    keys: [Option<&'static str>; 2],
+    at: [T; 2],
+    lift: impl Fn(f64) -> T,
+) -> (System<T>, Rules<T>) {
+    let numbers = parameters.over(|name, value| {
+        let place = keys.iter().position(|key| *key == Some(name));
+        place.map_or_else(|| lift(value), |place| at[place])
+    });
+    (numbers.system(), numbers.rules())
+}
+
+impl Family for Moored {
+    type Plain = Cables<f64>;
+    type Jets = Cables<Jet>;
+
+    fn variables(&self) -> &'static [usize] {
+        if self.turns {
+            &[0, 1, 2, 3, 4, 5]
+        } else {
+            &[0, 1, 3, 4]
+        }
+    }
+
+    fn plain(&self, at: [f64; 2]) -> Cables<f64> {
+        Cables::new((self.doubles)(at))
+    }
+
+    fn jets(&self, at: [f64; 2]) -> Cables<Jet> {
+        Cables::new((self.jets)(jets_of(at)))
+    }
+
+    fn forcing_period(&self, at: [f64; 2]) -> Jet {
+        let (system, _) = (self.jets)(jets_of(at));
+        let omega = system.forcing.harmonics.first().map(|wave| wave.omega);
+        let omega = omega.unwrap_or(Jet::constant(1.0)).abs();
+        Jet::constant(std::f64::consts::TAU) / omega
+    }
+
+    fn contraction(&self, at: [f64; 2]) -> Option<f64> {
+        let (system, _) = (self.doubles)(at);
+        let turning = f64::from(u8::from(system.body.inverse_inertia() > 0.0));
+        match &system.drag {
+            None => Some(0.0),
+            Some(drag) if drag.quadratic == 0.0 => Some(2.0 * drag.linear + turning * drag.turning),
+            Some(_) => None,
+        }
+    }
+
+    fn snap_contraction(&self, at: [f64; 2]) -> f64 {
+        let (system, _) = (self.doubles)(at);
+        system.restitution * system.restitution
+    }
+
+    fn limits(&self, system: &Cables<f64>, z: &Point) -> Limits {
+        let state = State::from_components(*z);
+        let beyond =
+            |bound: Option<f64>, value: f64| bound.map_or(f64::NEG_INFINITY, |b| value - b);
+        [
+            beyond(system.rules.rotation_limit, state.theta.abs()),
+            beyond(system.rules.upper_bound, system.system().top(&state)),
+        ]
+    }
+
+    /// g = |P − A|² − r².
+    fn told_gap(&self, system: &Cables<f64>, surface: usize, length: f64) -> f64 {
+        2.0 * system.system().cables[surface].length() * length
+    }
+
+    fn simulate(&self, at: [f64; 2], t: f64, z: &Point, t_end: f64) -> Option<Simulated> {
+        let (system, rules) = (self.doubles)(at);
+        Some(simulate(system, &rules, t, z, t_end))
+    }
+}
+
+/// Runs it, and keeps its events.
+fn simulate(system: System, rules: &Rules, t: f64, z: &Point, t_end: f64) -> Simulated {
+    let rules = Rules {
+        t_end,
+        max_impacts: MOST_IMPACTS,
+        v_stick: V_STICK.min(rules.v_stick),
+        ..*rules
+    };
+    let mut simulation = match Simulation::new(system, rules, t, State::from_components(*z)) {
+        Ok(simulation) => simulation,
+        Err(error) => {
+            return Simulated {
+                lap: Timed::default(),
+                end: *z,
+                stop: None,
+                illegal: Some(error.to_string()),
+            };
+        }
+    };
+    let mut lap = Timed {
+        sequence: Sequence {
+            start: simulation.taut(),
+            events: Vec::new(),
+        },
+        ..Timed::default()
+    };
+    let mut since = t;
+    while let Some(step) = simulation.step() {
+        let Some((event, speed)) = event_of(&step) else {
+            continue;
+        };
+        lap.sequence.events.push(event);
+        lap.durations.push(step.t_end - since);
+        lap.speeds.push(speed);
+        since = step.t_end;
+    }
+    let stop = simulation.stop().zip(Some(simulation.time()));
+    Simulated {
+        lap,
+        end: simulation.state().components(),
+        stop: stop.filter(|(_, t)| *t < t_end),
+        illegal: None,
+    }
+}
+
+/// The event at the end of a step, and its closing velocity.
+fn event_of(step: &snapload::Step) -> Option<(Event, f64)> {
+    let (mut struck, mut pulling, mut speed) = (TautSet::SLACK, TautSet::SLACK, 0.0_f64);
+    for impact in step.impacts() {
+        pulling = pulling.with(impact.cable);
+        if impact.v_n > 0.0 {
+            struck = struck.with(impact.cable);
+            speed = speed.max(impact.v_n);
+        }
+    }
+    let happening = if !struck.is_empty() {
+        Happening::Snap { struck, pulling }
+    } else if step.taut != step.taut_after {
+        let gone = step.taut.iter().filter(|&k| !step.taut_after.contains(k));
+        Happening::Release(gone.collect())
+    } else {
+        return None;
+    };
+    let after = step.taut_after;
+    Some((Event { happening, after }, speed))
+}

@@ -1,0 +1,206 @@
+//! Floquet multipliers, with exact zeros where contact closes directions.
+//!
+//! A held surface leaves no deviation of its gap and of the gap's velocity: two multipliers are zero.
+//! They would come out of an eigenvalue problem as roundings, or as roots of roundings, so the orbit
+//! is cut where most surfaces are held, and the problem is solved in the directions that are left
+//! there.
+
+use crate::hybrid::{Family, Hybrid, Point, variable};
+use crate::lap::Lap;
+use crate::newton::Closed;
+use crate::sequence::Sequence;
+use nalgebra::{Complex, DMatrix, DVector};
+use snapload::TautSet;
+
+/// The multipliers of an orbit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Multipliers {
+    /// All of them, the largest first; exact zeros are 0.
+    pub values: Vec<[f64; 2]>,
+    /// How many are zero because surfaces are held on a part of the lap.
+    pub zeros_from_contact: usize,
+    /// The product of the others.
+    pub product: f64,
+}
+
+/// What of a multiplier's modulus off 1 is rounding.
+const NEUTRAL: f64 = 1e-9;
+
+/// What multipliers say of an orbit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// All multipliers are within the unit circle.
+    Stable,
+    /// One is outside.
+    Unstable,
+    /// None is outside, but some are on it.
+    Neutral,
+    /// All are zero: a neighbour is on the orbit after one lap.
+    Superstable,
+}
+
+impl Multipliers {
+    /// |μ| of the largest.
+    pub fn largest(&self) -> f64 {
+        self.values.first().map_or(0.0, |[re, im]| re.hypot(*im))
+    }
+
+    /// What they say.
+    pub fn stability(&self) -> Stability {
+        match self.largest() {
+            0.0 => Stability::Superstable,
+            largest if largest > 1.0 + NEUTRAL => Stability::Unstable,
+            largest if largest < 1.0 - NEUTRAL => Stability::Stable,
+            _ => Stability::Neutral,
+        }
+    }
+}
+
+/// Those of a closed lap.
+pub fn multipliers<F: Family>(lap: &Lap<F>, closed: &Closed) -> Multipliers {
+    let variables = lap.family.variables();
+    let (most, leg) = most_held(lap.sequence, &closed.durations, lap.times().1);
+    let reduced = if most.is_empty() {
+        let linear = lap.linearise(&closed.z, &closed.durations);
+        linear.monodromy(variables)
+    } else {
+        let cut = cut_within(lap, closed, leg);
+        let here = Lap {
+            sequence: &cut.sequence,
+            phase: cut.phase,
+            ..*lap
+        };
+        let whole = here.linearise(&cut.z, &cut.durations).monodromy(variables);
+        let basis = directions_left(lap, most, &cut.z);
+        basis.transpose() * whole * &basis
+    };
+    let zeros = variables.len() - reduced.nrows();
+    let product = if reduced.nrows() == 0 {
+        1.0
+    } else {
+        reduced.determinant()
+    };
+    let mut values = eigenvalues(reduced);
+    values.resize(variables.len(), [0.0; 2]);
+    Multipliers {
+        values,
+        zeros_from_contact: zeros,
+        product,
+    }
+}
+
+/// The eigenvalues, the largest first.
+pub(crate) fn eigenvalues(matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
+    if matrix.nrows() == 0 || !matrix.iter().all(|entry| entry.is_finite()) {
+        return vec![[f64::NAN; 2]; matrix.nrows()];
+    }
+    let found = matrix.complex_eigenvalues();
+    let mut values: Vec<Complex<f64>> = found.iter().copied().collect();
+    values.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(a.im.total_cmp(&b.im)));
+    values
+        .into_iter()
+        .map(|value| [value.re, value.im])
+        .collect()
+}
+
+/// The largest set of held surfaces, and the longest leg that has it.
+fn most_held(sequence: &Sequence, durations: &[f64], length: f64) -> (TautSet, usize) {
+    let rest = length - durations.iter().sum::<f64>();
+    let durations = durations.iter().copied().chain([rest]);
+    let mut found = (TautSet::SLACK, 0);
+    let mut longest = 0.0;
+    for (k, (held, s)) in sequence.held().into_iter().zip(durations).enumerate() {
+        let more = held.len() > found.0.len() && s > 0.0;
+        if more || (held.len() == found.0.len() && s > longest) {
+            (found, longest) = ((held, k), s);
+        }
+    }
+    found
+}
+
+/// The same lap from another section.
+struct Cut {
+    sequence: Sequence,
+    durations: Vec<f64>,
+    z: Point,
+    phase: f64,
+}
+
+/// Cuts a lap in the middle of a leg.
+fn cut_within<F: Family>(lap: &Lap<F>, closed: &Closed, leg: usize) -> Cut {
+    let system = lap.family.plain(lap.at);
+    let legs = lap.legs(&system, &closed.z, &closed.durations);
+    let (begun, length) = lap.times();
+    let here = &legs[leg];
+    // The first and the last leg are one, cut by the section.
+    let half = here.s * 0.5;
+    let z = system.flow(here.held, here.t, &here.start, half);
+    let mut events = lap.sequence.events.clone();
+    events.rotate_left(leg);
+    let mut durations = Vec::with_capacity(events.len());
+    let times: Vec<f64> = legs[1..].iter().map(|leg| leg.t).collect();
+    let cut = here.t + half;
+    let mut since = cut;
+    for k in 0..times.len() {
+        let place = (k + leg) % times.len();
+        let t = times[place] + if place < leg { length } else { 0.0 };
+        durations.push(t - since);
+        since = t;
+    }
+    Cut {
+        sequence: Sequence {
+            start: here.held,
+            events,
+        },
+        durations,
+        z,
+        phase: lap.phase + (cut - begun) / length * f64::from(lap.periods),
+    }
+}
+
+/// An orthonormal basis of the deviations that leave held surfaces closed.
+fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix<f64> {
+    let (system, variables) = (lap.family.jets(lap.at), lap.family.variables());
+    let jets = variable(z);
+    let mut taken: Vec<DVector<f64>> = Vec::new();
+    for surface in held.iter() {
+        for closed in [system.gap(surface, &jets), system.speed(surface, &jets)] {
+            let row = variables.iter().map(|&i| closed.slope[i]);
+            let row = DVector::from_iterator(variables.len(), row);
+            taken.extend(orthogonal(row, &taken, 1e-9));
+        }
+    }
+    let constraints = taken.len();
+    for i in 0..variables.len() {
+        let mut unit = DVector::zeros(variables.len());
+        unit[i] = 1.0;
+        taken.extend(orthogonal(unit, &taken, 0.2));
+    }
+    // Unit vectors that are nearly spanned were left out; the rest of the space is filled with them.
+    for i in 0..variables.len() {
+        if taken.len() < variables.len() {
+            let mut unit = DVector::zeros(variables.len());
+            unit[i] = 1.0;
+            taken.extend(orthogonal(unit, &taken, 1e-6));
+        }
+    }
+    let left = &taken[constraints..];
+    DMatrix::from_fn(variables.len(), left.len(), |i, j| left[j][i])
+}
+
+/// What of a vector is orthogonal to others, at unit length; none where that is hardly anything.
+fn orthogonal(
+    mut vector: DVector<f64>,
+    others: &[DVector<f64>],
+    least: f64,
+) -> Option<DVector<f64>> {
+    let whole = vector.norm();
+    for _ in 0..2 {
+        for other in others {
+            let along = other.dot(&vector);
+            vector.axpy(-along, other, 1.0);
+        }
+    }
+    let left = vector.norm();
+    (left > least * whole && left > 0.0).then(|| vector / left)
+}

@@ -1,0 +1,457 @@
+//! Periodic orbits: found, closed to rounding, checked.
+
+use crate::hybrid::{Family, Hybrid, Point};
+use crate::lap::Lap;
+use crate::multipliers::{Multipliers, Stability, multipliers};
+use crate::newton::{Closed, close, step_of_map};
+use crate::scan::scan;
+use crate::sequence::{Sequence, Timed};
+use crate::survey::{Survey, survey};
+use snapload::TautSet;
+use std::fmt;
+
+/// A periodic orbit of a system.
+#[derive(Clone, Debug)]
+pub struct Orbit {
+    /// The values of the two parameters.
+    pub at: [f64; 2],
+    /// Time of the section, in periods of the forcing.
+    pub phase: f64,
+    /// Its length, in periods of the forcing.
+    pub periods: u32,
+    /// Its length in time.
+    pub length: f64,
+    /// The state at the section.
+    pub z: Point,
+    /// Its events.
+    pub lap: Timed,
+    /// When they are, and the impulses of what is struck.
+    pub rows: Vec<EventRow>,
+    /// Its multipliers.
+    pub multipliers: Multipliers,
+    /// What it is like between events.
+    pub survey: Survey,
+    /// The largest gap between events, where one comes nearest, as it is told.
+    pub largest_gap: Option<f64>,
+    /// How far the motion, simulated, is off after one lap; none where it stops before.
+    pub return_error: Option<f64>,
+    /// Why no body has it; empty if one does.
+    pub why_not: Vec<String>,
+    /// det M as the law of impact and the drag say, where one says so.
+    pub rule: Option<f64>,
+}
+
+/// One row of the events of an orbit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventRow {
+    /// When.
+    pub t: f64,
+    /// `snap`, `stick` or `release`.
+    pub kind: &'static str,
+    /// The surface, from 0.
+    pub surface: usize,
+    /// The closing velocity; 0 where nothing is struck.
+    pub speed: f64,
+    /// The impulse.
+    pub impulse: f64,
+}
+
+/// What is looked for.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// How many periods of the forcing; 1 where it is not said.
+    pub periods: Option<u32>,
+    /// The surfaces struck, one after the other, from 0; any where it is not said.
+    pub struck: Option<Vec<usize>>,
+    /// Time of the section, in periods of the forcing.
+    pub phase: f64,
+}
+
+/// Why no orbit was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NoOrbit(pub String);
+
+impl fmt::Display for NoOrbit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for NoOrbit {}
+
+/// Laps that are simulated, at most, on the way from a start to an orbit.
+const MOST_LAPS: usize = 40;
+/// A surface nearer than this, closing or opening more slowly than that, may be one that the orbit
+/// is held by.
+const NEAR: f64 = 5e-3;
+const SLOW: f64 = 5e-2;
+/// An orbit within this of where it was looked for is the one that was meant.
+const BESIDE: f64 = 0.02;
+/// Largest return error of a motion that has the orbit, for |μ| of 1.
+const RETURNS: f64 = 1e-9;
+/// A gap, a tension or a velocity on the wrong side by less is rounding.
+const ROUNDING: f64 = 1e-9;
+
+impl Orbit {
+    /// The orbit near `start`: by Newton's method on the map as it is simulated, from the start
+    /// itself and from where it is moved onto surfaces that it nearly touches, and, if that gives
+    /// none, on the map with these surfaces held.
+    ///
+    /// # Errors
+    /// [`NoOrbit`] says how far it came.
+    pub fn find<F: Family>(
+        family: &F,
+        at: [f64; 2],
+        start: &Point,
+        wanted: &Wanted,
+    ) -> Result<Self, NoOrbit> {
+        let system = family.plain(at);
+        let near: TautSet = system
+            .surfaces()
+            .iter()
+            .filter(|&k| system.gap(k, start).abs() < NEAR && system.speed(k, start).abs() < SLOW)
+            .collect();
+        let mut sets: Vec<TautSet> = near.subsets().collect();
+        sets.reverse();
+        let search = Search { family, at, wanted };
+        let (mut found, mut failures) = (Vec::new(), Vec::new());
+        for closed in &sets {
+            let z = system.placed(*closed, *closed, start);
+            match search.by_simulation(&z) {
+                Ok(orbit) if orbit.is_admissible() && distance(&orbit.z, start) < BESIDE => {
+                    return Ok(orbit);
+                }
+                Ok(orbit) => found.push(orbit),
+                Err(failure) => failures.push(failure),
+            }
+        }
+        for closed in &sets {
+            let z = system.placed(*closed, *closed, start);
+            found.extend(search.by_holding(*closed, &z));
+        }
+        // What a body has, or what is beside the start, comes before the rest.
+        let rank = |orbit: &Orbit| {
+            let far = distance(&orbit.z, start);
+            (far >= BESIDE, !orbit.is_admissible(), far)
+        };
+        let best = found.into_iter().min_by(|a, b| {
+            let ((far_a, bad_a, a), (far_b, bad_b, b)) = (rank(a), rank(b));
+            far_a
+                .cmp(&far_b)
+                .then(bad_a.cmp(&bad_b))
+                .then(a.total_cmp(&b))
+        });
+        let why = failures.into_iter().next();
+        best.ok_or_else(|| why.unwrap_or_else(|| NoOrbit("nothing was found".to_owned())))
+    }
+
+    /// Of a lap that is closed.
+    pub fn of<F: Family>(lap: &Lap<F>, closed: &Closed) -> Self {
+        let family = lap.family;
+        let multipliers = multipliers(lap, closed);
+        let survey = survey(lap, &closed.z, &closed.durations);
+        let (_, length) = lap.times();
+        let speeds = speeds(lap, closed);
+        let timed = Timed {
+            sequence: lap.sequence.clone(),
+            durations: closed.durations.clone(),
+            speeds,
+        };
+        let mut why_not = reasons(&survey, &closed.durations);
+        let return_error = run_once(lap, closed, &timed, multipliers.largest(), &mut why_not);
+        let slack = timed.sequence.held().iter().all(|held| held.is_empty());
+        let snaps = timed.sequence.snaps() as i32;
+        let rule = family
+            .contraction(lap.at)
+            .filter(|_| slack)
+            .map(|shrinking| {
+                family.snap_contraction(lap.at).powi(snaps) * (-shrinking * length).exp()
+            });
+        let system = family.plain(lap.at);
+        let gaps = [survey.largest_gap, survey.corner_gap]
+            .into_iter()
+            .flatten();
+        let told = gaps.map(|gap| family.told_gap(&system, gap.surface, gap.value));
+        let largest_gap = told.max_by(f64::total_cmp);
+        Self {
+            at: lap.at,
+            phase: lap.phase,
+            periods: lap.periods,
+            length,
+            z: closed.z,
+            rows: rows(lap, closed),
+            lap: timed,
+            multipliers,
+            survey,
+            largest_gap,
+            return_error,
+            why_not,
+            rule,
+        }
+    }
+
+    /// Whether a body has it.
+    pub fn is_admissible(&self) -> bool {
+        self.why_not.is_empty()
+    }
+
+    /// What its multipliers say.
+    pub fn stability(&self) -> Stability {
+        self.multipliers.stability()
+    }
+}
+
+/// The orbit that Newton's method comes to from a start that may be far off; only one that a body has.
+pub(crate) fn from_afar<F: Family>(family: &F, start: &Point, wanted: &Wanted) -> Option<Orbit> {
+    let search = Search {
+        family,
+        at: [0.0; 2],
+        wanted,
+    };
+    search
+        .by_simulation(start)
+        .ok()
+        .filter(Orbit::is_admissible)
+}
+
+/// A search for one orbit.
+struct Search<'a, F: Family> {
+    family: &'a F,
+    at: [f64; 2],
+    wanted: &'a Wanted,
+}
+
+impl<F: Family> Search<'_, F> {
+    fn periods(&self) -> u32 {
+        self.wanted.periods.unwrap_or(1)
+    }
+
+    fn lap<'b>(&'b self, sequence: &'b Sequence) -> Lap<'b, F> {
+        Lap {
+            family: self.family,
+            at: self.at,
+            sequence,
+            phase: self.wanted.phase,
+            periods: self.periods(),
+        }
+    }
+
+    fn is_wanted(&self, sequence: &Sequence) -> bool {
+        let wanted = self.wanted.struck.as_ref();
+        wanted.is_none_or(|struck| *struck == sequence.struck())
+    }
+
+    /// Simulates a lap, closes it with its events, and simulates again, until the events stay.
+    fn by_simulation(&self, start: &Point) -> Result<Orbit, NoOrbit> {
+        let period = self.family.forcing_period(self.at).value;
+        let t = self.wanted.phase * period;
+        let t_end = t + f64::from(self.periods()) * period;
+        let mut z = *start;
+        let mut closing: Option<Orbit> = None;
+        let mut why = String::new();
+        for _ in 0..MOST_LAPS {
+            let simulated = self.family.simulate(self.at, t, &z, t_end);
+            let Some(simulated) = simulated else {
+                return Err(NoOrbit("this system has no simulation".to_owned()));
+            };
+            if let Some(words) = simulated.illegal {
+                why = format!("the search came to a state that is not legal: {words}");
+                break;
+            }
+            if let Some((stop, t)) = simulated.stop {
+                why = format!(
+                    "a lap of the search stopped at t = {t:.4}: {}",
+                    stop.meaning()
+                );
+                break;
+            }
+            let Timed {
+                sequence,
+                durations,
+                ..
+            } = &simulated.lap;
+            let lap = self.lap(sequence);
+            if let Some(closed) = close(&lap, &z, durations) {
+                let orbit = Orbit::of(&lap, &closed);
+                if orbit.is_admissible() && self.is_wanted(sequence) {
+                    return Ok(orbit);
+                }
+                why = format!(
+                    "a lap closes with the events {}, but {}",
+                    words(sequence),
+                    orbit.why_not.join("; ")
+                );
+                if closing.is_none() && self.is_wanted(sequence) {
+                    closing = Some(orbit);
+                }
+            }
+            let guess = (&z, &durations[..]);
+            let phase = self.wanted.phase;
+            let step = step_of_map(self.family, self.at, sequence, phase, self.periods(), guess);
+            match step {
+                Some((next, size)) if size > 1e-13 => z = next,
+                _ => break,
+            }
+        }
+        if why.is_empty() {
+            why = format!("Newton's method has not ended after {MOST_LAPS} laps");
+        }
+        closing.ok_or(NoOrbit(why))
+    }
+
+    /// Closes a lap on which the closed surfaces are held throughout.
+    fn by_holding(&self, held: TautSet, start: &Point) -> Option<Orbit> {
+        let period = self.family.forcing_period(self.at).value;
+        let t = self.wanted.phase * period;
+        let length = f64::from(self.periods()) * period;
+        let found = scan(self.family, self.at, held, (t, start), length)?;
+        if !self.is_wanted(&found.sequence) {
+            return None;
+        }
+        let lap = self.lap(&found.sequence);
+        let closed = close(&lap, start, &found.durations)?;
+        Some(Orbit::of(&lap, &closed))
+    }
+}
+
+/// Runs the motion for one lap: how far it is off then, and why it is not the lap, where it is not.
+fn run_once<F: Family>(
+    lap: &Lap<F>,
+    closed: &Closed,
+    timed: &Timed,
+    largest: f64,
+    why_not: &mut Vec<String>,
+) -> Option<f64> {
+    let (t, length) = lap.times();
+    let simulated = lap.family.simulate(lap.at, t, &closed.z, t + length)?;
+    if let Some(words) = &simulated.illegal {
+        why_not.push(format!("the start is not legal: {words}"));
+        return None;
+    }
+    if let Some((stop, t)) = simulated.stop {
+        why_not.push(format!(
+            "the motion stops at t = {t:.6}: {}",
+            stop.meaning()
+        ));
+        return None;
+    }
+    let error = distance(&simulated.end, &closed.z);
+    if !simulated.lap.same_events(timed) {
+        let others = words(&simulated.lap.sequence);
+        why_not.push(format!("the motion has other events: {others}"));
+    } else if error > RETURNS * (1.0 + largest) {
+        why_not.push(format!("the motion is off by {error:.1e} after one lap"));
+    }
+    Some(error)
+}
+
+/// The largest difference of two states.
+pub fn distance(a: &Point, b: &Point) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}
+
+/// A symbol in one line.
+pub fn words(sequence: &Sequence) -> String {
+    let symbol = sequence.symbol();
+    if symbol.is_empty() {
+        "none".to_owned()
+    } else {
+        symbol.join(", ")
+    }
+}
+
+/// Why a body can not have a lap.
+fn reasons(survey: &Survey, durations: &[f64]) -> Vec<String> {
+    let mut why = Vec::new();
+    let cable = |surface: usize| surface + 1;
+    if let Some(snap) = survey.least_speed.filter(|snap| snap.value < -ROUNDING) {
+        why.push(format!(
+            "the snap of cable {} at t = {:.6} would open it: v_n = {:.3e}",
+            cable(snap.surface),
+            snap.t,
+            snap.value
+        ));
+    }
+    for gap in [survey.largest_gap, survey.corner_gap]
+        .into_iter()
+        .flatten()
+    {
+        if gap.value > ROUNDING {
+            why.push(format!(
+                "cable {} would have to be {:.3e} longer at t = {:.6}",
+                cable(gap.surface),
+                gap.value,
+                gap.t
+            ));
+        }
+    }
+    if let Some(tension) = survey.least_tension.filter(|least| least.value < -ROUNDING) {
+        why.push(format!(
+            "the tension of cable {} is negative, {:.6} at t = {:.6}: it would have to push",
+            cable(tension.surface),
+            tension.value,
+            tension.t
+        ));
+    }
+    if durations.iter().any(|s| *s < -ROUNDING) {
+        why.push("two events would have to come in the other order".to_owned());
+    }
+    let names = [
+        "the rotation limit is exceeded",
+        "the upper bound is exceeded",
+    ];
+    for (beyond, name) in survey.limits.iter().zip(names) {
+        if *beyond > ROUNDING {
+            why.push(format!("{name} by {beyond:.3e}"));
+        }
+    }
+    why
+}
+
+/// The closing velocity of each event.
+fn speeds<F: Family>(lap: &Lap<F>, closed: &Closed) -> Vec<f64> {
+    let system = lap.family.plain(lap.at);
+    let legs = lap.legs(&system, &closed.z, &closed.durations);
+    let events = lap.sequence.events.iter().zip(&legs);
+    let speed = |(event, leg): (&crate::sequence::Event, &crate::lap::Leg)| {
+        let struck = event.struck().iter().next();
+        struck.map_or(0.0, |surface| system.speed(surface, &leg.end))
+    };
+    events.map(speed).collect()
+}
+
+/// The events as rows.
+fn rows<F: Family>(lap: &Lap<F>, closed: &Closed) -> Vec<EventRow> {
+    let system = lap.family.plain(lap.at);
+    let legs = lap.legs(&system, &closed.z, &closed.durations);
+    let mut rows = Vec::new();
+    for (event, leg) in lap.sequence.events.iter().zip(&legs) {
+        let t = leg.t + leg.s;
+        let (_, impulse) = system.law(event.struck(), event.pulling(), &leg.end);
+        let mut row = |kind, surface, speed, impulse| {
+            rows.push(EventRow {
+                t,
+                kind,
+                surface,
+                speed,
+                impulse,
+            });
+        };
+        for surface in event.struck().iter() {
+            row(
+                "snap",
+                surface,
+                system.speed(surface, &leg.end),
+                impulse[surface],
+            );
+        }
+        for surface in leg.held.iter().filter(|&k| !event.after.contains(k)) {
+            row("release", surface, 0.0, 0.0);
+        }
+        for surface in event.after.iter().filter(|&k| !leg.held.contains(k)) {
+            row("stick", surface, 0.0, 0.0);
+        }
+    }
+    rows
+}

@@ -1,0 +1,419 @@
+//! The answers in the shape of their JSON.
+
+use crate::attraction::{Attraction, Fate};
+use crate::basin::Basin;
+use crate::diagram::At;
+use crate::erosion::Erosion;
+use crate::hybrid::Point;
+use crate::multipliers::Stability;
+use crate::orbit::Orbit;
+use crate::section::Section;
+use crate::survey::Extreme;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use snapload::TautSet;
+
+/// An orbit.
+#[derive(Serialize)]
+pub struct OrbitRow {
+    period: PeriodRow,
+    section: SectionPoint,
+    symbol: Vec<String>,
+    events: Vec<EventOfOrbit>,
+    modes: Vec<ModeRow>,
+    multipliers: Vec<[f64; 2]>,
+    zeros_from_contact: usize,
+    product: ProductRow,
+    stable: StabilityRow,
+    exponents: Vec<Option<f64>>,
+    admissible: AdmissibleRow,
+    return_error: Option<f64>,
+    error_bound: Option<f64>,
+    proved: bool,
+}
+
+#[derive(Serialize)]
+struct PeriodRow {
+    forcing_periods: u32,
+    t: f64,
+}
+
+#[derive(Serialize)]
+struct SectionPoint {
+    phase: f64,
+    state: Point,
+}
+
+#[derive(Serialize)]
+struct EventOfOrbit {
+    t: f64,
+    kind: &'static str,
+    cable: usize,
+    v_n: f64,
+    impulse: f64,
+}
+
+#[derive(Serialize)]
+struct ModeRow {
+    from: f64,
+    to: f64,
+    taut: Vec<usize>,
+}
+
+#[derive(Serialize)]
+struct ProductRow {
+    value: f64,
+    rule: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct AdmissibleRow {
+    yes: bool,
+    largest_gap: Option<f64>,
+    least_tension: Option<f64>,
+    least_v_n: Option<f64>,
+    y_max: f64,
+    theta_max: f64,
+    why_not: Vec<String>,
+}
+
+/// true, false, or a word.
+pub(crate) struct StabilityRow(pub(crate) Stability);
+
+impl Serialize for StabilityRow {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Stability::Stable => serializer.serialize_bool(true),
+            Stability::Unstable => serializer.serialize_bool(false),
+            Stability::Neutral => serializer.serialize_str("neutral"),
+            Stability::Superstable => serializer.serialize_str("superstable"),
+        }
+    }
+}
+
+/// Cables by their numbers from 1.
+fn numbers(set: TautSet) -> Vec<usize> {
+    set.iter().map(|cable| cable + 1).collect()
+}
+
+impl OrbitRow {
+    /// Of an orbit.
+    pub fn new(orbit: &Orbit) -> Self {
+        let value = |extreme: Option<Extreme>| extreme.map(|extreme| extreme.value);
+        let survey = &orbit.survey;
+        let event = |row: &crate::orbit::EventRow| EventOfOrbit {
+            t: row.t,
+            kind: row.kind,
+            cable: row.surface + 1,
+            v_n: row.speed,
+            impulse: row.impulse,
+        };
+        let exponent = |[re, im]: &[f64; 2]| {
+            let size = re.hypot(*im);
+            (size > 0.0).then(|| size.ln() / orbit.length)
+        };
+        Self {
+            period: PeriodRow {
+                forcing_periods: orbit.periods,
+                t: orbit.length,
+            },
+            section: SectionPoint {
+                phase: orbit.phase,
+                state: orbit.z,
+            },
+            symbol: orbit.lap.sequence.symbol(),
+            events: orbit.rows.iter().map(event).collect(),
+            modes: modes(orbit),
+            multipliers: orbit.multipliers.values.clone(),
+            zeros_from_contact: orbit.multipliers.zeros_from_contact,
+            product: ProductRow {
+                value: orbit.multipliers.product,
+                rule: orbit.rule,
+            },
+            stable: StabilityRow(orbit.stability()),
+            exponents: orbit.multipliers.values.iter().map(exponent).collect(),
+            admissible: AdmissibleRow {
+                yes: orbit.is_admissible(),
+                largest_gap: orbit.largest_gap,
+                least_tension: value(survey.least_tension),
+                least_v_n: value(survey.least_speed),
+                y_max: survey.y_max,
+                theta_max: survey.theta_max,
+                why_not: orbit.why_not.clone(),
+            },
+            return_error: orbit.return_error,
+            error_bound: None,
+            proved: false,
+        }
+    }
+}
+
+fn modes(orbit: &Orbit) -> Vec<ModeRow> {
+    let begun = orbit.phase / f64::from(orbit.periods) * orbit.length;
+    let mut from = begun;
+    let mut rows: Vec<ModeRow> = Vec::new();
+    let ends = orbit.lap.durations.iter().copied().map(Some).chain([None]);
+    for (held, lasts) in orbit.lap.sequence.held().into_iter().zip(ends) {
+        let to = lasts.map_or(begun + orbit.length, |s| from + s);
+        let taut = numbers(held);
+        match rows.last_mut() {
+            Some(last) if last.taut == taut => last.to = to,
+            _ => rows.push(ModeRow { from, to, taut }),
+        }
+        from = to;
+    }
+    rows
+}
+
+/// Section points of one motion.
+#[derive(Serialize)]
+pub struct SectionRow {
+    phase: f64,
+    period: Option<usize>,
+    snaps: Option<f64>,
+    exponents: Vec<ExponentRow>,
+    y_max: f64,
+    theta_max: f64,
+    stop: Option<StopRow>,
+    points: Vec<PointRow>,
+}
+
+#[derive(Serialize)]
+struct ExponentRow {
+    value: Option<f64>,
+    se: f64,
+}
+
+#[derive(Serialize)]
+struct StopRow {
+    reason: &'static str,
+    t: f64,
+}
+
+#[derive(Serialize)]
+struct PointRow {
+    k: u64,
+    state: Point,
+}
+
+fn exponents(section: &Section) -> Vec<ExponentRow> {
+    let row = |[value, se]: &[f64; 2]| ExponentRow {
+        value: value.is_finite().then_some(*value),
+        se: *se,
+    };
+    section.exponents.iter().map(row).collect()
+}
+
+impl SectionRow {
+    /// Of a section.
+    pub fn new(section: &Section, phase: f64) -> Self {
+        let periods = section.points.len().saturating_sub(1);
+        let points = section.points.iter().zip(section.first..);
+        Self {
+            phase,
+            period: section.stop.is_none().then(|| section.period()).flatten(),
+            snaps: (periods > 0).then(|| section.snaps as f64 / periods as f64),
+            exponents: exponents(section),
+            y_max: section.y_max,
+            theta_max: section.theta_max,
+            stop: section.stop.map(|stop| StopRow {
+                reason: stop.name(),
+                t: section.end.1,
+            }),
+            points: points
+                .map(|(state, k)| PointRow { k, state: *state })
+                .collect(),
+        }
+    }
+}
+
+/// One value of a diagram.
+#[derive(Serialize)]
+pub struct DiagramRow {
+    value: f64,
+    period: Option<usize>,
+    snaps: Option<f64>,
+    exponent: Option<f64>,
+    exponent_se: Option<f64>,
+    stop: Option<&'static str>,
+    seed: Point,
+    restarted: bool,
+    x_min: Option<f64>,
+    x_max: Option<f64>,
+    y_max: f64,
+}
+
+impl DiagramRow {
+    /// Of what there is at one value.
+    pub fn new(at: &At) -> Self {
+        let xs = || at.section.points.iter().map(|point| point[0]);
+        let exponent = at.section.exponents.first().filter(|_| at.stop().is_none());
+        Self {
+            value: at.value,
+            period: at.period,
+            snaps: at.snaps(),
+            exponent: exponent
+                .map(|[mean, _]| *mean)
+                .filter(|mean| mean.is_finite()),
+            exponent_se: exponent.map(|[_, error]| *error),
+            stop: at.stop().map(|stop| stop.name()),
+            seed: at.seed,
+            restarted: at.restarted,
+            x_min: xs().min_by(f64::total_cmp),
+            x_max: xs().max_by(f64::total_cmp),
+            y_max: at.section.y_max,
+        }
+    }
+}
+
+/// A safe basin.
+#[derive(Serialize)]
+pub struct BasinRow {
+    keys: [&'static str; 2],
+    legal: usize,
+    safe: usize,
+    fraction: f64,
+    interval95: [f64; 2],
+    undecided: Option<usize>,
+    past_horizon: Option<usize>,
+    by_outcome: ByOutcome,
+    gim: f64,
+    lim: Option<f64>,
+    r#if: Option<f64>,
+    iim: Option<f64>,
+    cell: Widths,
+}
+
+struct ByOutcome(Vec<(&'static str, usize)>);
+
+impl Serialize for ByOutcome {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().copied())
+    }
+}
+
+struct Widths([(&'static str, f64); 2]);
+
+impl Serialize for Widths {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(2))?;
+        for (key, width) in self.0 {
+            map.serialize_entry(key, &width)?;
+        }
+        map.end()
+    }
+}
+
+impl BasinRow {
+    /// Of a basin.
+    pub fn new(basin: &Basin) -> Self {
+        let measures = &basin.measures;
+        let [first, second] = basin.window.keys;
+        let [height, width] = basin.window.cell();
+        let ended = basin.by_outcome();
+        Self {
+            keys: basin.window.keys,
+            legal: measures.legal,
+            safe: measures.safe,
+            fraction: measures.gim,
+            interval95: measures.interval,
+            undecided: basin.looked_beside.then_some(measures.undecided),
+            past_horizon: basin.looked_beside.then_some(measures.past_horizon),
+            by_outcome: ByOutcome(ended.iter().map(|(stop, n)| (stop.name(), *n)).collect()),
+            gim: measures.gim,
+            lim: measures.lim,
+            r#if: measures.integrity_factor,
+            iim: measures.iim,
+            cell: Widths([(first, height), (second, width)]),
+        }
+    }
+}
+
+/// Erosion.
+#[derive(Serialize)]
+pub struct ErosionRow {
+    over: &'static str,
+    knee: Option<f64>,
+    points: Vec<ErosionPoint>,
+}
+
+#[derive(Serialize)]
+struct ErosionPoint {
+    value: f64,
+    #[serde(flatten)]
+    basin: BasinRow,
+}
+
+impl ErosionRow {
+    /// Of an erosion.
+    pub fn new(erosion: &Erosion) -> Self {
+        let point = |(value, basin): &(f64, Basin)| ErosionPoint {
+            value: *value,
+            basin: BasinRow::new(basin),
+        };
+        Self {
+            over: erosion.key,
+            knee: erosion.knee(),
+            points: erosion.points.iter().map(point).collect(),
+        }
+    }
+}
+
+/// Basins of attraction.
+#[derive(Serialize)]
+pub struct AttractionRow {
+    keys: [&'static str; 2],
+    legal: usize,
+    by_outcome: ByOutcome,
+    cell: Widths,
+    attractors: Vec<AttractorRow>,
+}
+
+#[derive(Serialize)]
+struct AttractorRow {
+    attractor: usize,
+    cells: usize,
+    fraction: f64,
+    period: usize,
+    state: Point,
+    orbit: Option<OrbitRow>,
+}
+
+impl AttractionRow {
+    /// Of basins of attraction; attractors count from 1.
+    pub fn new(found: &Attraction) -> Self {
+        let [first, second] = found.window.keys;
+        let [height, width] = found.window.cell();
+        let count = |is: &dyn Fn(&Fate) -> bool| found.fates.iter().filter(|f| is(f)).count();
+        let legal = count(&|fate| *fate != Fate::Illegal);
+        let mut by_outcome: Vec<(&'static str, usize)> = snapload::Stop::ALL
+            .iter()
+            .map(|stop| {
+                let is = |fate: &Fate| matches!(fate, Fate::Stopped(s, _) if s == stop);
+                (stop.name(), count(&is))
+            })
+            .filter(|(_, cells)| *cells > 0)
+            .collect();
+        by_outcome.push((
+            "attracted",
+            count(&|fate| matches!(fate, Fate::Attracted(_))),
+        ));
+        by_outcome.push(("aperiodic", count(&|fate| *fate == Fate::Aperiodic)));
+        let attractors = found.attractors.iter().zip(1..);
+        let attractors = attractors.map(|(attractor, number)| AttractorRow {
+            attractor: number,
+            cells: attractor.cells,
+            fraction: attractor.cells as f64 / legal as f64,
+            period: attractor.period,
+            state: attractor.z,
+            orbit: attractor.orbit.as_ref().map(OrbitRow::new),
+        });
+        Self {
+            keys: found.window.keys,
+            legal,
+            by_outcome: ByOutcome(by_outcome),
+            cell: Widths([(first, height), (second, width)]),
+            attractors: attractors.collect(),
+        }
+    }
+}

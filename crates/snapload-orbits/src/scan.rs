@@ -1,0 +1,75 @@
+//! A lap whose held surfaces stay held, whatever their tension: the guess at an orbit that no body
+//! may have.
+
+use crate::hybrid::{Family, Hybrid, Point};
+use crate::lap::after;
+use crate::sequence::{Event, Happening, Sequence, Timed};
+use crate::survey::root;
+use snapload::TautSet;
+
+/// Steps a period of the forcing.
+const STEPS: usize = 400;
+/// More snaps than this in a lap are too many.
+const MOST_SNAPS: usize = 200;
+
+/// The motion from `z` at time `t` over `length`, with `held` surfaces from the beginning to the end,
+/// and every other one struck where it closes. None where there are too many snaps.
+pub fn scan<F: Family>(
+    family: &F,
+    at: [f64; 2],
+    held: TautSet,
+    (t, z): (f64, &Point),
+    length: f64,
+) -> Option<Timed> {
+    let system = family.plain(at);
+    let period = family.forcing_period(at).value;
+    let mut lap = Timed {
+        sequence: Sequence {
+            start: held,
+            events: Vec::new(),
+        },
+        ..Timed::default()
+    };
+    let (end, width) = (t + length, period / STEPS as f64);
+    let (mut t, mut z, mut since) = (t, system.placed(held, held, z), t);
+    while t < end {
+        let s = width.min(end - t);
+        let next = system.flow(held, t, &z, s);
+        let free = system.surfaces().iter().filter(|&k| !held.contains(k));
+        let crossed = free.filter(|&k| system.gap(k, &next) > 0.0 && system.gap(k, &z) <= 1e-12);
+        let first = crossed
+            .map(|surface| {
+                let gap = |s: f64| system.gap(surface, &system.flow(held, t, &z, s));
+                (
+                    root(&gap, (0.0, gap(0.0).min(-1e-300)), (s, gap(s))),
+                    surface,
+                )
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((s, surface)) = first else {
+            (t, z) = (t + s, next);
+            continue;
+        };
+        if lap.durations.len() == MOST_SNAPS {
+            return None;
+        }
+        let struck = TautSet::only(surface);
+        let hit = system.flow(held, t, &z, s);
+        let (_, impulse) = system.law(struck, struck.union(held), &hit);
+        let pulling: TautSet = struck
+            .union(held)
+            .iter()
+            .filter(|&k| k == surface || impulse[k] > 0.0)
+            .collect();
+        let event = Event {
+            happening: Happening::Snap { struck, pulling },
+            after: held,
+        };
+        lap.durations.push(t + s - since);
+        lap.speeds.push(system.speed(surface, &hit));
+        lap.sequence.events.push(event);
+        z = after(&system, &event, &hit);
+        (t, since) = (t + s, t + s);
+    }
+    Some(lap)
+}

@@ -1,0 +1,247 @@
+//! Stroboscopic sections of long motions, and diagrams of them against a key.
+
+use crate::hybrid::Point;
+use snapload::analysis::{Cancelled, Frame, OnProgress, Progress};
+use snapload::{CaseError, Held, Parameters, Simulation, State, Step, Stop, Tangent};
+
+/// What is kept of a long motion at t = (phase + k) T.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// The state at each kept instant.
+    pub points: Vec<Point>,
+    /// The number of the first of them: how many periods were left out.
+    pub first: u64,
+    /// Snaps in the kept periods.
+    pub snaps: u64,
+    /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
+    /// error; empty where they were not asked for. One that contact closes is −∞.
+    pub exponents: Vec<[f64; 2]>,
+    /// The state where the motion ended, and when.
+    pub end: (Point, f64),
+    /// The highest y and the largest |θ|.
+    pub y_max: f64,
+    /// The largest |θ|.
+    pub theta_max: f64,
+    /// Why it stopped, where that was before its time.
+    pub stop: Option<Stop>,
+}
+
+/// How long a motion is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Stretch {
+    /// Time of the section, in periods of the forcing.
+    pub phase: f64,
+    /// Periods that are left out.
+    pub skip: u64,
+    /// Periods that are kept.
+    pub keep: u64,
+    /// Whether exponents are computed.
+    pub exponents: bool,
+}
+
+/// A motion that repeats itself is known by section points this near to each other, over so many
+/// laps.
+const SAME: f64 = 1e-8;
+const LAPS: usize = 8;
+/// The longest period that is looked for.
+pub const LONGEST_PERIOD: usize = 64;
+/// Standard errors come from so many batches.
+const BATCHES: usize = 20;
+/// A direction that has shrunk by more than e^−this in a period is closed by contact.
+const CLOSED: f64 = -200.0;
+
+impl Section {
+    /// Follows the motion of a case from its start; its stops by settling are off.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if the start is not legal; [`Cancelled`] if it is told to end.
+    pub fn of(
+        parameters: &Parameters,
+        stretch: &Stretch,
+        on_progress: OnProgress,
+    ) -> Result<Self, snapload::analysis::Unfinished> {
+        let period = period_of(parameters)?;
+        let z = start_of(parameters);
+        let begun = stretch.phase * period;
+        Self::from(parameters, (begun, &z), stretch, on_progress)
+    }
+
+    /// The same from a state at a time.
+    ///
+    /// # Errors
+    /// As for [`Section::of`].
+    pub fn from(
+        parameters: &Parameters,
+        (t, z): (f64, &Point),
+        stretch: &Stretch,
+        on_progress: OnProgress,
+    ) -> Result<Self, snapload::analysis::Unfinished> {
+        let period = period_of(parameters)?;
+        let last = stretch.skip + stretch.keep;
+        let mut rules = parameters.rules();
+        (rules.settled_below, rules.sliding_above) = (None, None);
+        rules.t_end = t + period * last as f64;
+        rules.max_impacts = u64::MAX;
+        let state = State::from_components(*z);
+        let simulation = Simulation::new(parameters.system(), rules, t, state);
+        let simulation = simulation.map_err(|error| {
+            CaseError::value(
+                "start",
+                snapload::Value::Text(format!("{z:?}")),
+                error.to_string(),
+            )
+        })?;
+        let held = Held::new(parameters.system());
+        let mut follow = Follow {
+            tangent: stretch.exponents.then(|| Tangent::new(held.system())),
+            held,
+            frame: Frame::new(),
+            directions: match parameters.is_point() {
+                true => &[0, 1, 3, 4],
+                false => &[0, 1, 2, 3, 4, 5],
+            },
+            logs: Vec::new(),
+            next: stretch.skip,
+            period,
+            begun: t,
+            section: Section {
+                points: Vec::new(),
+                first: stretch.skip,
+                snaps: 0,
+                exponents: Vec::new(),
+                end: (*z, t),
+                y_max: z[1],
+                theta_max: z[2].abs(),
+                stop: None,
+            },
+        };
+        follow.run(simulation, last, on_progress)?;
+        Ok(follow.section)
+    }
+
+    /// Its period in periods of the forcing, if it repeats itself; the shortest one.
+    pub fn period(&self) -> Option<usize> {
+        let points = &self.points;
+        let repeats = |n: &usize| {
+            let laps = points.len().saturating_sub(1) / n;
+            laps >= LAPS.min((points.len() / 2).max(1)) && {
+                let from = points.len() - n * LAPS.min(laps);
+                (from..points.len()).all(|k| crate::distance(&points[k], &points[k - n]) <= SAME)
+            }
+        };
+        (1..=LONGEST_PERIOD).find(repeats)
+    }
+}
+
+/// The period of the forcing.
+///
+/// # Errors
+/// A [`CaseError`] where there is no forcing.
+pub fn period_of(parameters: &Parameters) -> Result<f64, CaseError> {
+    let omega = parameters.omega.abs();
+    if omega > 0.0 {
+        return Ok(std::f64::consts::TAU / omega);
+    }
+    let allowed = "a frequency above 0, as sections are a period of the forcing apart";
+    Err(CaseError::value("omega", parameters.omega, allowed))
+}
+
+/// The start of a case.
+pub fn start_of(p: &Parameters) -> Point {
+    [p.x, p.y, p.theta, p.vx, p.vy, p.vtheta]
+}
+
+/// A motion that is followed.
+struct Follow {
+    held: Held,
+    tangent: Option<Tangent>,
+    frame: Frame,
+    /// The directions of the frame that the body has: a point mass does not turn, and its rotation,
+    /// which nothing couples to, keeps directions of its own.
+    directions: &'static [usize],
+    /// The logarithms of the growth at the beginning of each kept period.
+    logs: Vec<[f64; 6]>,
+    /// The next section.
+    next: u64,
+    period: f64,
+    begun: f64,
+    section: Section,
+}
+
+impl Follow {
+    fn run(
+        &mut self,
+        mut simulation: Simulation,
+        last: u64,
+        on_progress: OnProgress,
+    ) -> Result<(), Cancelled> {
+        let kept_from = self.begun + self.period * self.section.first as f64;
+        while let Some(step) = simulation.step() {
+            self.sections_within(&step, last);
+            if step.t_end > kept_from {
+                let snaps = step.impacts().filter(|impact| impact.v_n > 0.0);
+                self.section.snaps += snaps.count() as u64;
+            }
+            if let Some(tangent) = &self.tangent {
+                self.frame.follow(&tangent.of_step(&simulation, &step));
+            }
+            let periods = (step.t_end - self.begun) / self.period;
+            Progress::new("following the motion", periods, last as f64).tell(on_progress)?;
+        }
+        let section = &mut self.section;
+        section.end = (simulation.state().components(), simulation.time());
+        section.y_max = simulation.y_max();
+        section.theta_max = simulation.theta_max();
+        section.stop = simulation.stop().filter(|stop| *stop != Stop::EndTime);
+        if section.stop.is_none() {
+            section.points.push(section.end.0);
+        }
+        if self.tangent.is_some() {
+            section.exponents = exponents(&self.logs, self.period, self.directions);
+        }
+        Ok(())
+    }
+
+    /// Keeps the sections before the end of a step; the last one is the end of the motion.
+    fn sections_within(&mut self, step: &Step, last: u64) {
+        while self.next < last {
+            let t = self.begun + self.period * self.next as f64;
+            if t >= step.t_end {
+                return;
+            }
+            let s = t - step.t_start;
+            let state = self.held.carried(step.taut, step.t_start, &step.start, s);
+            self.section.points.push(state.components());
+            self.logs.push(self.frame.logs());
+            self.next += 1;
+        }
+    }
+}
+
+/// Means of the growth per time, and their standard errors, from batches of periods.
+fn exponents(logs: &[[f64; 6]], period: f64, directions: &[usize]) -> Vec<[f64; 2]> {
+    let periods = logs.len().saturating_sub(1);
+    if periods == 0 {
+        return Vec::new();
+    }
+    let batches = BATCHES.min(periods);
+    let mut found: Vec<[f64; 2]> = directions
+        .iter()
+        .map(|&i| {
+            let rate = |from: usize, to: usize| {
+                (logs[to][i] - logs[from][i]) / ((to - from) as f64 * period)
+            };
+            let mean = rate(0, periods);
+            if !mean.is_finite() || mean * period < CLOSED {
+                return [f64::NEG_INFINITY, 0.0];
+            }
+            let ends = |k: usize| k * periods / batches;
+            let off = (0..batches).map(|k| rate(ends(k), ends(k + 1)) - mean);
+            let square: f64 = off.map(|off| off * off).sum();
+            let error = (square / (batches * (batches - 1).max(1)) as f64).sqrt();
+            [mean, error]
+        })
+        .collect();
+    found.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    found
+}

@@ -1,0 +1,298 @@
+//! What a lap is like between its events: whether a body could have it.
+//!
+//! A point that closes the composed map need not be a motion: a gap may be positive between events, a
+//! tension negative, a snap may open instead of close. All of these are looked for along the lap, at
+//! samples, and their extremes then refined.
+
+use crate::hybrid::{Family, Hybrid, Limits, Point};
+use crate::lap::{Lap, Leg};
+use snapload::TautSet;
+
+/// Samples of a leg for each period of the forcing, at least so many a leg.
+const SAMPLES: f64 = 160.0;
+const HELD_SAMPLES: f64 = 64.0;
+const FEWEST: f64 = 6.0;
+/// Halvings, and the like, by which an extreme is refined.
+const REFINED: usize = 60;
+/// An extreme is known to the square of the part of a sample's width to which its place is.
+const FLAT: f64 = 1e-5;
+/// A limit that stays farther off than this needs no refinement.
+const FAR: f64 = 0.05;
+
+/// An extreme value along a lap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// The surface that it is of.
+    pub surface: usize,
+    /// The leg, or the event at its end.
+    pub leg: usize,
+    /// When.
+    pub t: f64,
+}
+
+/// What was found along a lap.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// The largest gap of a surface at an instant at which it comes nearest, between events, in length.
+    pub largest_gap: Option<Extreme>,
+    /// The largest gap of a surface while another one is struck.
+    pub corner_gap: Option<Extreme>,
+    /// The least tension of held surfaces.
+    pub least_tension: Option<Extreme>,
+    /// The least closing velocity of the surfaces struck.
+    pub least_speed: Option<Extreme>,
+    /// The shortest time from one event to the next of another surface.
+    pub shortest: Option<Extreme>,
+    /// The highest y, and the largest |θ|.
+    pub y_max: f64,
+    /// The largest |θ|.
+    pub theta_max: f64,
+    /// The limits where they are nearest, and when.
+    pub limits: Limits,
+}
+
+/// Looks along a lap.
+pub fn survey<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Survey {
+    let system = lap.family.plain(lap.at);
+    let legs = lap.legs(&system, z, durations);
+    let mut found = Survey {
+        largest_gap: None,
+        corner_gap: None,
+        least_tension: None,
+        least_speed: None,
+        shortest: None,
+        y_max: f64::NEG_INFINITY,
+        theta_max: 0.0,
+        limits: [f64::NEG_INFINITY; 2],
+    };
+    let period = lap.family.forcing_period(lap.at).value;
+    let watch = Watch {
+        family: lap.family,
+        system: &system,
+        period,
+    };
+    let mut before = lap.sequence.last();
+    for (k, leg) in legs.iter().enumerate() {
+        if leg.s > 0.0 {
+            watch.leg(k, leg, before, &mut found);
+        }
+        let Some(event) = lap.sequence.events.get(k) else {
+            continue;
+        };
+        let t = leg.t + leg.s;
+        let at = |value, surface| Extreme {
+            value,
+            surface,
+            leg: k,
+            t,
+        };
+        for surface in event.struck().iter() {
+            let speed = system.speed(surface, &leg.end);
+            least(&mut found.least_speed, at(speed, surface));
+        }
+        let busy = event.struck().union(leg.held).union(event.after);
+        for surface in system.surfaces().iter().filter(|&s| !busy.contains(s)) {
+            if !event.struck().is_empty() {
+                most(
+                    &mut found.corner_gap,
+                    at(system.gap(surface, &leg.end), surface),
+                );
+            }
+        }
+        if k > 0 && lap.sequence.events[k - 1].surface() != event.surface() {
+            least(&mut found.shortest, at(leg.s, event.surface()));
+        }
+        before = leg.held;
+    }
+    found
+}
+
+fn least(kept: &mut Option<Extreme>, other: Extreme) {
+    if kept.is_none_or(|kept| other.value < kept.value) {
+        *kept = Some(other);
+    }
+}
+
+fn most(kept: &mut Option<Extreme>, other: Extreme) {
+    if kept.is_none_or(|kept| other.value > kept.value) {
+        *kept = Some(other);
+    }
+}
+
+/// Looks along legs.
+struct Watch<'a, F: Family> {
+    family: &'a F,
+    system: &'a F::Plain,
+    period: f64,
+}
+
+impl<F: Family> Watch<'_, F> {
+    fn leg(&self, k: usize, leg: &Leg, before: TautSet, found: &mut Survey) {
+        let density = if leg.held.is_empty() {
+            SAMPLES
+        } else {
+            HELD_SAMPLES
+        };
+        let count = (density * leg.s / self.period).ceil().max(FEWEST) as usize;
+        let width = leg.s / count as f64;
+        let mut samples = Vec::with_capacity(count + 1);
+        samples.push(leg.start);
+        for i in 0..count {
+            let t = leg.t + width * i as f64;
+            samples.push(self.system.flow(leg.held, t, &samples[i], width));
+        }
+        self.gaps(k, leg, before, (&samples, width), found);
+        for surface in leg.held.iter() {
+            let tension = |s: f64, z: &Point| -self.system.tension(surface, leg.held, leg.t + s, z);
+            let (value, s) = self.highest(leg, &samples, width, &tension);
+            let extreme = Extreme {
+                value: -value,
+                surface,
+                leg: k,
+                t: leg.t + s,
+            };
+            least(&mut found.least_tension, extreme);
+        }
+        let height = self.highest(leg, &samples, width, &|_, z| z[1]).0;
+        let turned = match self.family.variables().contains(&2) {
+            true => self.highest(leg, &samples, width, &|_, z| z[2].abs()).0,
+            false => 0.0,
+        };
+        found.y_max = found.y_max.max(height);
+        found.theta_max = found.theta_max.max(turned);
+        for limit in 0..2 {
+            let beyond = |_: f64, z: &Point| self.family.limits(self.system, z)[limit];
+            if beyond(0.0, &leg.start).is_finite() {
+                let rough = samples
+                    .iter()
+                    .map(|z| beyond(0.0, z))
+                    .fold(f64::MIN, f64::max);
+                let value = if rough > -FAR {
+                    self.highest(leg, &samples, width, &beyond).0
+                } else {
+                    rough
+                };
+                found.limits[limit] = found.limits[limit].max(value);
+            }
+        }
+    }
+
+    /// The instants at which slack surfaces come nearest: there v_n goes from positive to negative.
+    fn gaps(
+        &self,
+        k: usize,
+        leg: &Leg,
+        before: TautSet,
+        (samples, width): (&[Point], f64),
+        found: &mut Survey,
+    ) {
+        for surface in self
+            .system
+            .surfaces()
+            .iter()
+            .filter(|&s| !leg.held.contains(s))
+        {
+            // One that has just been released leaves as the cube of time, with a v_n of roundings.
+            let first = usize::from(before.contains(surface));
+            let speeds: Vec<f64> = samples
+                .iter()
+                .map(|z| self.system.speed(surface, z))
+                .collect();
+            for i in first..samples.len() - 1 {
+                if !(speeds[i] > 0.0 && speeds[i + 1] <= 0.0) {
+                    continue;
+                }
+                let t = leg.t + width * i as f64;
+                let at = |s: f64| self.system.flow(leg.held, t, &samples[i], s);
+                let speed = |s: f64| self.system.speed(surface, &at(s));
+                let s = root(&speed, (0.0, speeds[i]), (width, speeds[i + 1]));
+                let extreme = Extreme {
+                    value: self.system.gap(surface, &at(s)),
+                    surface,
+                    leg: k,
+                    t: t + s,
+                };
+                most(&mut found.largest_gap, extreme);
+            }
+        }
+    }
+
+    /// The largest value of a function along a leg, and when.
+    fn highest(
+        &self,
+        leg: &Leg,
+        samples: &[Point],
+        width: f64,
+        of: &dyn Fn(f64, &Point) -> f64,
+    ) -> (f64, f64) {
+        let values = samples.iter().enumerate();
+        let values = values.map(|(i, z)| of(width * i as f64, z));
+        let (place, best) = values
+            .enumerate()
+            .fold((0, f64::NEG_INFINITY), |best, (i, value)| {
+                if value > best.1 { (i, value) } else { best }
+            });
+        let (low, high) = (place.saturating_sub(1), (place + 1).min(samples.len() - 1));
+        let begin = width * low as f64;
+        let at = |s: f64| {
+            let z = self.system.flow(leg.held, leg.t + begin, &samples[low], s);
+            of(begin + s, &z)
+        };
+        let (s, value) = golden(&at, width * (high - low) as f64);
+        if value > best {
+            (value, begin + s)
+        } else {
+            (best, width * place as f64)
+        }
+    }
+}
+
+/// Where a function that has opposite signs at two places is zero: regula falsi after Illinois.
+pub(crate) fn root(of: &dyn Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+    for _ in 0..REFINED {
+        let mut middle = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
+        if !middle.is_finite() {
+            middle = 0.5 * (a.0 + b.0);
+        }
+        let value = of(middle);
+        if value == 0.0 {
+            return middle;
+        }
+        if (value > 0.0) == (b.1 > 0.0) {
+            a.1 *= 0.5;
+        } else {
+            a = b;
+        }
+        b = (middle, value);
+        if (a.0 - b.0).abs() <= 1e-15 * (a.0.abs() + b.0.abs()) {
+            break;
+        }
+    }
+    b.0
+}
+
+/// The largest value of a function of one hump between 0 and `width`, by golden sections.
+fn golden(of: &dyn Fn(f64) -> f64, width: f64) -> (f64, f64) {
+    const PART: f64 = 0.618_033_988_749_894_8;
+    let (mut low, mut high) = (0.0, width);
+    let mut inner = [high - PART * (high - low), low + PART * (high - low)];
+    let mut values = inner.map(of);
+    for _ in 0..REFINED {
+        if high - low <= FLAT * width {
+            break;
+        }
+        if values[0] > values[1] {
+            high = inner[1];
+            inner = [high - PART * (high - low), inner[0]];
+            values = [of(inner[0]), values[0]];
+        } else {
+            low = inner[0];
+            inner = [inner[1], low + PART * (high - low)];
+            values = [values[1], of(inner[1])];
+        }
+    }
+    let k = usize::from(values[1] > values[0]);
+    (inner[k], values[k])
+}

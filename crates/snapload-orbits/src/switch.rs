@@ -1,0 +1,50 @@
+//! From a period doubling onto the branch of the orbits of twice the length.
+
+use crate::branch_events::BranchEvent;
+use crate::hybrid::Family;
+use crate::tracer::{Tracer, Unknowns};
+use nalgebra::DVector;
+
+/// The lap run twice, at a doubling, and the direction of the branch that is born there.
+///
+/// At the doubling the equations of the double lap have two directions: that of the orbit itself, and
+/// one in which the two laps move apart. The second one leaves the parameter as it is.
+pub(crate) fn doubled<'a, F: Family>(
+    family: &'a F,
+    event: &BranchEvent,
+) -> Option<(Tracer<'a, F>, Unknowns, DVector<f64>)> {
+    let orbit = &event.orbit;
+    let mut sequence = orbit.lap.sequence.clone();
+    let once = sequence.events.clone();
+    sequence.events.extend(once);
+    let mut durations = orbit.lap.durations.clone();
+    let rest = orbit.length - durations.iter().sum::<f64>();
+    let again = durations.clone();
+    durations.extend(again);
+    let events = orbit.lap.durations.len();
+    if let Some(first) = durations.get_mut(events) {
+        *first += rest;
+    }
+    let tracer = Tracer {
+        family,
+        sequence,
+        phase: orbit.phase,
+        periods: 2 * orbit.periods,
+    };
+    let start = Unknowns {
+        z: orbit.z,
+        durations,
+        at: orbit.at,
+    };
+    let (_, jacobian) = tracer.equations(&start, 1);
+    let squares = jacobian.transpose() * &jacobian;
+    let eigen = squares.symmetric_eigen();
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+    let [first, second] = [*order.first()?, *order.get(1)?];
+    let [a, b] = [first, second].map(|k| eigen.eigenvectors.column(k).into_owned());
+    let last = a.len() - 1;
+    let apart = &a * b[last] - &b * a[last];
+    let length = apart.norm();
+    (length > 0.0).then(|| (tracer, start, apart / length))
+}

@@ -1,0 +1,240 @@
+//! Pseudo-arclength continuation of a closed lap in one parameter.
+//!
+//! H. B. Keller, in *Applications of Bifurcation Theory* (1977) 359. The unknowns are the state at the
+//! section, the time from event to event, and the parameter. As the times are unknowns, too, the
+//! closing velocity of a snap is a smooth function along a branch, through zero and beyond: a branch
+//! passes a graze of one of its snaps as any other point, and only a negative velocity says that no
+//! body has it any more (compare the velocity as unknown in M. Ghosh & D. J. W. Simpson,
+//! arXiv:2510.16218).
+
+use crate::hybrid::{Family, Hybrid, Point};
+use crate::lap::Lap;
+use crate::newton::{Closed, add};
+use crate::sequence::Sequence;
+use nalgebra::{DMatrix, DVector};
+
+/// A point of a branch before it is looked at.
+#[derive(Clone, Debug)]
+pub(crate) struct Unknowns {
+    pub(crate) z: Point,
+    pub(crate) durations: Vec<f64>,
+    pub(crate) at: [f64; 2],
+}
+
+/// A sequence that is continued.
+pub(crate) struct Tracer<'a, F: Family> {
+    pub(crate) family: &'a F,
+    pub(crate) sequence: Sequence,
+    pub(crate) phase: f64,
+    pub(crate) periods: u32,
+}
+
+impl<F: Family> Clone for Tracer<'_, F> {
+    fn clone(&self) -> Self {
+        Self {
+            family: self.family,
+            sequence: self.sequence.clone(),
+            phase: self.phase,
+            periods: self.periods,
+        }
+    }
+}
+
+/// Steps of the corrector at most.
+const MOST_STEPS: usize = 12;
+/// A residual below this is a point of the branch.
+const CLOSED: f64 = 1e-11;
+/// A step below this is rounding.
+const DONE: f64 = 1e-14;
+
+impl Unknowns {
+    pub(crate) fn closed(&self) -> Closed {
+        Closed {
+            z: self.z,
+            durations: self.durations.clone(),
+            residual: 0.0,
+        }
+    }
+
+    fn moved(&self, variables: &[usize], by: &DVector<f64>) -> Self {
+        let mut moved = self.clone();
+        add(&mut moved.z, &mut moved.durations, variables, by);
+        let known = variables.len() + self.durations.len();
+        for (value, part) in moved.at.iter_mut().zip(by.iter().skip(known)) {
+            *value += part;
+        }
+        moved
+    }
+}
+
+impl<F: Family> Tracer<'_, F> {
+    pub(crate) fn lap(&self, at: [f64; 2]) -> Lap<'_, F> {
+        Lap {
+            family: self.family,
+            at,
+            sequence: &self.sequence,
+            phase: self.phase,
+            periods: self.periods,
+        }
+    }
+
+    /// The number of unknowns without the parameters.
+    pub(crate) fn size(&self) -> usize {
+        self.family.variables().len() + self.sequence.events.len()
+    }
+
+    /// F and its derivatives, with those by so many parameters.
+    pub(crate) fn equations(
+        &self,
+        u: &Unknowns,
+        parameters: usize,
+    ) -> (DVector<f64>, DMatrix<f64>) {
+        let linear = self.lap(u.at).linearise(&u.z, &u.durations);
+        linear.equations(&u.z, self.family.variables(), parameters)
+    }
+
+    /// The direction of the branch at a point, on the side of the one before.
+    pub(crate) fn tangent(&self, u: &Unknowns, before: &DVector<f64>) -> Option<DVector<f64>> {
+        let (_, jacobian) = self.equations(u, 1);
+        let count = jacobian.ncols();
+        let bordered = bordered(&jacobian, before);
+        let mut unit = DVector::zeros(count);
+        unit[count - 1] = 1.0;
+        let tangent = bordered.lu().solve(&unit)?;
+        let length = tangent.norm();
+        (length.is_finite() && length > 0.0).then(|| tangent / length)
+    }
+
+    /// The first direction: that in which the parameter grows.
+    pub(crate) fn first_tangent(&self, u: &Unknowns) -> Option<DVector<f64>> {
+        let count = self.size() + 1;
+        let mut along = DVector::zeros(count);
+        along[count - 1] = 1.0;
+        self.tangent(u, &along)
+    }
+
+    /// The point of the branch a length `sigma` along `tangent` from `from`, and how many steps it
+    /// took.
+    pub(crate) fn corrected(
+        &self,
+        from: &Unknowns,
+        tangent: &DVector<f64>,
+        sigma: f64,
+    ) -> Option<(Unknowns, usize)> {
+        let variables = self.family.variables();
+        let mut offset = tangent * sigma;
+        let mut before = f64::INFINITY;
+        for steps in 1..=MOST_STEPS {
+            let here = from.moved(variables, &offset);
+            let (residual, jacobian) = self.equations(&here, 1);
+            if !residual.iter().all(|part| part.is_finite()) {
+                return None;
+            }
+            let count = jacobian.ncols();
+            let mut right = DVector::zeros(count);
+            right.rows_mut(0, count - 1).copy_from(&-&residual);
+            right[count - 1] = sigma - tangent.dot(&offset);
+            let step = bordered(&jacobian, tangent).lu().solve(&right)?;
+            let moved = step.amax();
+            let size = residual.amax();
+            if size < CLOSED && (moved < DONE || moved >= 0.25 * before) {
+                return Some((here, steps));
+            }
+            if !moved.is_finite() || moved > 1.0 {
+                return None;
+            }
+            before = moved;
+            offset += step;
+        }
+        None
+    }
+
+    /// Where the first event has passed the section, or the last one the next section: the same
+    /// orbit with its events counted anew, and how its tangent's shared parts have moved.
+    pub(crate) fn renumbered(&self, u: &Unknowns) -> Option<(Self, Unknowns, isize)> {
+        let lap = self.lap(u.at);
+        let system = self.family.plain(u.at);
+        let legs = lap.legs(&system, &u.z, &u.durations);
+        let (begun, length) = lap.times();
+        let (first, last) = (legs.first()?, legs.last()?);
+        let count = u.durations.len();
+        if count == 0 || (first.s >= 0.0 && last.s >= 0.0) {
+            return None;
+        }
+        let held = self.sequence.held();
+        let mut moved = self.clone();
+        let mut durations = u.durations.clone();
+        let (z, shift) = if first.s < 0.0 {
+            // The first event comes at the end of the lap before.
+            moved.sequence.events.rotate_left(1);
+            moved.sequence.start = held[1];
+            let leg = &legs[1];
+            durations.rotate_left(1);
+            let early = first.s;
+            durations[count - 1] = last.s + early;
+            if count > 1 {
+                durations[0] += early;
+            } else {
+                durations[0] = length + early;
+            }
+            (system.flow(leg.held, leg.t, &leg.start, begun - leg.t), -1)
+        } else {
+            // The last event comes after the section.
+            moved.sequence.events.rotate_right(1);
+            moved.sequence.start = held[count - 1];
+            let leg = &legs[count - 1];
+            let late = -last.s;
+            durations.rotate_right(1);
+            durations[0] = late;
+            if count > 1 {
+                durations[1] -= late;
+            }
+            let z = system.flow(leg.held, leg.t, &leg.start, begun + length - leg.t);
+            (z, 1)
+        };
+        let here = Unknowns {
+            z,
+            durations,
+            at: u.at,
+        };
+        Some((moved, here, shift))
+    }
+
+    /// The direction after a renumbering: the one that agrees with the old one in the parameter and in
+    /// the times that both have.
+    pub(crate) fn tangent_after(
+        &self,
+        u: &Unknowns,
+        old: &DVector<f64>,
+        shift: isize,
+    ) -> Option<DVector<f64>> {
+        let m = self.family.variables().len();
+        let n = u.durations.len();
+        let tangent = self.first_tangent(u)?;
+        let mut agrees = tangent[m + n] * old[m + n];
+        // The times between events that stay neighbours within the lap.
+        for k in 1..n {
+            let before = k as isize - shift;
+            if before >= 1 && (before as usize) < n {
+                agrees += tangent[m + k] * old[m + before as usize];
+            }
+        }
+        Some(if agrees < 0.0 { -tangent } else { tangent })
+    }
+}
+
+/// The way from one point of a branch to the next.
+pub(crate) struct Segment<'a, F: Family> {
+    pub(crate) tracer: &'a Tracer<'a, F>,
+    pub(crate) from: &'a Unknowns,
+    pub(crate) tangent: &'a DVector<f64>,
+    pub(crate) length: f64,
+}
+
+/// A matrix with a row below it.
+pub(crate) fn bordered(matrix: &DMatrix<f64>, row: &DVector<f64>) -> DMatrix<f64> {
+    let (rows, columns) = matrix.shape();
+    let mut all = matrix.clone().resize(rows + 1, columns, 0.0);
+    all.row_mut(rows).copy_from(&row.transpose());
+    all
+}

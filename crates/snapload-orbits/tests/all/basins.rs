@@ -1,0 +1,92 @@
+//! Safe basins, cell by cell.
+
+use crate::common::{number, parameters, reference};
+use serde_json::Value as Json;
+use snapload::analysis::unwatched;
+use snapload::{Parameters, Stop, key_named};
+use snapload_orbits::{Basin, Cell, Window};
+
+/// Evenly spaced decimals, as a grid of the command has them.
+fn even(axis: &Json) -> (&'static str, Vec<f64>) {
+    let key = key_named(axis[0].as_str().unwrap()).unwrap().name;
+    let [first, last] = [1, 2].map(|i| number(&axis[i]));
+    let count = axis[3].as_u64().unwrap() as usize;
+    let value = |k: usize| first + (last - first) * k as f64 / (count - 1) as f64;
+    // The decimals that one would write.
+    let written = |k| (value(k) * 1e12).round() / 1e12;
+    (key, (0..count).map(written).collect())
+}
+
+fn window(grid: &Json) -> Window {
+    let [(a, first), (b, second)] = [0, 1].map(|i| even(&grid["axes"][i]));
+    Window {
+        base: Parameters {
+            t_end: number(&grid["t_end"]),
+            ..parameters(&grid["base"])
+        },
+        keys: [a, b],
+        values: [first, second],
+    }
+}
+
+fn letter(cell: &Cell) -> char {
+    match cell.end {
+        None => '.',
+        Some((Stop::Settled, _)) => 's',
+        Some((Stop::EndTime, _)) => 't',
+        Some((Stop::RotationLimit, _)) => 'R',
+        Some((Stop::UpperBound, _)) => 'U',
+        Some((other, _)) => panic!("{other:?}"),
+    }
+}
+
+/// Decided cells agree, and the measures.
+fn agrees(name: &str, trust: bool) {
+    let grid = &reference()["grids"][name];
+    let basin = Basin::of(window(grid), trust, &unwatched).unwrap();
+    let known: String = grid["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row.as_str().unwrap())
+        .collect();
+    assert_eq!(known.len(), basin.cells.len());
+    // A start whose cable is exactly taut is legal here, and was not in the reference.
+    let (mut compared, mut on_the_edge) = (0, 0);
+    for (k, (cell, known)) in basin.cells.iter().zip(known.chars()).enumerate() {
+        if known == '.' && cell.end.is_some() {
+            on_the_edge += 1;
+        } else if cell.decided && !"?!".contains(known) {
+            assert_eq!(letter(cell), known, "{name} at {:?}", basin.window.at(k));
+            compared += 1;
+        }
+    }
+    let measures = basin.measures;
+    println!("{name}: {compared} compared, {measures:?}");
+    assert_eq!(
+        (measures.legal - on_the_edge) as f64,
+        number(&grid["legal"])
+    );
+    assert!(on_the_edge <= 2);
+    assert!(compared > basin.cells.len() * 97 / 100);
+    let [low, high] = [0, 1].map(|i| number(&grid["wilson95"][i]));
+    let [ours_low, ours_high] = measures.interval;
+    assert!(low < measures.gim && measures.gim < high);
+    assert!((ours_low - low).abs() < 0.002 && (ours_high - high).abs() < 0.002);
+    if let Some(lim) = grid["LIM"].as_f64() {
+        assert!((measures.lim.unwrap() - lim).abs() < 1e-12);
+    }
+    if let Some(radius) = grid["IF"].as_f64() {
+        assert!(
+            (measures.integrity_factor.unwrap() - radius).abs() < 1e-9,
+            "{measures:?}"
+        );
+    }
+}
+
+#[test]
+fn cells_are_those_of_the_reference() {
+    agrees("circle_xy_f0.1", true);
+    agrees("circle_xy_f0.3", false);
+    agrees("circle_f_omega", false);
+}

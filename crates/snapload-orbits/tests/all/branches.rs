@@ -1,0 +1,91 @@
+//! Branches in one key, and what happens along them.
+
+use crate::common::{number, parameters, point, reference};
+use serde_json::Value as Json;
+use snapload::analysis::unwatched;
+use snapload_orbits::{Along, Branch, Moored, Orbit, Wanted};
+
+fn branch(reference: &Json, start: [f64; 6], range: [f64; 2]) -> Branch {
+    let base = parameters(&reference["base"]);
+    let keys = [Some("f_o"), None];
+    let family = Moored::case(base, keys);
+    let at = Moored::values(&base, keys);
+    let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
+    let along = Along {
+        range,
+        step: 0.02,
+        most: 2000,
+    };
+    Branch::of(&family, &orbit, &along, &unwatched).unwrap()
+}
+
+fn name_of(kind: &str) -> &str {
+    match kind {
+        "pd" => "period_doubling",
+        "ns" => "neimark_sacker",
+        "upper_bound_reached" => "upper_bound",
+        other => other,
+    }
+}
+
+/// Every point of the reference is located, and no other that a body comes to.
+fn agrees(reference: &Json, branch: &Branch) {
+    for end in &branch.ends {
+        println!("ends at {}: {}", end.at, end.because);
+    }
+    for event in &branch.events {
+        println!("{} {:.15} {:?}", event.kind.name(), event.value[0], event.t);
+    }
+    println!("{} points", branch.points.len());
+    for known in reference["points"].as_array().unwrap() {
+        let kind = name_of(known["kind"].as_str().unwrap());
+        let value = number(&known["value"]);
+        let nearest = branch
+            .events
+            .iter()
+            .filter(|event| event.kind.name() == kind)
+            .min_by(|a, b| {
+                (a.value[0] - value)
+                    .abs()
+                    .total_cmp(&(b.value[0] - value).abs())
+            })
+            .unwrap_or_else(|| panic!("no {kind}"));
+        let off = (nearest.value[0] - value).abs();
+        assert!(off < 1e-9, "{kind} at {value}: off by {off:e}");
+        let state = snapload_orbits::distance(&nearest.orbit.z, &point(&known["section_point"]));
+        assert!(state < 1e-6, "{kind} at {value}: state off by {state:e}");
+        if !known["sqrt_coefficient"].is_null() {
+            let ours = nearest.sqrt_coefficient.unwrap();
+            let theirs = number(&known["sqrt_coefficient"]);
+            assert!((ours / theirs - 1.0).abs() < 1e-7, "{ours} {theirs}");
+            let ours = nearest.normal_acceleration.unwrap();
+            assert!((ours / number(&known["normal_acceleration"]) - 1.0).abs() < 1e-7);
+        }
+    }
+    // What else is located lies where a cable would have to be longer, and no body comes.
+    let more = branch.events.iter().filter(|event| {
+        let kind = event.kind.name();
+        !reference["points"].as_array().unwrap().iter().any(|known| {
+            kind == name_of(known["kind"].as_str().unwrap())
+                && (event.value[0] - number(&known["value"])).abs() < 1e-9
+        })
+    });
+    for event in more {
+        assert!(!event.orbit.is_admissible(), "{}", event.kind.name());
+        assert!(event.orbit.survey.largest_gap.unwrap().value > 0.0);
+    }
+}
+
+#[test]
+fn branch_a_is_that_of_the_reference() {
+    let reference = &reference()["branches"][0];
+    let start = [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0];
+    agrees(reference, &branch(reference, start, [1.0, 4.0]));
+}
+
+#[test]
+fn branch_b_is_that_of_the_reference() {
+    let reference = &reference()["branches"][1];
+    let start = [-0.0086, 0.7632, 0.0, 1.0527, -0.7738, 0.0];
+    agrees(reference, &branch(reference, start, [0.8, 6.0]));
+}

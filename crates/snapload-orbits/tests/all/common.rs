@@ -1,0 +1,43 @@
+//! The reference values.
+
+use serde_json::Value as Json;
+use snapload::{Parameters, Value};
+use snapload_orbits::Point;
+
+/// The file of reference values.
+pub fn reference() -> Json {
+    serde_json::from_str(include_str!("../data/orbits.json")).unwrap()
+}
+
+/// A number, whether it is written as one or as text.
+pub fn number(json: &Json) -> f64 {
+    match json {
+        Json::String(text) => text.parse().unwrap(),
+        other => other.as_f64().unwrap(),
+    }
+}
+
+pub fn numbers(json: &Json) -> Vec<f64> {
+    json.as_array().unwrap().iter().map(number).collect()
+}
+
+pub fn point(json: &Json) -> Point {
+    numbers(json).try_into().unwrap()
+}
+
+/// The case of a table of keys.
+pub fn parameters(case: &Json) -> Parameters {
+    let entries = case.as_object().unwrap().iter().map(|(key, value)| {
+        let value = match (key.as_str(), value) {
+            ("body", Json::String(word)) => Value::Text(word.clone()),
+            (_, value) => Value::Number(number(value)),
+        };
+        (key.clone(), value)
+    });
+    Parameters::from_entries(entries).unwrap()
+}
+
+/// |a − b| as part of |b|.
+pub fn relative(a: f64, b: f64) -> f64 {
+    (a - b).abs() / b.abs()
+}

@@ -1,0 +1,48 @@
+//! Motions with given sets of taut cables, against the steps of runs.
+
+use snapload::{Case, Held, Stop, TautSet, named_case};
+
+/// Every step of a run is one of these motions, forwards and backwards, and its single impacts are
+/// those of this law.
+#[test]
+fn the_steps_of_a_run_are_held_motions() {
+    let (mut slack, mut taut, mut struck) = (0, 0, 0);
+    for code in ["sliding-example", "rocking-example"] {
+        let mut simulation = Case::new(named_case(code).unwrap().parameters)
+            .unwrap()
+            .simulation();
+        let held = Held::new(simulation.system().clone());
+        while let Some(step) = simulation.step() {
+            if step.stop == Some(Stop::EndTime) {
+                continue;
+            }
+            let s = step.t_end - step.t_start;
+            let carried = held.carried(step.taut, step.t_start, &step.start, s);
+            let back = held.carried(step.taut, step.t_end, &step.before, -s);
+            for (found, known) in [(carried, step.before), (back, step.start)] {
+                for (a, b) in found.components().into_iter().zip(known.components()) {
+                    assert!((a - b).abs() < 1e-12, "{a} {b}");
+                }
+            }
+            let impacts: Vec<_> = step.impacts().collect();
+            if let [impact] = impacts[..]
+                && step.taut.is_empty()
+            {
+                let only = TautSet::only(impact.cable);
+                let (after, impulse) = held.struck(&step.before, only, only);
+                assert!((impulse[impact.cable] - impact.impulse).abs() < 1e-14);
+                assert!((after.vx - impact.after.vx).abs() < 1e-14);
+                struck += 1;
+            }
+            *(if step.taut.is_empty() {
+                &mut slack
+            } else {
+                &mut taut
+            }) += 1;
+        }
+    }
+    assert!(
+        slack > 20 && taut > 20 && struck > 20,
+        "{slack} {taut} {struck}"
+    );
+}

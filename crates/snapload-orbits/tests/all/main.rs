@@ -1,0 +1,12 @@
+//! Orbits, branches, basins against reference values of independent programs and closed forms, all
+//! in one program.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod basins;
+mod branches;
+mod closed_forms;
+mod common;
+mod diagrams;
+mod held;
+mod orbits;
+mod wall;

@@ -1,0 +1,147 @@
+//! Orbits of bodies on cables.
+
+use crate::common::{number, numbers, parameters, point, reference, relative};
+use serde_json::Value as Json;
+use snapload_orbits::{Moored, Orbit, Stability, Wanted, distance};
+
+/// The orbit near the reference's, from 1e-4 beside it.
+fn found(reference: &Json, beside: f64) -> Orbit {
+    let family = Moored::case(parameters(&reference["case"]), [None; 2]);
+    let mut start = point(&reference["section_point"]);
+    let turns = parameters(&reference["case"]).inertia.is_some();
+    for (i, component) in start.iter_mut().enumerate() {
+        if turns || i % 3 != 2 {
+            *component += if i % 2 == 0 { beside } else { -beside };
+        }
+    }
+    let name = &reference["name"];
+    Orbit::find(&family, [0.0; 2], &start, &Wanted::default())
+        .unwrap_or_else(|why| panic!("{name}: {why}"))
+}
+
+fn orbits() -> Vec<Json> {
+    reference()["orbits"].as_array().unwrap().clone()
+}
+
+#[test]
+fn reference_orbits_are_found_from_beside_them() {
+    for reference in orbits() {
+        for beside in [1e-4, -1e-4] {
+            let orbit = found(&reference, beside);
+            let name = reference["name"].as_str().unwrap();
+            let largest = orbit.multipliers.largest();
+            let off = distance(&orbit.z, &point(&reference["section_point"]));
+            println!(
+                "{name}: off by {off:.1e}, returns to {:?}, {:?}",
+                orbit.return_error, orbit.why_not
+            );
+            assert!(off < 1e-12 * (1.0 + largest), "{name}: {off:e}");
+            let impacts = reference["impacts"].as_array().unwrap();
+            let snaps: Vec<_> = orbit.rows.iter().filter(|row| row.kind == "snap").collect();
+            assert_eq!(snaps.len(), impacts.len(), "{name}");
+            for (snap, known) in snaps.iter().zip(impacts) {
+                assert_eq!(snap.surface as f64 + 1.0, number(&known["cable"]));
+                assert!((snap.t - number(&known["t"])).abs() < 1e-11 * (1.0 + largest));
+                assert!(relative(snap.speed, number(&known["v_n"])) < 1e-10);
+            }
+            if let Some(gap) = reference["largest_gap_between_impacts"].as_str() {
+                let gap: f64 = gap.parse().unwrap();
+                assert!(
+                    (orbit.largest_gap.unwrap() - gap).abs() < 1e-3,
+                    "{name}: {:?} {gap}",
+                    orbit.largest_gap
+                );
+                assert!(orbit.largest_gap.unwrap() > gap - 1e-10);
+            }
+            if reference["y_max"].is_number() {
+                let y_max = number(&reference["y_max"]);
+                assert!(
+                    (orbit.survey.y_max - y_max).abs() < 1e-9,
+                    "{name}: {}",
+                    orbit.survey.y_max
+                );
+            }
+            assert_eq!(
+                orbit.is_admissible(),
+                reference["admissible"] == Json::Bool(true),
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn multipliers_are_those_of_the_reference() {
+    for reference in orbits() {
+        let orbit = found(&reference, 1e-4);
+        let name = reference["name"].as_str().unwrap();
+        let known: Vec<_> = reference["multipliers"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(numbers)
+            .collect();
+        let largest = orbit.multipliers.largest();
+        let mut left = orbit.multipliers.values.clone();
+        for value in &known {
+            let off = |[re, im]: &[f64; 2]| (re - value[0]).hypot(im - value[1]);
+            let (place, nearest) = left
+                .iter()
+                .enumerate()
+                .min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+                .unwrap();
+            let size = value[0].hypot(value[1]);
+            if size == 0.0 {
+                assert_eq!(*nearest, [0.0, 0.0], "{name}");
+            } else {
+                let allowed = if size < 1e-3 * largest { 1e-6 } else { 1e-9 };
+                assert!(
+                    off(nearest) / size < allowed,
+                    "{name}: {nearest:?} {value:?}"
+                );
+            }
+            left.remove(place);
+        }
+        assert!(left.is_empty(), "{name}");
+        if let Some(rule) = orbit.rule {
+            assert!(relative(orbit.multipliers.product, rule) < 1e-11, "{name}");
+            assert!(
+                relative(rule, number(&reference["multiplier_product"])) < 1e-14,
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_orbit_whose_cable_would_have_to_push_is_refused() {
+    let all = orbits();
+    let one = |name: &str| found(all.iter().find(|o| o["name"] == name).unwrap(), 1e-4);
+    let refused = one("slide_partner_inadmissible");
+    assert!(!refused.is_admissible());
+    let tension = refused.survey.least_tension.unwrap();
+    // By the rule of Runge and Kutta with 20,000 steps; the reference's own -0.0529 is the least of
+    // coarse samples.
+    assert!((tension.value + 0.053713013).abs() < 1e-8, "{tension:?}");
+    assert!((tension.t - 0.99410).abs() < 1e-4, "{tension:?}");
+    assert_eq!(tension.surface, 1);
+    assert!(
+        refused
+            .why_not
+            .iter()
+            .any(|why| why.contains("tension of cable 2 is negative"))
+    );
+    let real = one("slide_stable");
+    assert!((real.survey.least_tension.unwrap().value - 0.179937371).abs() < 1e-8);
+    assert_eq!(real.multipliers.zeros_from_contact, 2);
+}
+
+#[test]
+fn kinds_of_stability_are_told() {
+    let all = orbits();
+    let one = |name: &str| found(all.iter().find(|o| o["name"] == name).unwrap(), 1e-4).stability();
+    assert_eq!(one("volley"), Stability::Stable);
+    assert_eq!(one("square_six"), Stability::Unstable);
+    assert_eq!(one("rock_circle"), Stability::Neutral);
+    assert_eq!(one("corner_rest_e0"), Stability::Superstable);
+}
