@@ -65,6 +65,13 @@ impl CaseArgs {
         Ok((name, entries))
     }
 
+    /// Reads and checks the values of the case, whose start need not be legal.
+    pub(crate) fn parameters(&self) -> Result<(String, Parameters), Failure> {
+        let (name, entries) = self.entries(&CASE)?;
+        let parameters = Parameters::from_entries(entries.values("case"));
+        Ok((name, parameters.map_err(|error| entries.locate(error))?))
+    }
+
     /// Reads and checks the case.
     pub(crate) fn read(&self) -> Result<Input, Failure> {
         let (name, entries) = self.entries(&CASE)?;

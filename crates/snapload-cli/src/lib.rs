@@ -6,6 +6,8 @@
 #[cfg(feature = "structure")]
 mod assess;
 mod bar;
+mod basin;
+mod branch;
 mod case_input;
 mod cases;
 mod certify;
@@ -13,6 +15,7 @@ mod completions;
 mod critical;
 #[cfg(feature = "structure")]
 mod decay;
+mod diagram;
 #[cfg(feature = "structure")]
 mod elastic;
 #[cfg(feature = "explore")]
@@ -28,12 +31,14 @@ mod keys;
 mod merge;
 #[cfg(feature = "structure")]
 mod moordyn;
+mod orbit;
 mod pictures;
 #[cfg(feature = "reproduce")]
 mod reproduce;
 mod run;
 #[cfg(feature = "structure")]
 mod seas;
+mod section;
 mod stage;
 mod standard_output;
 #[cfg(feature = "structure")]
@@ -42,6 +47,7 @@ mod study_input;
 mod study_picture;
 mod study_summary;
 mod sweep;
+mod table;
 mod uncertainty;
 mod verify;
 
@@ -91,6 +97,18 @@ enum Verb {
     Sweep(sweep::Args),
     /// Join the parts of a study that was swept on several machines
     Merge(merge::Args),
+    /// Find periodic orbits, and tell their multipliers and whether a body has them
+    Orbit(orbit::Args),
+    /// Follow an orbit as a key changes, with its bifurcations, grazes and limits
+    Branch(branch::Args),
+    /// Follow a long motion: its state once a period of the forcing, its Lyapunov exponents
+    Section(section::Args),
+    /// Follow the attractor along a key: a bifurcation diagram
+    Diagram(diagram::Args),
+    /// Run a window of starts: which of them stay below the limits
+    Basin(basin::Args),
+    /// The same for values of a third key: how the safe part is eroded
+    Erosion(basin::ErosionArgs),
     /// Reproduce the chapter's tables, figures and claims as one report
     #[cfg(feature = "reproduce")]
     Reproduce(reproduce::Args),
@@ -142,6 +160,12 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
         Verb::Certify(args) => certify::run(&args),
         Verb::Sweep(args) => sweep::run(&args),
         Verb::Merge(args) => merge::run(&args),
+        Verb::Orbit(args) => orbit::run(&args),
+        Verb::Branch(args) => branch::run(&args),
+        Verb::Section(args) => section::run(&args),
+        Verb::Diagram(args) => diagram::run(&args),
+        Verb::Basin(args) => basin::run(&args),
+        Verb::Erosion(args) => basin::run_erosion(&args),
         #[cfg(feature = "reproduce")]
         Verb::Reproduce(args) => reproduce::run(&args),
         #[cfg(feature = "structure")]

@@ -86,7 +86,7 @@ pub trait Family: Sync {
     }
 
     /// The motion as it is, with its events detected, from `z` at time `t` to `t_end`. None where
-    /// the system has no other motion than the prescribed one of [`crate::scan`].
+    /// the system has no other motion than the prescribed one of [`crate::scan()`].
     fn simulate(&self, at: [f64; 2], t: f64, z: &Point, t_end: f64) -> Option<Simulated>;
 }
 

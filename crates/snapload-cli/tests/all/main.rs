@@ -8,6 +8,7 @@ mod common;
 mod documents;
 mod explore;
 mod hydro;
+mod orbits;
 mod physics;
 mod report;
 mod structure;

@@ -1,0 +1,267 @@
+//! `snapload basin` and `snapload erosion`: which starts stay below the limits.
+use crate::bar::Bar;
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, print};
+use crate::json::Json;
+use crate::stage::Stage;
+use crate::table::{TableFile, axis, names, numbers};
+use serde::Serialize;
+use snapload::Parameters;
+use snapload::analysis::Progress;
+use snapload_orbits::{
+    Attraction, AttractionRow, Basin, BasinRow, Erosion, ErosionRow, Fate, Window,
+    attraction_in_words, basin_in_words, erosion_in_words,
+};
+use snapload_report::{CaseEcho, case_in_words};
+use snapload_study::Values;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+A start is safe if its run reaches neither the rotation limit nor the upper bound up to t_end; settling is safe.
+Starts beyond a cable or a limit are not legal and no part of the window. A cell is decided if its neighbours at
+1e-8, and where rounding may decide its run nearer ones, too, end alike.
+
+Examples:
+  snapload basin --set t_end=60 --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36 --out basin.parquet
+      starts at rest of the standard body
+  snapload basin --set t_end=60 --vary f_o=0.02:0.6:30 --vary omega=0.4:2.4:41 --json -
+      any two keys
+  snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21 --json -
+      how the safe part shrinks as the force grows";
+
+/// Which case, and which window.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    window: WindowArgs,
+    /// What is asked of a cell: whether it is safe, or which attractor it comes to
+    #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
+    kind: String,
+    /// Periods of the forcing before attractors are looked at
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    transient: u64,
+    /// Write a table with a row a cell, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+/// Which case, which window, and which values of a third key.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct ErosionArgs {
+    #[command(flatten)]
+    window: WindowArgs,
+    /// The third key: first:last:n values
+    #[arg(long, value_name = "KEY=first:last:n", allow_hyphen_values = true)]
+    over: String,
+    /// Write a table with a row a value, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+#[derive(clap::Args)]
+struct WindowArgs {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// The two keys of the window, each first:last:n
+    #[arg(
+        long,
+        value_name = "KEY=first:last:n",
+        allow_hyphen_values = true,
+        required = true
+    )]
+    vary: Vec<String>,
+    /// Leave out which cells are decided, which takes most of the time
+    #[arg(long)]
+    no_trust: bool,
+}
+
+/// More cells than this are a slip of the keyboard.
+const MOST_CELLS: usize = 100_000_000;
+
+impl WindowArgs {
+    fn read(&self) -> Result<(String, Parameters, Window), Failure> {
+        let (name, base) = self.case.parameters()?;
+        let [first, second] = &self.vary[..] else {
+            return Err(Failure::BadInput(format!(
+                "--vary: {} given; a window has two keys, such as --vary x=-0.4:0.4:41 --vary y=0.02:0.72:36",
+                self.vary.len()
+            )));
+        };
+        let ((a, rows), (b, columns)) = (axis("--vary", first)?, axis("--vary", second)?);
+        let window = Window {
+            base,
+            keys: [a, b],
+            values: [rows, columns],
+        };
+        if window.count() > MOST_CELLS {
+            let message = format!(
+                "--vary: {} cells, and at most {MOST_CELLS} are allowed",
+                window.count()
+            );
+            return Err(Failure::BadInput(message));
+        }
+        window.check()?;
+        Ok((name, base, window))
+    }
+}
+
+#[derive(Serialize)]
+struct Answer<'a, T> {
+    case: CaseEcho<'a>,
+    #[serde(flatten)]
+    found: T,
+}
+
+/// Runs a window.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (name, base, window) = args.window.read()?;
+    let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    if args.kind == "attractor" {
+        let found = Attraction::of(window, args.transient, &on_progress)?;
+        drop(bar);
+        table.stage(&mut stage, &fates(&found))?;
+        let row = Answer {
+            case: CaseEcho(&base),
+            found: AttractionRow::new(&found),
+        };
+        return match json.write(stage, &row)? {
+            Some(written) => tell(&name, &base, &attraction_in_words(&found), written),
+            None => Ok(()),
+        };
+    }
+    let basin = Basin::of(window, !args.window.no_trust, &on_progress)?;
+    drop(bar);
+    table.stage(&mut stage, &cells(&basin))?;
+    let row = Answer {
+        case: CaseEcho(&base),
+        found: BasinRow::new(&basin),
+    };
+    let Some(written) = json.write(stage, &row)? else {
+        return Ok(());
+    };
+    tell(&name, &base, &basin_in_words(&basin), written)
+}
+
+/// Runs it for the values of a third key.
+pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
+    let (name, base, window) = args.window.read()?;
+    let (key, values) = axis("--over", &args.over)?;
+    let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let erosion = Erosion::of(&window, key, &values, !args.window.no_trust, &on_progress)?;
+    drop(bar);
+    table.stage(&mut stage, &points(&erosion))?;
+    let row = Answer {
+        case: CaseEcho(&base),
+        found: ErosionRow::new(&erosion),
+    };
+    let Some(written) = json.write(stage, &row)? else {
+        return Ok(());
+    };
+    tell(&name, &base, &erosion_in_words(&erosion), written)
+}
+
+fn tell(name: &str, base: &Parameters, words: &str, written: Vec<PathBuf>) -> Result<(), Failure> {
+    let mut text = format!("Case      {}\n", case_in_words(name, base));
+    text.push_str(words);
+    for path in written {
+        let _ = writeln!(text, "Written   {}", path.display());
+    }
+    print(&text)
+}
+
+fn cells(basin: &Basin) -> Vec<(&'static str, Values)> {
+    let window = &basin.window;
+    let count = window.count();
+    let key = |axis: usize| numbers((0..count).map(|k| window.at(k)[axis]));
+    let cells = || basin.cells.iter();
+    let flags = |flag: fn(&snapload_orbits::Cell) -> bool| {
+        let of = |cell| basin.looked_beside.then(|| flag(cell));
+        Values::Flags(cells().map(of).collect())
+    };
+    vec![
+        (window.keys[0], key(0)),
+        (window.keys[1], key(1)),
+        (
+            "outcome",
+            names(cells().map(|cell| cell.end.map(|(stop, _)| stop.name()))),
+        ),
+        (
+            "t",
+            Values::Numbers(cells().map(|cell| cell.end.map(|(_, t)| t)).collect()),
+        ),
+        ("decided", flags(|cell| cell.decided)),
+        ("trusted", flags(|cell| cell.trusted)),
+    ]
+}
+
+fn points(erosion: &Erosion) -> Vec<(&'static str, Values)> {
+    let basins = || erosion.points.iter().map(|(_, basin)| &basin.measures);
+    let number = |of: fn(&snapload_orbits::Measures) -> f64| numbers(basins().map(of));
+    let maybe = |of: fn(&snapload_orbits::Measures) -> Option<f64>| {
+        Values::Numbers(basins().map(of).collect())
+    };
+    let count = |of: fn(&snapload_orbits::Measures) -> usize| {
+        Values::Counts(basins().map(|measures| Some(of(measures) as i64)).collect())
+    };
+    vec![
+        (
+            erosion.key,
+            numbers(erosion.points.iter().map(|(value, _)| *value)),
+        ),
+        ("legal", count(|m| m.legal)),
+        ("safe", count(|m| m.safe)),
+        ("undecided", count(|m| m.undecided)),
+        ("gim", number(|m| m.gim)),
+        ("low", number(|m| m.interval[0])),
+        ("high", number(|m| m.interval[1])),
+        ("lim", maybe(|m| m.lim)),
+        ("if", maybe(|m| m.integrity_factor)),
+        ("iim", maybe(|m| m.iim)),
+    ]
+}
+
+fn fates(found: &Attraction) -> Vec<(&'static str, Values)> {
+    let window = &found.window;
+    let key = |axis: usize| numbers((0..window.count()).map(|k| window.at(k)[axis]));
+    let outcome = |fate: &Fate| match fate {
+        Fate::Illegal => None,
+        Fate::Stopped(stop, _) => Some(stop.name()),
+        Fate::Attracted(_) => Some("attracted"),
+        Fate::Aperiodic => Some("aperiodic"),
+    };
+    let time = |fate: &Fate| match fate {
+        Fate::Stopped(_, t) => Some(*t),
+        _ => None,
+    };
+    let number = |fate: &Fate| match fate {
+        Fate::Attracted(k) => Some(*k as i64 + 1),
+        _ => None,
+    };
+    vec![
+        (window.keys[0], key(0)),
+        (window.keys[1], key(1)),
+        ("outcome", names(found.fates.iter().map(outcome))),
+        ("t", Values::Numbers(found.fates.iter().map(time).collect())),
+        (
+            "attractor",
+            Values::Counts(found.fates.iter().map(number).collect()),
+        ),
+    ]
+}

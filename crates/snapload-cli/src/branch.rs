@@ -1,0 +1,216 @@
+//! `snapload branch`: an orbit as a key changes.
+use crate::bar::Bar;
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, print};
+use crate::json::Json;
+use crate::orbit::{phase, start_at};
+use crate::stage::Stage;
+use crate::table::{TableFile, numbers};
+use serde::Serialize;
+use snapload::analysis::Progress;
+use snapload::{Parameters, Value, key_named};
+use snapload_orbits::{
+    Along, Branch, BranchRow, Moored, Orbit, Wanted, branch_in_words, of_attractor,
+};
+use snapload_report::{CaseEcho, case_in_words};
+use snapload_study::{Side, Values};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+The orbit near --start, or the one that the motion of the case comes to, is followed in both directions by
+pseudo-arclength, round folds, with its sequence of events held. Folds, period doublings, Neimark-Sacker points,
+grazes, corners, lost tensions and limits are located; every point is run, and `admissible` says whether a body
+has it.
+
+Examples:
+  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
+      --along f_o=1.2:4 --json -
+  snapload branch --set omega=3 --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666 \\
+      --along f_o=0.25:0.35 --out branch.parquet";
+
+/// Which case, which orbit, which key.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// State at the section near which the orbit is; keys left out are the case's own
+    #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
+    start: Option<String>,
+    /// Length in periods of the forcing
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    periods: Option<u32>,
+    /// The key that changes, and between which values
+    #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
+    along: String,
+    /// Length of the first step, in the space of state, times of events, and the key
+    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    step: f64,
+    /// Points in either direction at most
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    points: u32,
+    /// Kinds of events that are told, with commas between them
+    #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]
+    events: String,
+    /// Time of the section, in periods of the forcing
+    #[arg(
+        long,
+        value_name = "P",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    phase: f64,
+    /// Write a table with a row a point, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    case: CaseEcho<'a>,
+    #[serde(flatten)]
+    branch: BranchRow,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (name, parameters) = args.case.parameters()?;
+    let (key, along) = along(args, &parameters)?;
+    let kinds = kinds(&args.events)?;
+    let wanted = Wanted {
+        periods: args.periods,
+        struck: None,
+        phase: phase(args.phase)?,
+    };
+    snapload_orbits::period_of(&parameters)?;
+    let start = args
+        .start
+        .as_deref()
+        .map(|text| start_at(text, &parameters))
+        .transpose()?;
+    let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let family = Moored::case(parameters, [Some(key), None]);
+    let at = Moored::values(&parameters, [Some(key), None]);
+    let start = match start {
+        Some(start) => Ok(start),
+        None => of_attractor(&parameters, &wanted, &on_progress)?.map(|orbit| orbit.z),
+    };
+    let orbit = start.and_then(|start| Orbit::find(&family, at, &start, &wanted));
+    let orbit = orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))?;
+    let mut branch = Branch::of(&family, &orbit, &along, &on_progress)?;
+    drop(bar);
+    branch
+        .events
+        .retain(|event| kinds.is_empty() || kinds.contains(&event.kind.name()));
+    table.stage(&mut stage, &columns(key, &branch))?;
+    let row = Answer {
+        case: CaseEcho(&parameters),
+        branch: BranchRow::new(key, &branch),
+    };
+    let Some(written) = json.write(stage, &row)? else {
+        return Ok(());
+    };
+    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    text.push_str(&branch_in_words(key, &branch));
+    for path in written {
+        let _ = writeln!(text, "Written   {}", path.display());
+    }
+    print(&text)
+}
+
+/// The key, and how it is followed.
+fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, Along), Failure> {
+    let text = &args.along;
+    let Some((key, range)) = text.split_once('=') else {
+        return Err(Failure::BadInput(format!(
+            "--along {text:?}: no range; write --along KEY=low:high, such as --along f_o=0.6:1.0"
+        )));
+    };
+    let side = Side::written(key.trim(), range.trim())
+        .map_err(|error| Failure::from(error).with_prefix("--along"))?;
+    let key = key_named(side.key())?.name;
+    let parts: Vec<f64> = range
+        .split(':')
+        .filter_map(|part| part.trim().parse().ok())
+        .collect();
+    let value = parameters.get(key).as_ref().and_then(Value::number);
+    let (Some(value), [low, high]) = (value, &parts[..]) else {
+        return Err(Failure::BadInput(format!(
+            "--along {text:?}: {key} is no number of this body"
+        )));
+    };
+    if !(*low..=*high).contains(&value) {
+        return Err(Failure::BadInput(format!(
+            "--along {text:?}: the case has {key} = {value}, which must lie within the range; set it with --set"
+        )));
+    }
+    if !(args.step > 0.0 && args.step <= 1.0) {
+        let message = format!("--step {}: a number above 0, at most 1", args.step);
+        return Err(Failure::BadInput(message));
+    }
+    let along = Along {
+        range: [*low, *high],
+        step: args.step,
+        most: args.points as usize,
+    };
+    Ok((key, along))
+}
+
+const KINDS: [&str; 8] = [
+    "fold",
+    "period_doubling",
+    "neimark_sacker",
+    "graze",
+    "corner",
+    "tension_lost",
+    "rotation_limit",
+    "upper_bound",
+];
+
+/// The kinds that are told; none says all.
+fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
+    if text == "all" {
+        return Ok(Vec::new());
+    }
+    let kind = |word: &str| {
+        let known = KINDS.into_iter().find(|kind| *kind == word.trim());
+        known.ok_or_else(|| {
+            Failure::BadInput(format!(
+                "--events {word:?}: all, or some of {}",
+                KINDS.join(", ")
+            ))
+        })
+    };
+    text.split(',').map(kind).collect()
+}
+
+fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
+    let points = || branch.points.iter();
+    let mut columns = vec![
+        ("arclength", numbers(points().map(|point| point.arclength))),
+        (key, numbers(points().map(|point| point.orbit.at[0]))),
+    ];
+    let states = ["x", "y", "theta", "vx", "vy", "vtheta"];
+    for (i, name) in states
+        .into_iter()
+        .enumerate()
+        .filter(|(_, name)| *name != key)
+    {
+        columns.push((name, numbers(points().map(|point| point.orbit.z[i]))));
+    }
+    let largest = points().map(|point| point.orbit.multipliers.largest());
+    columns.push(("largest_multiplier", numbers(largest)));
+    let symbols = points().map(|point| Some(point.orbit.lap.sequence.symbol().join(" ").into()));
+    columns.push(("symbol", Values::Words(symbols.collect())));
+    let real = points().map(|point| Some(point.orbit.is_admissible()));
+    columns.push(("admissible", Values::Flags(real.collect())));
+    columns
+}

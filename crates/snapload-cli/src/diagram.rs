@@ -1,0 +1,129 @@
+//! `snapload diagram`: the attractor along a key.
+use crate::bar::Bar;
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, print};
+use crate::json::Json;
+use crate::section::StretchArgs;
+use crate::stage::Stage;
+use crate::table::{TableFile, axis, names, numbers};
+use serde::Serialize;
+use snapload::analysis::Progress;
+use snapload_orbits::{At, DiagramRow, diagram, diagram_in_words};
+use snapload_report::{CaseEcho, case_in_words};
+use snapload_study::Values;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Each value begins where the motion at the value before ended, so that an attractor is followed; where a motion
+stops at a limit the next value begins with the case's own start again, and `restarted` says so.
+
+Examples:
+  snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
+      --vary f_o=1.5:2.1:61 --out up.parquet
+  snapload diagram ... --vary f_o=1.5:2.1:61 --down --out down.parquet
+      downwards: another attractor may be found";
+
+/// Which case, which values, and how long.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// The key that changes: first:last:n values
+    #[arg(long, value_name = "KEY=first:last:n", allow_hyphen_values = true)]
+    vary: String,
+    /// From the last value to the first
+    #[arg(long)]
+    down: bool,
+    #[command(flatten)]
+    stretch: StretchArgs,
+    /// Write a table of all section points, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    case: CaseEcho<'a>,
+    vary: &'static str,
+    down: bool,
+    rows: Vec<DiagramRow>,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (name, parameters) = args.case.parameters()?;
+    let (key, mut values) = axis("--vary", &args.vary)?;
+    if args.down {
+        values.reverse();
+    }
+    let stretch = args.stretch.read()?;
+    let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let found = diagram(&parameters, key, &values, &stretch, &on_progress)?;
+    drop(bar);
+    table.stage(&mut stage, &columns(key, &found))?;
+    let row = Answer {
+        case: CaseEcho(&parameters),
+        vary: key,
+        down: args.down,
+        rows: found.iter().map(DiagramRow::new).collect(),
+    };
+    let Some(written) = json.write(stage, &row)? else {
+        return Ok(());
+    };
+    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    text.push_str(&diagram_in_words(key, &found));
+    for path in written {
+        let _ = writeln!(text, "Written   {}", path.display());
+    }
+    print(&text)
+}
+
+fn columns(key: &'static str, found: &[At]) -> Vec<(&'static str, Values)> {
+    let rows = || {
+        let points = |at: &'_ At| at.section.points.len();
+        found
+            .iter()
+            .flat_map(move |at| (0..points(at)).map(move |k| (at, k)))
+    };
+    let exponent = |place: usize| {
+        let value = rows().map(|(at, _)| at.section.exponents.first().map(|both| both[place]));
+        Values::Numbers(value.collect())
+    };
+    let mut columns = vec![
+        (key, numbers(rows().map(|(at, _)| at.value))),
+        (
+            "k",
+            Values::Counts(rows().map(|(_, k)| Some(k as i64)).collect()),
+        ),
+    ];
+    let states = ["x", "y", "theta", "vx", "vy", "vtheta"];
+    for (i, name) in states
+        .into_iter()
+        .enumerate()
+        .filter(|(_, name)| *name != key)
+    {
+        columns.push((name, numbers(rows().map(|(at, k)| at.section.points[k][i]))));
+    }
+    let period = rows().map(|(at, _)| at.period.map(|period| period as i64));
+    columns.push(("period", Values::Counts(period.collect())));
+    columns.push((
+        "snaps",
+        Values::Numbers(rows().map(|(at, _)| at.snaps()).collect()),
+    ));
+    columns.push(("exponent", exponent(0)));
+    columns.push(("exponent_se", exponent(1)));
+    columns.push((
+        "stop",
+        names(rows().map(|(at, _)| at.stop().map(|stop| stop.name()))),
+    ));
+    columns
+}

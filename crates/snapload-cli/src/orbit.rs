@@ -1,0 +1,210 @@
+//! `snapload orbit`: periodic orbits.
+use crate::bar::Bar;
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, print};
+use crate::json::Json;
+use crate::stage::Stage;
+use serde::Serialize;
+use snapload::analysis::Progress;
+use snapload::{Parameters, Value, parse_value};
+use snapload_orbits::{
+    Moored, Orbit, OrbitRow, Point, Wanted, find_orbits, of_attractor, orbit_in_words, start_of,
+};
+use snapload_report::{CaseEcho, case_in_words};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+An orbit is a motion that repeats itself after whole periods of the forcing. It is closed to rounding by
+Newton's method on the sequence of its events, and then run: a sequence that closes need not be a motion, and
+`admissible` says whether this one is, and if not, why. The stops by settling are off.
+
+Examples:
+  snapload orbit --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1
+      the orbit that the motion of the start comes to
+  snapload orbit --set omega=3 --start x=-0.06,y=0.12,theta=0.48,vx=0.39,vy=0.65,vtheta=-1.67
+      the one near a start, which may be unstable
+  snapload orbit --set omega=3 --find 2000 --seed 1 --json - | jq '.orbits[].multipliers[0]'
+      all that random starts lead to, for the next program";
+
+/// Which case, and which orbit.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// State at the section near which the orbit is; keys left out are the case's own
+    #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
+    start: Option<String>,
+    /// Length in periods of the forcing; 1 with --start or --find, what the motion has otherwise
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    periods: Option<u32>,
+    /// The cables that snap, in their order
+    #[arg(long, value_name = "2,1")]
+    symbol: Option<String>,
+    /// Try so many random starts, and tell all orbits found
+    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    find: Option<u32>,
+    /// Which random starts
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
+    seed: u64,
+    /// Time of the section, in periods of the forcing
+    #[arg(
+        long,
+        value_name = "P",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    phase: f64,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct One<'a> {
+    case: CaseEcho<'a>,
+    #[serde(flatten)]
+    orbit: OrbitRow,
+}
+
+#[derive(Serialize)]
+struct Many<'a> {
+    case: CaseEcho<'a>,
+    starts: u32,
+    seed: u64,
+    orbits: Vec<OrbitRow>,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (name, parameters) = args.case.parameters()?;
+    let wanted = Wanted {
+        periods: args.periods,
+        struck: args.symbol.as_deref().map(cables).transpose()?,
+        phase: phase(args.phase)?,
+    };
+    snapload_orbits::period_of(&parameters)?;
+    let start = args.start.as_deref();
+    let start = start.map(|text| start_at(text, &parameters)).transpose()?;
+    let mut stage = Stage::default();
+    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    let written = if let Some(starts) = args.find {
+        let row = many(args, &parameters, (starts, &wanted), &mut text)?;
+        json.write(stage, &row)?
+    } else {
+        let orbit = one(&parameters, start, &wanted)?;
+        text.push_str(&orbit_in_words(&orbit));
+        let row = One {
+            case: CaseEcho(&parameters),
+            orbit: OrbitRow::new(&orbit),
+        };
+        json.write(stage, &row)?
+    };
+    let Some(written) = written else {
+        return Ok(());
+    };
+    for path in written {
+        let _ = writeln!(text, "Written   {}", path.display());
+    }
+    print(&text)
+}
+
+/// The orbit near a start, or the one that the motion of the case comes to.
+fn one(parameters: &Parameters, start: Option<Point>, wanted: &Wanted) -> Result<Orbit, Failure> {
+    let bar = Bar::new();
+    let orbit = match start {
+        Some(start) => {
+            let family = Moored::case(*parameters, [None; 2]);
+            Orbit::find(&family, [0.0; 2], &start, wanted)
+        }
+        None => of_attractor(parameters, wanted, &|progress: Progress| bar.show(progress))?,
+    };
+    orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
+}
+
+/// All orbits that random starts lead to.
+fn many<'a>(
+    args: &Args,
+    parameters: &'a Parameters,
+    (starts, wanted): (u32, &Wanted),
+    text: &mut String,
+) -> Result<Many<'a>, Failure> {
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let orbits = find_orbits(parameters, starts as usize, args.seed, wanted, &on_progress)?;
+    let _ = writeln!(
+        text,
+        "Found     {} orbits from {starts} random starts",
+        orbits.len()
+    );
+    for orbit in &orbits {
+        text.push_str(&orbit_in_words(orbit));
+    }
+    Ok(Many {
+        case: CaseEcho(parameters),
+        starts,
+        seed: args.seed,
+        orbits: orbits.iter().map(OrbitRow::new).collect(),
+    })
+}
+
+/// A time of the section.
+pub(crate) fn phase(phase: f64) -> Result<f64, Failure> {
+    if (0.0..1.0).contains(&phase) {
+        return Ok(phase);
+    }
+    let message = format!("--phase {phase}: a part of the period, from 0 to below 1");
+    Err(Failure::BadInput(message))
+}
+
+/// The names of what a start is made of.
+const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
+
+/// A start out of `x=..,y=..`.
+pub(crate) fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
+    let mut z = start_of(parameters);
+    for part in text.split(',') {
+        let (key, value) = part.split_once('=').unwrap_or((part, ""));
+        let (key, value) = (key.trim(), value.trim());
+        let Some(place) = STARTS.iter().position(|name| *name == key) else {
+            return Err(Failure::BadInput(format!(
+                "--start {part:?}: write KEY=VALUE with one of the keys {}, such as --start x=0.1,y=0.2",
+                STARTS.join(", ")
+            )));
+        };
+        let number = parse_value(value).ok().as_ref().and_then(Value::number);
+        let Some(number) = number.filter(|number| number.abs() <= 1e3) else {
+            return Err(Failure::BadInput(format!(
+                "--start {part:?}: {key} must be a number from -1000 to 1000"
+            )));
+        };
+        if parameters.is_point() && place % 3 == 2 && number != 0.0 {
+            return Err(Failure::BadInput(format!(
+                "--start {part:?}: a point mass does not turn; leave {key} out"
+            )));
+        }
+        z[place] = number;
+    }
+    Ok(z)
+}
+
+/// Cables out of `2,1`.
+fn cables(text: &str) -> Result<Vec<usize>, Failure> {
+    let cable = |part: &str| match part.trim() {
+        "1" => Some(0),
+        "2" => Some(1),
+        _ => None,
+    };
+    let all: Option<Vec<usize>> = match text.trim() {
+        "" | "none" => Some(Vec::new()),
+        text => text.split(',').map(cable).collect(),
+    };
+    all.ok_or_else(|| {
+        Failure::BadInput(format!(
+            "--symbol {text:?}: write the numbers of the cables that snap, 1 or 2, with commas between them, \
+             or none"
+        ))
+    })
+}

@@ -1,0 +1,183 @@
+//! Orbits, branches, sections and basins by the command.
+
+use crate::common::{directory, snapload};
+use predicates::str::contains;
+use serde_json::Value;
+
+const VOLLEY: [&str; 13] = [
+    "--set",
+    "body=point",
+    "--set",
+    "r=1.7",
+    "--set",
+    "e=0.35",
+    "--set",
+    "f_o=1.4",
+    "--set",
+    "nu=0.8",
+    "--set",
+    "omega=3.1",
+    "--json",
+];
+
+fn json(verb: &str, args: &[&str]) -> Value {
+    let d = directory();
+    let out = snapload(d.path())
+        .arg(verb)
+        .args(VOLLEY)
+        .arg("-")
+        .args(args)
+        .assert()
+        .success();
+    serde_json::from_slice(&out.get_output().stdout).unwrap()
+}
+
+fn refused(args: &[&str], why: &str) {
+    let d = directory();
+    snapload(d.path())
+        .args(args)
+        .assert()
+        .code(2)
+        .stderr(contains(why));
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+#[test]
+fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
+    let near = json(
+        "orbit",
+        &["--start", "x=-0.2689,y=0.3829,vx=0.8083,vy=-0.4262"],
+    );
+    for orbit in [json("orbit", &[]), near] {
+        // 50 digits by an independent program, rounded.
+        let state = &orbit["section"]["state"];
+        assert!((number(&state[0]) + 0.2688102191814386).abs() < 1e-13);
+        assert!((number(&state[3]) - 0.8083740914045439).abs() < 1e-13);
+        assert_eq!(orbit["symbol"], serde_json::json!(["2", "1"]));
+        assert_eq!(orbit["stable"], true);
+        assert_eq!(orbit["admissible"]["yes"], true);
+        assert_eq!(orbit["multipliers"].as_array().unwrap().len(), 4);
+        assert!((number(&orbit["multipliers"][0][0]) - 0.4878061052050212).abs() < 1e-11);
+        assert!((number(&orbit["product"]["value"]) - 0.35_f64.powi(4)).abs() < 1e-14);
+        assert_eq!(orbit["proved"], false);
+        assert!(orbit["error_bound"].is_null());
+        assert_eq!(orbit["case"]["r"], 1.7);
+    }
+}
+
+#[test]
+fn a_branch_has_its_fold() {
+    let branch = json(
+        "branch",
+        &[
+            "--along",
+            "f_o=1.3:1.45",
+            "--step",
+            "0.05",
+            "--events",
+            "fold",
+        ],
+    );
+    let events = branch["events"].as_array().unwrap();
+    assert_eq!(events.len(), 1);
+    assert_eq!(events[0]["kind"], "fold");
+    assert!((number(&events[0]["value"]) - 1.304034132999962).abs() < 1e-12);
+    assert!(branch["points"].as_array().unwrap().len() > 5);
+    assert_eq!(branch["ends"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_section_knows_its_period() {
+    let section = json("section", &["--periods", "1000", "--keep", "500"]);
+    assert_eq!(section["period"], 1);
+    assert_eq!(section["points"].as_array().unwrap().len(), 501);
+    assert_eq!(number(&section["snaps"]), 2.0);
+    // The exponent of the orbit is ln|mu|/T.
+    let largest = 0.487_806_105_205_021_2_f64.ln() / (std::f64::consts::TAU / 3.1);
+    assert!((number(&section["exponents"][0]["value"]) - largest).abs() < 1e-9);
+    let diagram = json(
+        "diagram",
+        &[
+            "--vary",
+            "f_o=1.4:1.42:2",
+            "--periods",
+            "60",
+            "--keep",
+            "20",
+        ],
+    );
+    assert_eq!(diagram["rows"][0]["period"], 1);
+    assert_eq!(diagram["rows"][1]["restarted"], false);
+}
+
+#[test]
+fn a_basin_tells_of_its_cells() {
+    let d = directory();
+    let args = [
+        "basin",
+        "--set",
+        "t_end=20",
+        "--vary",
+        "x=-0.1:0.1:3",
+        "--vary",
+        "y=0.1:0.2:2",
+        "--out",
+        "cells.csv",
+        "--json",
+        "-",
+    ];
+    let out = snapload(d.path()).args(args).assert().success();
+    let basin: Value = serde_json::from_slice(&out.get_output().stdout).unwrap();
+    assert_eq!(number(&basin["legal"]), 6.0);
+    let table = std::fs::read_to_string(d.path().join("cells.csv")).unwrap();
+    assert!(
+        table.starts_with("x,y,outcome,t,decided,trusted\n"),
+        "{table}"
+    );
+    assert_eq!(table.lines().count(), 7);
+    let safe = table.lines().filter(|line| !line.contains("limit")).count() - 1;
+    assert_eq!(number(&basin["safe"]), safe as f64);
+}
+
+#[test]
+fn what_can_not_be_is_refused() {
+    refused(&["orbit", "--start", "z=1"], "one of the keys x, y");
+    refused(&["orbit", "--start", "x=far"], "x must be a number");
+    refused(&["orbit", "--symbol", "3"], "1 or 2");
+    refused(&["orbit", "--set", "omega=0"], "omega = 0");
+    refused(&["orbit", "--phase", "1.5"], "from 0 to below 1");
+    refused(
+        &["branch", "--along", "f_o=0.5:1"],
+        "must lie within the range",
+    );
+    refused(&["branch", "--along", "f_o"], "no range");
+    refused(
+        &["section", "--periods", "5", "--keep", "9"],
+        "at most --periods 5",
+    );
+    refused(&["basin", "--vary", "x=0:1:3"], "a window has two keys");
+    refused(
+        &["basin", "--vary", "x=0:1:3", "--vary", "x=0:1:3"],
+        "each once",
+    );
+    refused(
+        &["basin", "--vary", "x=0:1:3", "--vary", "e=0:2:3"],
+        "e = 2",
+    );
+    refused(&["diagram", "--vary", "f_o=0:1"], "three numbers");
+}
+
+#[test]
+fn where_there_is_no_orbit_it_is_said_why() {
+    let d = directory();
+    snapload(d.path())
+        .args(["orbit", "--set", "f_o=0.5"])
+        .assert()
+        .code(1)
+        .stderr(contains(
+            "no orbit was found: the motion of this start stops at t = 10.02",
+        ));
+}
