@@ -59,7 +59,7 @@ impl Verdict {
 pub fn check(text: &str) -> Verdict {
     let certificate = match Written::read(text) {
         Ok(certificate) => certificate,
-        Err(error) => return Verdict::Malformed(error.to_string()),
+        Err(error) => return Verdict::Malformed(format!("it can not be read as one: {error}")),
     };
     match shape(&certificate) {
         Ok(case) => compare(&certificate, &case),

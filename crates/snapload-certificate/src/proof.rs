@@ -103,7 +103,9 @@ fn resting(run: &Run<'_>, taut: bool) -> Result<ControlFlow<Box<ProvedEnd>, Hang
         return Ok(ControlFlow::Break(Box::new(ProvedEnd { reason, t, state })));
     }
     if !cables.is_empty() && !taut {
-        return Err(Trouble::beyond("a motion with taut cables from the start"));
+        let what =
+            "cables are taut from the start, and a proof of slack flight alone was asked for";
+        return Err(Trouble::beyond(what));
     }
     Ok(ControlFlow::Continue(Hanging {
         taut: cables,

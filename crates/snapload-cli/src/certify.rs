@@ -7,7 +7,7 @@ use crate::stage::Stage;
 use serde::Serialize;
 use snapload::analysis::Progress;
 use snapload_certificate::{
-    Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Verdict, certify, check,
+    Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Reason, Verdict, certify, check,
 };
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -94,6 +94,9 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     let printed = json.write(Stage::default(), &proof)?;
     if let (Some(files), Some(more)) = (written, printed) {
         let mut text = words + "\n";
+        if proof.end == Ended::Proved(Reason::Sticks) {
+            text += "The motion goes on with a taut cable; --taut proves that, too\n";
+        }
         for path in files.iter().chain(&more) {
             let _ = writeln!(text, "Written   {}", path.display());
         }

@@ -145,7 +145,9 @@ mod tests {
         for (cases, n) in [(10, 3), (7, 7), (3, 5), (1_000_000_000_000, 999)] {
             let mut next = 0;
             for i in 1..=n {
-                let rows = Shard::parse(&format!("{i}/{n}")).unwrap().rows(cases);
+                let rows = Shard::parse(&format!("{i}/{n}"))
+                    .expect("a shard")
+                    .rows(cases);
                 assert_eq!(rows.start, next);
                 next = rows.end;
             }

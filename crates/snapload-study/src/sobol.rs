@@ -136,7 +136,7 @@ mod tests {
     /// numbers, and point 1,000,000 of its last dimensions.
     #[test]
     fn plain_points_are_those_of_other_programs() {
-        let sobol = Sobol::new(Sobol::MOST, 0).unwrap();
+        let sobol = Sobol::new(Sobol::MOST, 0).expect("as many as there are");
         let unit = (1_u64 << BITS) as f64;
         let point = |index| -> Vec<f64> {
             (0..Sobol::MOST)
@@ -151,7 +151,7 @@ mod tests {
     /// Of 2^m points each of the 2^m equal intervals of every coordinate holds one, scrambled too.
     #[test]
     fn every_interval_has_its_point() {
-        let sobol = Sobol::new(Sobol::MOST, 7).unwrap();
+        let sobol = Sobol::new(Sobol::MOST, 7).expect("as many as there are");
         for dimension in 0..Sobol::MOST {
             let mut cells: Vec<u64> = (0..256)
                 .map(|index| (sobol.coordinate(index, dimension) * 256.0) as u64)
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn a_seed_is_another_sequence_and_the_same_seed_the_same() {
-        let of = |seed| Sobol::new(3, seed).unwrap().coordinate(12345, 2);
+        let of = |seed| Sobol::new(3, seed).expect("few").coordinate(12345, 2);
         assert_eq!(of(1), of(1));
         assert!(of(1) != of(2) && of(1) != 0.0);
         assert_eq!(Sobol::new(Sobol::MOST + 1, 0), None);

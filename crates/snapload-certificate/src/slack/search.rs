@@ -200,15 +200,25 @@ fn others_clear(
     })
 }
 
-/// Which value is nearest to zero there.
+/// Which value is nearest to zero there, or which two are equally near.
 fn undecided(path: &impl Path, (_, watched): &Moment) -> Trouble {
     let size = |k: &usize| watched[*k].value.to_f64().abs();
-    let nearest = (0..watched.len()).min_by(|a, b| size(a).total_cmp(&size(b)));
-    let which = nearest.unwrap_or(0);
-    let value = watched[which].value.to_f64();
+    let mut order: Vec<usize> = (0..watched.len()).collect();
+    order.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    let near = |k: &&usize| size(k) <= 2.0 * size(&order[0]);
+    let names: Vec<String> = order
+        .iter()
+        .take_while(near)
+        .map(|k| path.words(*k))
+        .collect();
+    let value = order.first().map_or(0.0, size);
+    let which = match names.len() {
+        1 => "whether it is reached",
+        _ => "which of them is reached first, or all at one instant",
+    };
     Trouble::undecided(format!(
-        "whether {} is reached, {value:.2e} from it",
-        path.words(which)
+        "{}: {which}, {value:.2e} from it",
+        names.join(" and ")
     ))
 }
 

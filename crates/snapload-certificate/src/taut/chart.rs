@@ -91,3 +91,24 @@ pub(crate) fn arm(p: &mut Program, [a, b]: [&Ball; 2], [sine, cosine]: [Term; 2]
     let [b_cos, b_sin] = [p.scale(cosine, b.clone()), p.scale(sine, b.clone())];
     [p.subtract(a_cos, b_sin), p.add(a_sin, b_cos)]
 }
+
+/// 1 for the right cable, −1 for the left one.
+pub(crate) fn side(cable: usize) -> i64 {
+    if cable == 0 { 1 } else { -1 }
+}
+
+/// ρ and D = P − A of a cable, of the centre's place.
+pub(crate) fn end(
+    p: &mut Program,
+    model: &Model,
+    cable: usize,
+    at: [Term; 2],
+    turn: [Term; 2],
+) -> [[Term; 2]; 2] {
+    let a = &model.a * &Ball::integer(side(cable));
+    let lever = arm(p, [&a, &model.b], turn);
+    let anchor = p.constant(Ball::integer(side(cable)));
+    let level = p.constant(model.level.clone());
+    let end = p.sum(at, lever);
+    [lever, p.difference(end, [anchor, level])]
+}

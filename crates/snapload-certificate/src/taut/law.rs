@@ -4,7 +4,7 @@
 use crate::arithmetic::ball::Ball;
 use crate::arithmetic::interval::Interval;
 use crate::model::{Model, State};
-use crate::taut::chart::{StateJets, arm};
+use crate::taut::chart::{StateJets, end};
 use crate::taut::series::{Program, Term};
 
 /// A change of velocities at one instant. Cables are by index from 0.
@@ -105,13 +105,7 @@ pub(crate) fn jets_after(laws: &[Law], model: &Model, state: StateJets) -> Optio
 
 impl Normal {
     fn of(p: &mut Program, model: &Model, cable: usize, at: [Term; 2], turn: [Term; 2]) -> Self {
-        let side = if cable == 0 { 1 } else { -1 };
-        let a = &model.a * &Ball::integer(side);
-        let [px, py] = arm(p, [&a, &model.b], turn);
-        let anchor = p.constant(Ball::integer(side));
-        let level = p.constant(model.level.clone());
-        let end = p.sum(at, [px, py]);
-        let reach = p.difference(end, [anchor, level]);
+        let [[px, py], reach] = end(p, model, cable, at, turn);
         let [nx, ny] = reach.map(|term| p.scale(term, model.inverse_r.clone()));
         let [first, second] = [p.multiply(px, ny), p.multiply(py, nx)];
         let s = p.subtract(first, second);

@@ -18,6 +18,19 @@ pub(crate) struct Rocking {
     sign: i64,
 }
 
+/// Where the body is, as terms.
+struct Held {
+    theta: Term,
+    spin: Term,
+    /// sin θ and cos θ.
+    turn: [Term; 2],
+    d: [Term; 2],
+    /// 1/D.
+    inverse_d: Term,
+    /// m, dc/dθ and d²c/dθ².
+    path: [[Term; 2]; 3],
+}
+
 impl Rocking {
     /// As the body hangs below its anchors where a cos θ < 1.
     #[cfg(test)]
@@ -74,6 +87,25 @@ impl Rocking {
         ([s, s_rate, p.negate(s_bend)], inverse_d)
     }
 
+    /// Where both cables hold the body.
+    fn held(&self, p: &mut Program, model: &Model) -> Held {
+        let [theta, spin] = [0, 1].map(|which| p.coordinate(which));
+        let turn: [Term; 2] = p.sin_cos(theta).into();
+        let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
+        let [dy, along] = turn.map(|term| p.scale(term, model.a.clone()));
+        let d = [p.subtract(along, one), dy];
+        let across = [p.negate(d[1]), d[0]];
+        let (reach, inverse_d) = Self::reach(p, model, turn);
+        Held {
+            theta,
+            spin,
+            turn,
+            d,
+            inverse_d,
+            path: self.centre(p, model, across, turn, reach),
+        }
+    }
+
     /// m, dc/dθ and d²c/dθ² of the centre c = m − b (−sin θ, cos θ).
     fn centre(
         &self,
@@ -123,15 +155,16 @@ impl Chart<2> for Rocking {
     /// T₁ + T₂ = r R·m/|m|²,   T₁ − T₂ = r R·d/D.
     fn terms(&self, model: &Model) -> Terms {
         let mut p = Program::new();
-        let [theta, spin] = [0, 1].map(|which| p.coordinate(which));
-        let turn: [Term; 2] = p.sin_cos(theta).into();
+        let Held {
+            theta,
+            spin,
+            d,
+            inverse_d,
+            path: [m, c_rate, c_bend],
+            ..
+        } = self.held(&mut p, model);
         let f = force(&mut p, model);
         let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
-        let a_turn = turn.map(|term| p.scale(term, model.a.clone()));
-        let d = [p.subtract(a_turn[1], one), a_turn[0]];
-        let across = [p.negate(d[1]), d[0]];
-        let (reach, inverse_d) = Self::reach(&mut p, model, turn);
-        let [m, c_rate, c_bend] = self.centre(&mut p, model, across, turn, reach);
 
         let spin_squared = p.multiply(spin, spin);
         let [push, bend] = [p.dot(f, c_rate), p.dot(c_rate, c_bend)];
@@ -188,14 +221,13 @@ impl Chart<2> for Rocking {
 
     fn place(&self, model: &Model) -> Program {
         let mut p = Program::new();
-        let [theta, spin] = [0, 1].map(|which| p.coordinate(which));
-        let turn: [Term; 2] = p.sin_cos(theta).into();
-        let one = p.constant(Ball::integer(1).with_limbs(model.limbs));
-        let a_turn = turn.map(|term| p.scale(term, model.a.clone()));
-        let [dx, dy] = [p.subtract(a_turn[1], one), a_turn[0]];
-        let across = [p.negate(dy), dx];
-        let (reach, _) = Self::reach(&mut p, model, turn);
-        let [m, c_rate, _] = self.centre(&mut p, model, across, turn, reach);
+        let Held {
+            theta,
+            spin,
+            turn,
+            path: [m, c_rate, _],
+            ..
+        } = self.held(&mut p, model);
         let lever = turn.map(|term| p.scale(term, model.b.clone()));
         let level = p.constant(model.level.clone());
         let [x, y] = [p.add(m[0], lever[0]), p.subtract(m[1], lever[1])];

@@ -6,19 +6,12 @@ use crate::arithmetic::interval::Interval;
 use crate::arithmetic::radius::Radius;
 use crate::arithmetic::scalar::Scalar;
 use crate::model::{Model, State};
-use crate::taut::chart::{Chart, StateJets, Terms, Watch, arm, force};
+use crate::taut::chart::{Chart, StateJets, Terms, Watch, arm, end, force, side};
 use crate::taut::series::{Program, Term};
 use crate::verdict::Trouble;
 
 /// One taut cable, by index from 0. The coordinates are φ, θ, φ̇, θ̇.
 pub(crate) struct Sliding(pub(crate) usize);
-
-impl Sliding {
-    /// 1 for the right cable, −1 for the left one.
-    fn side(&self) -> i64 {
-        if self.0 == 0 { 1 } else { -1 }
-    }
-}
 
 impl Chart<4> for Sliding {
     /// With n = (sin φ, −cos φ) along the cable from the anchor, e = (cos φ, sin φ) across it, ρ the
@@ -38,7 +31,7 @@ impl Chart<4> for Sliding {
         let minus_cosine = p.negate(cosine);
         let (n, across) = ([sine, minus_cosine], [cosine, sine]);
 
-        let a = &model.a * &Ball::integer(self.side());
+        let a = &model.a * &Ball::integer(side(self.0));
         let lever = arm(&mut p, [&a, &model.b], turn);
         let minus_s = p.dot(lever, across);
         let m = p.dot(lever, n);
@@ -117,12 +110,7 @@ impl Chart<4> for Sliding {
         let mut p = Program::new();
         let [x, y, theta, vx, vy, spin] = [0, 1, 2, 3, 4, 5].map(|which| p.coordinate(which));
         let turn = p.sin_cos(theta).into();
-        let a = &model.a * &Ball::integer(self.side());
-        let [px, py] = arm(&mut p, [&a, &model.b], turn);
-        let anchor = p.constant(Ball::integer(self.side()));
-        let level = p.constant(model.level.clone());
-        let [dx, dy] = p.sum([x, y], [px, py]);
-        let [dx, dy] = [p.subtract(dx, anchor), p.subtract(dy, level)];
+        let [[px, py], [dx, dy]] = end(&mut p, model, self.0, [x, y], turn);
         let turning = p.times([py, px], spin);
         let [ux, uy] = [p.subtract(vx, turning[0]), p.add(vy, turning[1])];
         let minus_dy = p.negate(dy);
@@ -148,9 +136,9 @@ impl Chart<4> for Sliding {
         let [phi, theta, phi_rate, spin] = [0, 1, 2, 3].map(|which| p.coordinate(which));
         let (sine, cosine) = p.sin_cos(phi);
         let turn = p.sin_cos(theta).into();
-        let a = &model.a * &Ball::integer(self.side());
+        let a = &model.a * &Ball::integer(side(self.0));
         let [px, py] = arm(&mut p, [&a, &model.b], turn);
-        let anchor = p.constant(Ball::integer(self.side()));
+        let anchor = p.constant(Ball::integer(side(self.0)));
         let level = p.constant(model.level.clone());
         let [out, down] = [sine, cosine].map(|term| p.scale(term, model.r.clone()));
         let [x, y] = [p.add(anchor, out), p.subtract(level, down)];
@@ -187,7 +175,7 @@ impl Sliding {
         let [x, y] = p.difference(reach, held.lever);
         let other = arm(p, [&-&held.a, &model.b], held.turn);
         // From the other cable's anchor to this one's is 2 or −2.
-        let apart = p.constant(Ball::integer(2 * self.side()));
+        let apart = p.constant(Ball::integer(2 * side(self.0)));
         let [dx, dy] = p.sum([x, y], other);
         let dx = p.add(dx, apart);
         let squared = p.dot([dx, dy], [dx, dy]);

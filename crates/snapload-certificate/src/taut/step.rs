@@ -60,6 +60,8 @@ pub(crate) struct Step<'a, const N: usize> {
     /// From all states of the set, with the derivatives by them; the last coefficients are those of
     /// order n + 1 over all states passed, and stand for all that is left out.
     whole: Expansion<Jet<Interval, N>, N>,
+    /// Of each output the coefficients of its derivative, of the centre and of all states.
+    rates: Vec<(Vec<Ball>, Vec<Jet<Interval, N>>)>,
     /// From the centre to any state of the set.
     spread: [Ball; N],
     /// Of each output the coefficients of the second and third derivative over the set, with the
@@ -121,9 +123,12 @@ impl<'a, const N: usize> Step<'a, N> {
                 .and_then(|wide| wide.rest(&whole));
             if let Some(rest) = rest {
                 let whole = with_last(whole, &rest);
+                let outputs = centre.outputs.iter().zip(&whole.outputs);
+                let rates = outputs.map(|(centre, whole)| (derivative(centre), derivative(whole)));
                 return Ok(Self {
                     equations,
                     length: h,
+                    rates: rates.collect(),
                     centre,
                     bends: bends(&whole),
                     whole,
@@ -314,10 +319,10 @@ impl<const N: usize> Path for Step<'_, N> {
 
     fn one_watched(&self, which: usize, tau: &Ball) -> Watched {
         let (centre, whole) = (&self.centre.outputs[which], &self.whole.outputs[which]);
-        let rates = derivative(whole);
+        let (centre_rates, rates) = &self.rates[which];
         Watched {
             value: self.with_spread(centre, whole, tau),
-            rate: self.with_spread(&derivative(centre), &rates, tau),
+            rate: self.with_spread(centre_rates, rates, tau),
         }
     }
 

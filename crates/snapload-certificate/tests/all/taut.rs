@@ -54,19 +54,24 @@ fn lines(proof: &Certification) -> Vec<Line> {
     lines.map(|each| line(each).expect("a line")).collect()
 }
 
-/// What becomes of the taut cables at each end of a stretch: how many there are, the event, and which
-/// are taut then.
-fn changes(lines: &[Line]) -> Vec<String> {
+/// The taut cables of each stretch, from when to when, and what ends it.
+fn stretches(lines: &[Line]) -> Vec<(&[u64], f64, f64, &str)> {
     let stretches = lines.iter().filter_map(|line| match line {
         Line::Stretch {
             mode,
             from,
             until,
             event,
-        } => Some((mode, from, until, event)),
+        } => Some((mode.as_slice(), *from, *until, event.as_str())),
         Line::Impact { .. } => None,
     });
-    let stretches: Vec<_> = stretches.collect();
+    stretches.collect()
+}
+
+/// What becomes of the taut cables at each end of a stretch: how many there are, the event, and which
+/// are taut then.
+fn changes(lines: &[Line]) -> Vec<String> {
+    let stretches = stretches(lines);
     let pairs = stretches.windows(2);
     let change = pairs.map(|pair| {
         let [(mode, _, until, event), (next, from, ..)] = [pair[0], pair[1]];
@@ -168,26 +173,14 @@ fn the_sliding_example_is_proved_into_rocking() {
     });
     assert!(matches!(proof.end, Ended::Proved(_)), "{:?}", proof.end);
     let lines = lines(&proof);
-    let stretches = lines.iter().filter_map(|line| match line {
-        Line::Stretch {
-            mode,
-            from,
-            until,
-            event,
-        } => Some((mode, *from, *until, event)),
-        Line::Impact { .. } => None,
-    });
-    let stretches: Vec<_> = stretches.collect();
+    let stretches = stretches(&lines);
     let (first, second) = (&stretches[0], &stretches[1]);
-    assert_eq!(
-        (first.0.as_slice(), first.3.as_str()),
-        (&[2][..], "impact 1")
-    );
+    assert_eq!((first.0, first.3), (&[2][..], "impact 1"));
     assert!((first.1 - 7.907).abs() < 1e-3 && (first.2 - 8.008).abs() < 1e-3);
-    assert!(second.0 == &[2] && (second.1 - 8.755).abs() < 1e-2);
+    assert!(second.0 == [2] && (second.1 - 8.755).abs() < 1e-2);
     let last = stretches.last().expect("a stretch");
     assert!(
-        last.0 == &[1, 2] && (last.1 - 8.8765).abs() < 1e-3,
+        last.0 == [1, 2] && (last.1 - 8.8765).abs() < 1e-3,
         "{}",
         last.1
     );

@@ -133,3 +133,21 @@ fn the_certificate_of_a_run_can_be_checked() {
             .is_none()
     );
 }
+
+/// Where a proof of slack flight ends although the motion goes on, the command says how to go on.
+#[test]
+fn a_proof_that_ends_at_a_stick_names_the_option_that_goes_on() {
+    let slack = told(&[
+        "certify",
+        "--set",
+        "e=0.5",
+        "--set",
+        "stop_when_settled=false",
+    ]);
+    assert!(
+        slack.contains("sticks at t = ") && slack.contains("--taut"),
+        "{slack}"
+    );
+    let settled = told(&["certify", "--set", "e=0.5"]);
+    assert!(settled.contains("settled at t = ") && !settled.contains("--taut"));
+}

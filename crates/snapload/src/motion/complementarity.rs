@@ -323,7 +323,7 @@ mod tests {
             values.sort_by(|a, b| b.total_cmp(a));
             // Nearly dependent cables have no clear answer.
             prop_assume!(values[2] > 1e-2 * values[0]);
-            let pseudo = matrix.pseudo_inverse(1e-9).unwrap() * nalgebra::DVector::from_fn(n, |i, _| q[i]);
+            let pseudo = matrix.pseudo_inverse(1e-9).expect("a tolerance above 0") * nalgebra::DVector::from_fn(n, |i, _| q[i]);
             let (z, _) = complementary(set, w, &q);
             let ours = least_norm(set, w, &q, z);
             let norm = |z: &[f64]| z.iter().map(|z| z * z).sum::<f64>().sqrt();
