@@ -1,5 +1,6 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::motion::bounce_map::BounceMap;
 use crate::motion::step_map::{Block, StepMap};
 
@@ -17,6 +18,17 @@ pub struct Frame {
     lengths: [f64; 6],
     /// Bounces since the directions were last made orthogonal.
     bounces: u32,
+}
+
+/// Directions to be made orthogonal, by the best instructions for it.
+struct MakingOrthogonal<'a>(&'a mut Frame);
+
+impl Kernel for MakingOrthogonal<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.0.make_orthogonal_here();
+    }
 }
 
 /// Logarithms are taken when a length leaves this range, and its inverse.
@@ -70,8 +82,12 @@ impl Frame {
 
     /// Gram and Schmidt's procedure: each direction is taken off all that follow, at once, and all
     /// are brought to length 1 in the end.
-    #[inline(always)]
     fn make_orthogonal(&mut self) {
+        dispatch(MakingOrthogonal(self));
+    }
+
+    #[inline(always)]
+    fn make_orthogonal_here(&mut self) {
         self.bounces = 0;
         let mut squares = [0.0; 8];
         // One after the other by hand: which is which is then known when it is compiled.

@@ -79,8 +79,7 @@ pub fn on_all_threads<R: Send, E: Send>(
 pub fn outcomes(cases: &[Case], on_progress: OnProgress) -> Result<Vec<Outcome>, Cancelled> {
     let counter = Counter::new("running", 0, cases.len() as u64, on_progress);
     let made = on_all_threads(cases.len(), |numbers| {
-        let cases = numbers.map(|k| cases[k].clone());
-        outcomes_on_one_thread(cases, &counter)
+        outcomes_on_one_thread(numbers.map(|k| cases[k].clone()), &counter)
     });
     made.map(Made::into_vec)
 }

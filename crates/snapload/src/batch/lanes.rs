@@ -10,7 +10,6 @@ use crate::arithmetic::processor::dispatch;
 use crate::batch::followers::{Follower, Unfollowed};
 pub use crate::batch::scheduler::Usage;
 use crate::batch::scheduler::{LaneScheduler, Runs, Slot, Tell};
-use crate::batch::vector::Several;
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
@@ -26,7 +25,8 @@ pub enum Lanes {
     /// One.
     One,
     /// Four, in plain Rust: what the registers have to agree with, on every processor. It is not made
-    /// to be fast.
+    /// to be fast, and is there for tests alone.
+    #[cfg(feature = "plain-lanes")]
     Plain,
     /// Eight, in pairs of the registers of a processor with AVX2 and FMA.
     Avx2,
@@ -41,7 +41,11 @@ impl Lanes {
             not(target_arch = "x86_64"),
             expect(unused_mut, reason = "other processors have no more")
         )]
-        let mut all = vec![Self::One, Self::Plain];
+        let mut all = vec![
+            Self::One,
+            #[cfg(feature = "plain-lanes")]
+            Self::Plain,
+        ];
         #[cfg(target_arch = "x86_64")]
         {
             if crate::arithmetic::processor::has_fma() {
@@ -70,22 +74,14 @@ impl Lanes {
 
     /// The outcomes of many cases, in their order, on one thread, and how well the lanes were used.
     pub fn outcomes(self, cases: &[Case]) -> (Vec<Outcome>, Usage) {
-        self.outcomes_of(cases.iter().map(Case::simulation))
-    }
-
-    /// The same of motions that have just begun.
-    pub fn outcomes_of(
-        self,
-        runs: impl ExactSizeIterator<Item = Simulation>,
-    ) -> (Vec<Outcome>, Usage) {
-        let count = runs.len();
-        let (told, usage) = self.outcomes_beside(runs.map(|simulation| (simulation, Unfollowed)));
+        let runs = cases.iter().map(|case| (case.simulation(), Unfollowed));
+        let (told, usage) = self.outcomes_beside(runs);
         let outcomes: Vec<Outcome> = told.map(|(outcome, _)| outcome).collect();
-        assert_eq!(outcomes.len(), count, "every run is told of once");
+        assert_eq!(outcomes.len(), cases.len(), "every run is told of once");
         (outcomes, usage)
     }
 
-    /// The same, each with what followed it. A run that its follower has left goes on without.
+    /// The same of motions that have just begun, each with what follows it. A run that its follower has left goes on without.
     pub(crate) fn outcomes_beside<C: Follower>(
         self,
         runs: impl Iterator<Item = (Simulation, C)>,
@@ -125,16 +121,19 @@ impl Lanes {
     }
 
     /// Runs all of `runs` to their ends, or as far as their followers go, and hands them on. In
-    /// place of lanes that this processor lacks, plain Rust is used.
+    /// place of lanes that this processor lacks, one is used.
     fn run<C: Follower>(self, runs: Runs<C>, tell: Tell<C>) -> Usage {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 if crate::arithmetic::processor::has_fma() => x86::avx2(runs, tell),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
-            Self::One => dispatch(LaneScheduler::<f64, C>::new(runs, tell)),
-            Self::Plain | Self::Avx2 | Self::Avx512 => {
-                LaneScheduler::<Several<f64, 4>, C>::new(runs, tell).run_all()
+            #[cfg(feature = "plain-lanes")]
+            Self::Plain => {
+                LaneScheduler::<crate::batch::vector::Several<f64, 4>, C>::new(runs, tell).run_all()
+            }
+            Self::One | Self::Avx2 | Self::Avx512 => {
+                dispatch(LaneScheduler::<f64, C>::new(runs, tell))
             }
         }
     }

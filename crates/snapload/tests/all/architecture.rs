@@ -248,7 +248,9 @@ fn crates_use_only_those_before_them() {
         let ours = text
             .lines()
             .filter_map(|line| line.split(['.', ' ']).next());
-        for used in ours.filter(|word| word.starts_with("snapload")).map(called) {
+        let used = ours.filter(|word| word.starts_with("snapload")).map(called);
+        // A crate asks itself for what its tests alone need.
+        for used in used.filter(|used| *used != own) {
             if order.get(&used).is_none_or(|other| other >= level) {
                 against.push(format!("{own} uses {used}"));
             }

@@ -6,7 +6,9 @@ use crate::analysis::trust::{Graze, Horizon, Trust, Uncertainty};
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::case::Case;
 use crate::case::error::CaseError;
+use crate::motion::bounce_map::BounceMap;
 use crate::motion::simulation::{Simulation, Step};
+use crate::motion::step_map::StepMap;
 
 /// An impact that magnifies more than this is told.
 const MAGNIFIES: f64 = 100.0;
@@ -116,29 +118,42 @@ struct Records<'a> {
 
 impl Observer for Records<'_> {
     #[inline(always)]
-    fn see(&mut self, map: LinearMap) {
-        let square = map.magnification_squared();
-        if square > MAGNIFIES * MAGNIFIES {
-            self.note_graze(&map, square.sqrt());
-        }
-        match map {
-            LinearMap::Bounce(map) => self.frame.follow_bounce(map),
-            LinearMap::Step(map) => self.frame.follow(map),
-        }
+    fn see_bounce(&mut self, map: &BounceMap<f64>) {
+        self.note(&LinearMap::Bounce(map));
+        self.frame.follow_bounce(map);
+    }
+
+    fn see_step(&mut self, map: &StepMap) {
+        dispatch(SeeingStep(self, map));
+    }
+}
+
+/// What a step does, to be taken in by the best instructions for it.
+struct SeeingStep<'a, 'r>(&'a mut Records<'r>, &'a StepMap);
+
+impl Kernel for SeeingStep<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.0.note(&LinearMap::Step(self.1));
+        self.0.frame.follow(self.1);
     }
 }
 
 impl Records<'_> {
     /// An impact that magnifies deviations is a graze if the closing of its gap slows down.
     #[inline(always)]
-    fn note_graze(&mut self, map: &LinearMap, factor: f64) {
+    fn note(&mut self, map: &LinearMap) {
+        let square = map.magnification_squared();
         let (simulation, step) = self.latest;
-        let closing = map.closing(simulation, step);
-        if let Some(closing) = closing.filter(|closing| closing.alpha < 0.0) {
+        if square > MAGNIFIES * MAGNIFIES
+            && let Some(closing) = map.closing(simulation, step)
+            && closing.alpha < 0.0
+        {
             self.grazes.push(Graze {
                 impact: self.impact,
                 v_n: closing.v_n,
-                factor,
+                factor: square.sqrt(),
             });
         }
     }

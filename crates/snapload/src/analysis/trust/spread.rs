@@ -89,23 +89,52 @@ impl LinearMap<'_> {
 /// What is shown what each step does to deviations. A closure would be compiled without the
 /// processor's own instructions.
 pub(super) trait Observer {
-    /// Is shown it.
-    fn see(&mut self, map: LinearMap);
+    /// Is shown what a bounce does.
+    fn see_bounce(&mut self, map: &BounceMap<f64>)
+    where
+        Self: Sized;
+    /// Is shown what any step does. It comes from behind a pointer, so that the following of a step
+    /// is compiled once for all observers.
+    fn see_step(&mut self, map: &StepMap);
 }
 
 impl Observer for () {
     #[inline(always)]
-    fn see(&mut self, _: LinearMap) {}
+    fn see_bounce(&mut self, _: &BounceMap<f64>) {}
+    fn see_step(&mut self, _: &StepMap) {}
 }
 
 /// Any step to be carried through, by the best instructions for it.
-struct Carrying<'a, O>(&'a mut SpreadMonitor, &'a Simulation, &'a Step, &'a mut O);
+struct Carrying<'a>(
+    &'a mut SpreadMonitor,
+    &'a Simulation,
+    &'a Step,
+    &'a mut dyn Observer,
+);
 
-impl<O: Observer> Kernel for Carrying<'_, O> {
+impl Kernel for Carrying<'_> {
     type Output = f64;
     #[inline(always)]
     fn run(self) -> f64 {
         self.0.carry(self.1, self.2, self.3)
+    }
+}
+
+/// A bounce that neighbours may not share, and the parts of their spread just before it.
+struct Asking<'a> {
+    monitor: &'a mut SpreadMonitor,
+    simulation: &'a Simulation,
+    step: &'a Step,
+    before: [Block<COLUMNS>; 2],
+    map: &'a BounceMap<f64>,
+}
+
+impl Kernel for Asking<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.monitor
+            .ask_for_cause(self.simulation, self.step, self.before, self.map);
     }
 }
 
@@ -196,18 +225,13 @@ impl SpreadMonitor {
             self.lose(step, HorizonCause::Tolerance);
         }
         let error = match bounced {
-            Some(bounced) if lost => {
-                observer.see(LinearMap::Bounce(&BounceMap::of(&bounced)));
-                f64::INFINITY
-            }
-            Some(bounced) if self.adds_by_signs() => {
-                self.carry_bounce(simulation, step, &bounced, observer)
-            }
-            _ if lost => {
-                observer.see(LinearMap::Step(
-                    &self.tangent(simulation).of_step(simulation, step),
-                ));
-                f64::INFINITY
+            Some(bounced) if lost || self.adds_by_signs() => {
+                let map = BounceMap::of(&bounced);
+                observer.see_bounce(&map);
+                match lost {
+                    true => f64::INFINITY,
+                    false => self.carry_bounce(simulation, step, &bounced, &map),
+                }
             }
             _ => dispatch(Carrying(self, simulation, step, observer)),
         };
@@ -259,14 +283,18 @@ impl SpreadMonitor {
         simulation: &Simulation,
         step: &Step,
         bounced: &Bounced<f64>,
-        observer: &mut impl Observer,
+        map: &BounceMap<f64>,
     ) -> f64 {
-        let map = BounceMap::of(bounced);
-        observer.see(LinearMap::Bounce(&map));
         let followed = self.followed();
-        let through = followed.through(bounced, &map);
+        let through = followed.through(bounced, map);
         if !through.within_tolerance && self.horizon.is_none() {
-            self.ask_for_cause(simulation, step, followed.before(bounced, &map), &map);
+            dispatch(Asking {
+                monitor: self,
+                simulation,
+                step,
+                before: followed.before(bounced, map),
+                map,
+            });
         }
         self.covariance.parts = through.after;
         let after = squares(&through.after.rows);
@@ -303,11 +331,14 @@ impl SpreadMonitor {
         }
     }
 
-    /// Carries the spread through any step.
+    /// Carries the spread through any step, as long as there is any knowledge of it.
     #[inline(always)]
-    fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut impl Observer) -> f64 {
+    fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut dyn Observer) -> f64 {
         let map = self.tangent(simulation).of_step(simulation, step);
-        observer.see(LinearMap::Step(&map));
+        observer.see_step(&map);
+        if self.is_lost() {
+            return f64::INFINITY;
+        }
         let columns: Vec<[Deviation; 3]> = self.keys.iter_mut().map(|key| key.step(&map)).collect();
         let column = |stage: usize| columns.iter().map(|stages| stages[stage]).collect();
         let rounding = Rounding::of_step(simulation, step, &map, self.slant);
