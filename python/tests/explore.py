@@ -27,7 +27,7 @@ PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
 def url() -> Iterator[str]:
     """The address at which the program serves the page; it ends with 0 when interrupted."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    program = [target / "debug" / "snapload", "explore", "--no-browser"]
+    program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", "0"]
     with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
         assert server.stdout is not None
         said = server.stdout.readline()
@@ -56,7 +56,9 @@ def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
     contexts, wrong = [], []
 
     def visit(fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any) -> Page:
-        context = browser.new_context(viewport=viewport, accept_downloads=True, **options)
+        # A page without a link plays at once, unless nobody wants motion.
+        still = {} if fragment else {"reduced_motion": "reduce"}
+        context = browser.new_context(viewport=viewport, accept_downloads=True, **{**still, **options})
         context.grant_permissions(["clipboard-read", "clipboard-write"], origin=url.rstrip("/"))
         contexts.append(context)
         page = context.new_page()

@@ -323,7 +323,7 @@ def test_the_scene_and_the_animation_are_saved(open_page, tmp_path: Path):
     page.locator("#speed").select_option("0.1")
     page.locator("#film").click()
     page.locator("#film-cancel").click()
-    expect(page.locator("#take-said")).to_have_text("The recording was given up.")
+    expect(page.locator("#take-said")).to_have_text("The film was given up.")
 
 
 def test_lines_to_copy_make_the_same_run(open_page, command_json):

@@ -5,6 +5,9 @@ use crate::interrupt::{Graceful, end_gracefully, say};
 use snapload_explore::{Server, Start};
 use std::io;
 
+/// The port where none is asked for.
+const USUAL_PORT: u16 = 7627;
+
 const EXAMPLES: &str = "\
 The page is served by this program, to this machine alone, and needs no network. It shows the
 motion, its plots and how far they can be trusted; every key can be changed there, and the case
@@ -28,9 +31,9 @@ Ctrl-C ends it.";
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Port of this machine to serve at; 0 is any free one
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    port: u16,
+    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
+    #[arg(long, value_name = "N")]
+    port: Option<u16>,
     /// Print the address, and leave it to you to open it
     #[arg(long)]
     no_browser: bool,
@@ -47,7 +50,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         name,
         parameters: *input.case.parameters(),
     };
-    let server = Server::bind(args.port, start).map_err(|error| no_port(args.port, &error))?;
+    let server = bind(args.port, &start)?;
     let (address, stop) = (server.address(), server.stop());
     end_gracefully(Graceful {
         on_first: Box::new(move || stop.now()),
@@ -62,6 +65,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let served = server.serve();
     served
         .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
+}
+
+/// Links hold the port, so that it is the same every time where nobody says otherwise; a second page
+/// beside the first has another.
+fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
+    let server = match port {
+        Some(port) => Server::bind(port, start.clone()).map_err(|error| no_port(port, &error)),
+        None => Server::bind(USUAL_PORT, start.clone())
+            .or_else(|_| Server::bind(0, start.clone()))
+            .map_err(|error| no_port(0, &error)),
+    };
+    Ok(server?)
 }
 
 fn no_port(port: u16, error: &io::Error) -> Failure {

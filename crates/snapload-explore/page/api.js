@@ -32,26 +32,30 @@ const PATIENCE_MS = 120;
 /** Runs, one at a time; of the questions that come meanwhile only the latest is asked. */
 export class Runner {
   constructor({ onAnswer, onError, onBusy }) {
-    Object.assign(this, { onAnswer, onError, onBusy, flying: null, waiting: null });
+    this.onAnswer = onAnswer;
+    this.onError = onError;
+    this.onBusy = onBusy;
+    this.flying = null;
+    this.waiting = null;
   }
 
   ask(question, since) {
     this.waiting = { question, since };
-    if (!this.flying) this.#next();
-    else if (performance.now() - this.flying.begun > PATIENCE_MS) this.flying.controller.abort();
-    else {
-      const { flying } = this;
-      setTimeout(() => {
-        if (this.flying === flying && this.waiting) flying.controller.abort();
-      }, PATIENCE_MS);
-    }
+    const { flying } = this;
+    if (!flying) return this.#next();
+    // Never twice in a row: where every answer takes longer than that, one would see nothing while one drags.
+    if (flying.afterOneCutShort) return;
+    const cut = () => {
+      if (this.flying === flying && this.waiting) flying.controller.abort();
+    };
+    setTimeout(cut, Math.max(flying.begun + PATIENCE_MS - performance.now(), 0));
   }
 
-  async #next() {
+  async #next(afterOneCutShort = false) {
     const { question, since } = this.waiting;
     const controller = new AbortController();
     this.waiting = null;
-    this.flying = { controller, begun: performance.now() };
+    this.flying = { controller, begun: performance.now(), afterOneCutShort };
     this.onBusy(true);
     let answer = null;
     try {
@@ -60,10 +64,20 @@ export class Runner {
       if (error.name !== "AbortError") this.onError(inWords(error), question);
     }
     this.flying = null;
-    if (this.waiting) this.#next();
+    if (this.waiting) this.#next(controller.signal.aborted);
     else this.onBusy(false);
     if (answer) this.onAnswer(answer, since, question);
   }
+}
+
+/** One run that is not dragged through. */
+export async function fetchRun(question) {
+  return (await post("api/run", question)).json();
+}
+
+/** The values that a case file gives. */
+export async function fetchCase(name, text) {
+  return (await post("api/case", { name, text })).json();
 }
 
 /** What of a run is proved. */

@@ -14,11 +14,14 @@ const CHARTS = [
 ];
 
 const READ = {
-  theta: (run, moment) => `${fixed(moment.theta, 4)} rad`,
+  theta: (run, moment) => `${about(moment)}${fixed(moment.theta, 4)} rad`,
   snaps: (run, moment) => latestSnap(run, moment.t),
   tensions: (run, moment) => moment.tensions.map((T, i) => `T${"₁₂"[i]} ${number(T, 3)}`).join("  ") + " F",
-  energy: (run, moment) => `${fixed(moment.energy, 5)} F L`,
+  energy: (run, moment) => `${about(moment)}${fixed(moment.energy, 5)} F L`,
 };
+
+/** What is read between rows far apart is said to be so. */
+export const about = (moment) => (moment.rough ? "about " : "");
 
 function latestSnap(run, t) {
   const i = run.latestImpact(t);
@@ -36,7 +39,13 @@ export function impactWords(run, i) {
 export class Charts {
   /** `onJump` is told where a chart was clicked, `onHover` what the pointer is over, `onZoom` which time to show. */
   constructor(root, { colours, onJump, onHover, onZoom }) {
-    Object.assign(this, { colours, onJump, onHover, onZoom, run: null, hover: null, parts: [] });
+    this.colours = colours;
+    this.onJump = onJump;
+    this.onHover = onHover;
+    this.onZoom = onZoom;
+    this.run = null;
+    this.hover = null;
+    this.parts = [];
     for (const chart of CHARTS) this.parts.push(this.#build(root, chart));
     this.frames = new Map();
     this.drag = null;
@@ -94,6 +103,8 @@ export class Charts {
       this.drag = null;
       if (drag?.zoom && Math.abs(drag.to - drag.from) > 0) this.onZoom([drag.from, drag.to].sort((a, b) => a - b));
     });
+    // A drag with shift chooses time, and no text.
+    over.addEventListener("mousedown", (event) => event.shiftKey && event.preventDefault());
     over.addEventListener("pointercancel", () => (this.drag = null));
     over.addEventListener("pointerleave", () => this.onHover(null));
   }
@@ -117,8 +128,9 @@ export class Charts {
   }
 
   /** Draws what does not depend on the time cursor. */
-  draw(run, window) {
+  draw(run, window, pins) {
     this.run = run;
+    this.pins = pins;
     const range = window ?? [0, run.tEnd || 1];
     this.parts.forEach((part, i) => this.#drawBase(part, range, i === this.parts.length - 1));
   }
@@ -128,12 +140,13 @@ export class Charts {
     const { context, width, height } = prepare(base);
     const bottom = last ? 30 : 8;
     const run = this.run;
-    const seen = (columns, name) => columns[name].slice(...rows(columns.t, ...range));
+    const seen = (columns, name) => columns[name].slice(...rows(columns.t, range));
+    const all = [run, ...this.pins.map((pin) => pin.run)];
     const ys = {
-      theta: () => span([seen(run.motion, "theta")]),
-      snaps: () => above(span([seen(run.impacts, "v_n")])),
-      tensions: () => above(span([seen(run.motion, "T1"), seen(run.motion, "T2")])),
-      energy: () => span([seen(run.motion, "energy")]),
+      theta: () => span(all.map((one) => seen(one.motion, "theta"))),
+      snaps: () => above(span(all.map((one) => seen(one.impacts, "v_n")))),
+      tensions: () => above(span(all.flatMap((one) => [seen(one.motion, "T1"), seen(one.motion, "T2")]))),
+      energy: () => span(all.map((one) => seen(one.motion, "energy"))),
     }[chart.id]();
     const frame = new Frame(inside(width, height, { ...MARGIN, bottom }), range, ys);
     this.frames.set(chart.id, frame);
@@ -165,9 +178,25 @@ export class Charts {
     context.fillRect(x, frame.top, frame.left + frame.width - x, frame.height);
   }
 
+  /** Runs that were kept, beneath the run that is shown. */
+  #pinned(context, chart, frame) {
+    for (const { run, colour } of this.pins) {
+      context.strokeStyle = colour;
+      if (chart.id === "snaps") {
+        run.impacts.t.forEach((t, i) => {
+          if (t < frame.x0 || t > frame.x1 || !(run.impacts.v_n[i] > 0)) return;
+          drawMark(context, run.impacts.cable[i], frame.x(t), frame.y(run.impacts.v_n[i]), 2.2);
+        });
+      } else if (chart.id !== "tensions") {
+        drawColumn(context, frame, run.motion.t, run.motion[chart.id], ...rows(run.motion.t, [frame.x0, frame.x1]));
+      }
+    }
+  }
+
   #data(context, chart, frame, colours) {
     const { motion, impacts } = this.run;
-    const [from, to] = rows(motion.t, frame.x0, frame.x1);
+    this.#pinned(context, chart, frame);
+    const [from, to] = rows(motion.t, [frame.x0, frame.x1]);
     if (chart.id === "snaps") {
       impacts.t.forEach((t, i) => {
         if (t < frame.x0 || t > frame.x1 || !(impacts.v_n[i] > 0)) return;
@@ -201,7 +230,7 @@ export class Charts {
     const { motion } = this.run.ghost;
     context.strokeStyle = colours.ghost;
     context.setLineDash([5, 3]);
-    drawColumn(context, frame, motion.t, motion[chart.id], ...rows(motion.t, frame.x0, frame.x1));
+    drawColumn(context, frame, motion.t, motion[chart.id], ...rows(motion.t, [frame.x0, frame.x1]));
     context.setLineDash([]);
   }
 
@@ -259,11 +288,18 @@ export class Charts {
   }
 }
 
-/** A range that stands on zero. */
+/**
+ * A range that stands on zero.
+ * @param {number[]} range
+ */
 const above = ([, high]) => [0, high];
 
-/** The rows that show a range of time: one more on either side, so that lines leave the frame. */
-function rows(t, from, to) {
+/**
+ * The rows that show a range of time: one more on either side, so that lines leave the frame.
+ * @param {number[]} t
+ * @param {number[]} range
+ */
+function rows(t, [from, to]) {
   const first = t.findIndex((time) => time > from);
   const last = t.findIndex((time) => time > to);
   return [first < 0 ? Math.max(t.length - 1, 0) : Math.max(first - 1, 0), last < 0 ? t.length : last + 1];

@@ -21,9 +21,19 @@ const NOT_OF_A_POINT = {
 };
 
 export class Controls {
-  /** Builds them into `root`. `onChange(since, settled)` follows a change of a value; settled: not being dragged. */
+  /**
+   * Builds them into `root`. `onChange({ since, settled, gesture })` follows a change of a value; settled: not being
+   * dragged; gesture: the same number while one types, or goes on with the arrow keys, in one place.
+   */
   constructor(root, state, { onChange }) {
-    Object.assign(this, { root, state, onChange, rows: new Map(), latest: null, typing: null });
+    this.root = root;
+    this.state = state;
+    this.onChange = onChange;
+    this.rows = new Map();
+    this.latest = null;
+    this.typing = null;
+    this.gesture = 0;
+    for (const begin of ["focusin", "pointerdown"]) root.addEventListener(begin, () => (this.gesture += 1), true);
     for (const [group, title] of GROUPS) {
       const keys = state.schema.keys.filter((key) => key.group === group);
       if (keys.length) root.append(this.#group(title, keys, group));
@@ -82,7 +92,7 @@ export class Controls {
     reset.setAttribute("aria-label", `${key.name}: back to the default`);
     row.append(this.#label(key), reset, field);
     Object.assign(parts, { field, reset });
-    if (key.usual) row.append(this.#slider(parts));
+    if (key.usual) row.append(this.#ranged(parts, this.#slider(parts)));
     field.addEventListener("input", (event) => {
       // While one types, only what is a number is tried; the rest waits for the end of typing.
       this.typing = key.name;
@@ -91,6 +101,7 @@ export class Controls {
     field.addEventListener("change", (event) => {
       this.typing = null;
       this.#take(parts, field.value, event, true);
+      this.gesture += 1;
     });
     field.addEventListener("keydown", (event) => this.#stepField(parts, event));
     reset.addEventListener("click", (event) => {
@@ -111,8 +122,45 @@ export class Controls {
       this.#give(parts, Number(slider.value), event, false);
     });
     slider.addEventListener("change", (event) => this.#give(parts, Number(slider.value), event, true));
+    this.#keepFromSwipes(parts, slider);
     parts.slider = slider;
     return slider;
+  }
+
+  /** A slider between its ends, which can be typed over: by the mouse, as any value can be typed into the field. */
+  #ranged({ key }, slider) {
+    const ends = ["low", "high"].map((name) => {
+      const end = element("input", { type: "text", inputMode: "decimal", className: `end ${name}`, tabIndex: -1 });
+      end.setAttribute("aria-label", `${key.name}: ${name} end of the slider`);
+      end.title = "The end of the slider; type another";
+      return end;
+    });
+    const show = () => [ends[0].value, ends[1].value] = [plain(Number(slider.min)), plain(Number(slider.max))];
+    const take = () => {
+      const [low, high] = ends.map((end) => readValue(key, end.value));
+      const { low: least, high: most } = key.kind;
+      if (low < high && low >= least && high <= most) {
+        const { value } = slider;
+        Object.assign(slider, { min: low, max: high, step: sliderStep(low, high) });
+        slider.value = this.state.value(key.name) ?? value;
+      }
+      show();
+    };
+    for (const end of ends) end.addEventListener("change", take);
+    show();
+    const ranged = element("div", { className: "ranged" });
+    ranged.append(ends[0], slider, ends[1]);
+    return ranged;
+  }
+
+  /** A finger that begins on a slider and goes on to scroll the page leaves the value as it was. */
+  #keepFromSwipes(parts, slider) {
+    let before = null;
+    slider.addEventListener("pointerdown", () => (before = this.state.values[parts.key.name] ?? null));
+    slider.addEventListener("pointercancel", (event) => {
+      this.#give(parts, before, event, true);
+      this.show();
+    });
   }
 
   #stepField(parts, event) {
@@ -151,8 +199,8 @@ export class Controls {
 
   #give(parts, value, event, settled) {
     this.latest = parts.key.name;
-    this.state.setValue(parts.key.name, value);
-    this.onChange(event.timeStamp, settled);
+    this.state.setValues({ [parts.key.name]: value });
+    this.onChange({ since: event.timeStamp, settled, gesture: this.gesture });
   }
 
   /** Shows the values of the state; what is being typed stays. `effective` has those that follow from others. */

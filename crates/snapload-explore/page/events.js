@@ -1,17 +1,21 @@
 // What happened, as a table: it says what the charts show, and each row leads to its instant.
 
+import { $ } from "./dom.js";
 import { fixed, modeName, number } from "./words.js";
 
-const $ = (id) => document.getElementById(id);
 const ROWS = 50;
 const WORDS = { start: "start", horizon: "horizon of trust", parts: "the ghost parts from it", end: "end" };
 
 export class EventTable {
   constructor({ onJump }) {
-    Object.assign(this, { onJump, run: null, page: 0, at: null });
+    this.onJump = onJump;
+    this.run = null;
+    this.page = 0;
+    this.at = null;
     this.body = $("events-body");
     $("events-previous").addEventListener("click", () => this.#turn(-1));
     $("events-next").addEventListener("click", () => this.#turn(1));
+    this.body.addEventListener("keydown", (event) => this.#step(event));
     this.body.addEventListener("click", (event) => {
       const row = event.target.closest("tr");
       if (row) onJump(this.run.events[Number(row.dataset.event)].t);
@@ -35,6 +39,16 @@ export class EventTable {
     this.#mark();
   }
 
+  /** One row takes the focus of the tab key; the arrow keys go from row to row. */
+  #step(event) {
+    const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    const row = event.target.closest("tr");
+    if (!by || !row) return;
+    event.preventDefault();
+    const next = by > 0 ? row.nextElementSibling : row.previousElementSibling;
+    next?.querySelector(".go").focus();
+  }
+
   /** Marks the row of the latest event at time t, and turns to its page if the page is to follow. */
   show(t, follow) {
     if (!this.run) return;
@@ -50,8 +64,10 @@ export class EventTable {
   }
 
   #mark() {
+    const onPage = Math.floor(this.at / ROWS) === this.page;
     for (const row of this.body.rows) {
       const here = Number(row.dataset.event) === this.at;
+      row.querySelector(".go").tabIndex = here || (!onPage && row === this.body.rows[0]) ? 0 : -1;
       if (here) row.setAttribute("aria-current", "true");
       else row.removeAttribute("aria-current");
       const box = this.body.closest(".scroll");
@@ -78,8 +94,8 @@ export class EventTable {
 
   #row(event, index) {
     const { what, cable = "", figures = ["", "", "", ""] } = this.#describe(event);
-    const label = `${what}, go to t = ${number(event.t, 7)}`;
-    const time = `<button type="button" class="go" data-t="${event.t}" aria-label="${label}">${fixed(event.t, 6)}</button>`;
+    const shown = fixed(event.t, 6);
+    const time = `<button type="button" class="go" data-t="${event.t}" aria-label="${shown}, go to ${what}">${shown}</button>`;
     const numbers = figures.map((figure) => `<td class="num">${figure}</td>`).join("");
     return `<tr data-event="${index}"><td>${time}</td><td>${what}</td><td>${cable}</td>${numbers}</tr>`;
   }

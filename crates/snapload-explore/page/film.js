@@ -1,93 +1,102 @@
-// The animation as a WebM file: the scene is played on a canvas, and the browser records it as it goes.
+// The animation as a WebM file: every picture of the scene is drawn at its own time and encoded, as fast as the
+// browser can.
 
 import { paint } from "./shapes.js";
 import { sceneShapes } from "./scene.js";
 import { colours } from "./theme.js";
+import { webm } from "./webm.js";
 import { fixed, modeName } from "./words.js";
 
-const KINDS = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+/** Codecs as browsers call them, and as the file does. */
+const CODECS = [
+  ["vp09.00.31.08", "V_VP9"],
+  ["vp8", "V_VP8"],
+];
 const FRAMES_A_SECOND = 30;
-const LONGEST_S = 600;
+const MOST_PICTURES = 36_000;
+/** A player can go to a picture that was encoded by itself: one a second. */
+const KEY_EVERY = FRAMES_A_SECOND;
 const REST_S = 0.7;
-const PATIENCE_S = 10;
 const BITS_A_SECOND = 6e6;
+/** Pictures that wait to be encoded. */
+const MOST_WAITING = 8;
 
 export class Film {
   constructor({ run, from, to, options, size }) {
-    Object.assign(this, { run, from, to, options, size, cancelled: false });
+    this.run = run;
+    this.from = from;
+    this.to = to;
+    this.options = options;
+    this.size = size;
+    this.cancelled = false;
   }
 
   cancel() {
     this.cancelled = true;
   }
 
-  /** Records it at the speed of the page; gives the file, or nothing if it was cancelled. */
+  /** Encodes it, to be seen at the speed of the page; gives the file, or nothing if it was cancelled. */
   async record(onProgress) {
-    const kind = globalThis.MediaRecorder && KINDS.find((one) => MediaRecorder.isTypeSupported(one));
-    if (!kind || !HTMLCanvasElement.prototype.captureStream) {
-      throw new Error("This browser can record no WebM. Firefox, Chromium and their kin can; or take the pictures.");
-    }
+    const [codec, name] = await this.#codec();
     const seconds = (this.to - this.from) / this.options.speed;
-    if (seconds > LONGEST_S) {
+    const moving = Math.max(Math.round(seconds * FRAMES_A_SECOND), 1);
+    const count = moving + Math.round(REST_S * FRAMES_A_SECOND);
+    if (count > MOST_PICTURES) {
+      const minutes = fixed(MOST_PICTURES / FRAMES_A_SECOND / 60, 0);
       throw new Error(
-        `This would take ${fixed(seconds / 60, 0)} minutes: it is recorded as it is played. ` +
+        `This film would last ${fixed(seconds / 60, 0)} minutes, and ${minutes} is the most. ` +
           "Raise the speed, or zoom in on the time that matters.",
       );
     }
+    const pictures = await this.#encode(codec, moving, count, onProgress);
+    return pictures && webm({ codec: name, ...this.size, framesASecond: FRAMES_A_SECOND, pictures });
+  }
+
+  async #codec() {
+    const encoder = globalThis.VideoEncoder;
+    for (const pair of encoder ? CODECS : []) {
+      const { supported } = await encoder.isConfigSupported(this.#settings(pair[0]));
+      if (supported) return pair;
+    }
+    throw new Error("This browser can encode no film (WebCodecs). Recent ones can; or take the pictures.");
+  }
+
+  #settings(codec) {
+    return { codec, ...this.size, bitrate: BITS_A_SECOND, framerate: FRAMES_A_SECOND };
+  }
+
+  async #encode(codec, moving, count, onProgress) {
+    const pictures = [];
+    let failure = null;
+    const encoder = new VideoEncoder({
+      output: (chunk) => {
+        const data = new Uint8Array(chunk.byteLength);
+        chunk.copyTo(data);
+        pictures.push({ data, time: Math.round(chunk.timestamp / 1000), key: chunk.type === "key" });
+      },
+      error: (error) => (failure = error),
+    });
+    encoder.configure(this.#settings(codec));
     const canvas = document.createElement("canvas");
     Object.assign(canvas, this.size);
-    const context = canvas.getContext("2d");
-    this.#frame(context, this.from);
-    const recorder = new MediaRecorder(canvas.captureStream(FRAMES_A_SECOND), {
-      mimeType: kind,
-      videoBitsPerSecond: BITS_A_SECOND,
-    });
-    const pieces = [];
-    recorder.ondataavailable = (event) => pieces.push(event.data);
-    const ended = new Promise((done, failed) => {
-      recorder.onstop = done;
-      recorder.onerror = (event) =>
-        failed(new Error(`The recording failed: ${event.error?.message ?? "unknown cause"}`));
-    });
-    recorder.start(500);
-    await this.#play(context, seconds, onProgress);
-    await this.#rest(context, () => pieces.some((piece) => piece.size > 0));
-    recorder.stop();
-    await ended;
-    if (this.cancelled) return null;
-    const film = new Blob(pieces, { type: "video/webm" });
-    if (film.size === 0)
-      throw new Error("The browser recorded no picture. Close other pages, and try again with this one in view.");
-    return film;
-  }
-
-  /** The end stands for a moment, and until a busy machine has written its first pictures. */
-  async #rest(context, written) {
-    for (let waited = 0; !this.cancelled && (waited < REST_S || (!written() && waited < PATIENCE_S)); waited += 0.1) {
-      this.#frame(context, this.to);
-      await new Promise((done) => setTimeout(done, 100));
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    for (let i = 0; i < count && !this.cancelled && !failure; i += 1) {
+      this.#paint(context, this.from + (this.to - this.from) * Math.min(i / moving, 1));
+      const frame = new VideoFrame(canvas, { timestamp: Math.round((i * 1e6) / FRAMES_A_SECOND) });
+      encoder.encode(frame, { keyFrame: i % KEY_EVERY === 0 });
+      frame.close();
+      // The page goes on, and what is encoded is written, between two pictures.
+      do await new Promise((done) => setTimeout(done, 0));
+      while (encoder.encodeQueueSize > MOST_WAITING && !failure);
+      onProgress((i + 1) / count);
     }
+    if (!this.cancelled && !failure) await encoder.flush();
+    if (encoder.state !== "closed") encoder.close();
+    if (failure) throw new Error(`The film could not be encoded: ${failure.message}`);
+    return this.cancelled ? null : pictures;
   }
 
-  #play(context, seconds, onProgress) {
-    return new Promise((done) => {
-      let elapsed = 0;
-      let before = null;
-      const tick = (time) => {
-        // A page that was hidden goes on from where it was.
-        elapsed += before === null ? 0 : Math.min((time - before) / 1000, 0.2);
-        before = time;
-        const part = Math.min(elapsed / seconds, 1);
-        this.#frame(context, this.from + (this.to - this.from) * part);
-        onProgress(part, seconds - elapsed);
-        if (this.cancelled || part >= 1) setTimeout(done, 1000 / FRAMES_A_SECOND);
-        else requestAnimationFrame(tick);
-      };
-      requestAnimationFrame(tick);
-    });
-  }
-
-  #frame(context, t) {
+  #paint(context, t) {
     const { width, height } = this.size;
     const paints = colours();
     context.fillStyle = paints.paper;

@@ -1,10 +1,13 @@
 // The page by keyboard: one table of keys, which the help shows too.
 
-const $ = (id) => document.getElementById(id);
+import { $ } from "./dom.js";
 
-/** Keys, what they do in words, and what they do. */
-function keyTable({ playback, transport, state, map }) {
-  const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one });
+/**
+ * Keys, how they are shown, what they do in words, and what they do.
+ * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
+ */
+function keyTable({ playback, transport, state, map, pins }) {
+  const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one, zoom: null });
   return [
     [[" "], "space", "play or pause", () => playback.toggle()],
     [["ArrowRight"], "→", "next event", (event) => (event.shiftKey ? playback.fine(1) : playback.next())],
@@ -19,6 +22,8 @@ function keyTable({ playback, transport, state, map }) {
     [["v"], "v", "real picture, or the thesis's", () => toggle("picture", "real", "thesis")],
     [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
     [["g"], "g", "ghost on or off", () => $("ghost").click()],
+    [["l"], "l", "loop on or off", () => state.set({ loop: !state.loop })],
+    [["p"], "p", "pin this run", () => pins.add()],
     [["m"], "m", "map open or closed", () => map.toggle()],
     [["?"], "?", "these keys", () => $("help").click()],
   ];

@@ -7,7 +7,12 @@ const timeless = (fragment) => fragment.replace(/(^|&)t=[^&]*/, "");
 
 export class Link {
   constructor(state, { onBroken }) {
-    Object.assign(this, { state, onBroken, timer: null, held: false, written: "" });
+    this.state = state;
+    this.onBroken = onBroken;
+    this.timer = null;
+    this.held = false;
+    this.written = "";
+    this.gesture = null;
     addEventListener("popstate", () => this.read());
   }
 
@@ -17,9 +22,12 @@ export class Link {
     if (broken.length) this.onBroken(broken);
   }
 
-  /** Writes the state into the address soon, or now. While it is held, as by a slider that is dragged, it waits. */
-  write({ now = false } = {}) {
-    if (now) this.#flush();
+  /**
+   * Writes the state into the address soon, or now. While it is held, as by a slider that is dragged, it waits. What
+   * belongs to one gesture is one step to go back.
+   */
+  write({ now = false, gesture = null } = {}) {
+    if (now) this.#flush(gesture);
     else this.timer ??= setTimeout(() => this.#flush(), PACE_MS);
   }
 
@@ -28,12 +36,14 @@ export class Link {
     return `${location.origin}${location.pathname}#${this.state.toFragment()}`;
   }
 
-  #flush() {
+  #flush(gesture = null) {
     clearTimeout(this.timer);
     this.timer = null;
     const fragment = this.state.toFragment();
     if (this.held || fragment === this.written) return;
-    const step = timeless(fragment) !== timeless(this.written);
+    const goesOn = gesture !== null && gesture === this.gesture;
+    const step = timeless(fragment) !== timeless(this.written) && !goesOn;
+    this.gesture = gesture;
     if (step) history.pushState(null, "", `#${fragment}`);
     else history.replaceState(null, "", `#${fragment}`);
     this.written = fragment;

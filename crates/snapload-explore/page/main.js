@@ -1,8 +1,10 @@
 // Wires state, server, scene, charts and controls together.
 
-import { Runner, fetchSchema } from "./api.js";
+import { Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
+import { $ } from "./dom.js";
 import { EventTable } from "./events.js";
+import { Hands } from "./hands.js";
 import { Keyboard } from "./keyboard.js";
 import { SweepMap } from "./map.js";
 import { Take } from "./take.js";
@@ -10,18 +12,19 @@ import { Controls } from "./controls.js";
 import { Link } from "./link.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
+import { Pins } from "./pins.js";
 import { Proof } from "./proof.js";
 import { Run } from "./run.js";
 import { Stage } from "./stage.js";
 import { State } from "./state.js";
-import { chooseTheme, chosenTheme, colours, onSystemScheme, THEMES } from "./theme.js";
-import { Trajectory } from "./trajectory.js";
+import { chooseTheme, chosenTheme, colours, keep, kept, onSystemScheme, stillness, THEMES } from "./theme.js";
+import { PLANES, Trajectory } from "./trajectory.js";
 import { Transport } from "./transport.js";
 
-const $ = (id) => document.getElementById(id);
 /** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
-const SAMPLES = { first: 1200, finer: 6000 };
+const SAMPLES = { first: 1200, finer: 3000 };
 const LONG_T = 20;
+const PURPOSE_READ = "snapload-purpose-read";
 const REST_MS = 300;
 
 chooseTheme(chosenTheme());
@@ -31,11 +34,17 @@ class Page {
     this.state = new State(schema);
     this.run = null;
     this.hover = null;
+    /** The time that was looked at when a run came that ends before it. */
+    this.keptTime = null;
     this.link = new Link(this.state, {
       onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
     });
     this.playback = new Playback(this.state, () => this.run);
     this.stage = new Stage(this.state, this.playback);
+    this.hands = new Hands(this.stage, this.state, {
+      onChange: (change) => this.changed(change),
+      onLetGo: () => this.playback.play(),
+    });
     this.transport = new Transport(this.state, this.playback);
     this.playback.onPlaying = (playing) => {
       this.transport.showPlaying(playing);
@@ -43,11 +52,7 @@ class Page {
       this.drawMoment();
     };
     this.controls = new Controls($("controls"), this.state, {
-      onChange: (since, settled) => {
-        this.ask(since);
-        this.link.held = !settled;
-        if (settled) this.link.write({ now: true });
-      },
+      onChange: (change) => this.changed(change),
     });
     const jump = (t) => {
       this.playback.pause();
@@ -75,6 +80,7 @@ class Page {
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
     });
+    this.pins = new Pins(this.state, () => this.run, { onChange: () => this.drawAll() });
     this.proof = new Proof();
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
@@ -88,12 +94,23 @@ class Page {
       transport: this.transport,
       state: this.state,
       map: this.map,
+      pins: this.pins,
     });
     this.cases();
     this.tools();
+    const fresh = !location.hash;
     this.link.read();
     this.ask();
+    // Who opens the page sees at once that it moves; a link is shown at its own time.
+    this.playsAtOnce = fresh && !stillness.matches;
     onResize(() => this.drawAll());
+  }
+
+  /** Follows a change of a value by hand; settled: not being dragged. */
+  changed({ since, settled, gesture = null }) {
+    this.ask(since);
+    this.link.held = !settled;
+    if (settled) this.link.write({ now: true, gesture });
   }
 
   /** Asks for the run of the values as they are, which changed at a time; once, however often one asks. */
@@ -118,10 +135,19 @@ class Page {
     this.stage.take(this.run);
     this.transport.take(this.run);
     this.proof.take(question.values);
-    if (this.state.t > this.run.tEnd) this.state.set({ t: this.run.tEnd });
+    this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
+    if (this.playsAtOnce) this.playback.play();
+    this.playsAtOnce = false;
     if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
+  }
+
+  /** A shorter run is shown at its end; a longer one after it, at the time that was looked at before. */
+  #keepTime() {
+    const kept = this.keptTime ?? this.state.t;
+    this.state.set({ t: Math.min(kept, this.run.tEnd) });
+    this.keptTime = kept > this.run.tEnd ? kept : null;
   }
 
   /** What follows the picture: how long it took, what is read rather than seen, and more rows of a long run. */
@@ -133,17 +159,28 @@ class Page {
       this.events.show(this.state.t, true);
       this.exports.take(this.run);
     }, 60);
+    if (latest) this.#refine();
+  }
+
+  /** More rows of a long run that stays, above all where it is looked at. */
+  #refine() {
     clearTimeout(this.refining);
-    if (!latest || this.run.tEnd < LONG_T) return;
-    this.refining = setTimeout(() => this.runner.ask({ ...question, samples: SAMPLES.finer }), REST_MS);
+    const { values, ghost, t } = this.state;
+    if (this.run.tEnd < LONG_T) return;
+    const window = this.state.window ?? [Math.max(t - LONG_T, 0), t + LONG_T];
+    this.refining = setTimeout(() => {
+      if (this.asked !== keyOf({ values, ghost }) || this.playback.playing) return;
+      this.runner.ask({ values, ghost, samples: SAMPLES.finer, window }, performance.now());
+    }, REST_MS);
   }
 
   fail(error, question) {
     if (error.key === "ghost") return this.failGhost(error, question);
     this.controls.showError(error);
-    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of the last values that could be run.`;
-    $("failed").hidden = false;
     // A link may begin with values that can not be run: then there is the case of the start to look at.
+    const shown = this.run ? "the last values that could be run" : `the case of the start, ${this.state.schema.start.name}`;
+    $("failed").textContent = `Not run: ${error.message}\nThe picture is that of ${shown}.`;
+    $("failed").hidden = false;
     if (!this.run) {
       this.runner.ask(
         { values: this.state.schema.start.values, ghost: null, samples: SAMPLES.first },
@@ -166,15 +203,19 @@ class Page {
 
   /** Redraws what a change of the state concerns. */
   follow(changed) {
+    if (changed.has("t")) this.keptTime = null;
     if (changed.has("values") || changed.has("ghost")) {
       this.controls.show(this.run?.values);
       this.showCase();
       // A change that came from the controls is asked for by them, with the time of its event.
       queueMicrotask(() => this.ask());
     }
-    if (["picture", "view", "window"].some((name) => changed.has(name))) this.drawAll();
+    if (changed.has("pins")) this.pins.follow();
+    if (["picture", "view", "zoom", "window", "plane"].some((name) => changed.has(name))) this.drawAll();
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
+    if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
+    $("axes").value = this.state.plane;
     this.stage.showChoices();
     this.transport.show();
     this.link.write();
@@ -187,10 +228,11 @@ class Page {
 
   drawAll() {
     if (!this.run) return;
-    const { window, picture } = this.state;
-    this.charts.draw(this.run, window);
-    this.trajectory.draw(this.run, window, picture);
+    const { kept } = this.pins;
+    this.charts.draw(this.run, this.state.window, kept);
+    this.trajectory.draw(this.run, this.state, kept);
     this.transport.draw();
+    this.pins.show();
     this.drawMoment();
   }
 
@@ -213,7 +255,9 @@ class Page {
     const own = cases.some(({ code }) => code === start.name) ? [] : [new Option(start.name, start.name)];
     const thesis = document.createElement("optgroup");
     thesis.label = "The thesis";
-    for (const { code, title } of cases) thesis.append(new Option(`${code}  ${title}`, code));
+    for (const { code, title, happens } of cases) {
+      thesis.append(new Option(happens ? `${code}: ${happens} (${title})` : `${code}  ${title}`, code));
+    }
     select.append(...own, thesis, new Option("values of your own", ""));
     select.addEventListener("change", () => {
       if (!select.value) return this.showCase();
@@ -230,6 +274,30 @@ class Page {
     $("case").lastElementChild.hidden = name !== null;
   }
 
+  /** A case file is opened by its button, or by dropping it anywhere. */
+  opening() {
+    const open = async (file) => {
+      if (!file) return;
+      try {
+        const values = await fetchCase(file.name, await file.text());
+        note("");
+        this.state.set({ values, t: 0, window: null });
+        this.link.write({ now: true });
+      } catch (error) {
+        note(error.message);
+      }
+    };
+    $("open-case").addEventListener("change", () => {
+      open($("open-case").files[0]);
+      $("open-case").value = "";
+    });
+    document.addEventListener("dragover", (event) => event.preventDefault());
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      open(event.dataTransfer.files[0]);
+    });
+  }
+
   tools() {
     const show = () => ($("theme").textContent = `Theme: ${chosenTheme()}`);
     $("theme").addEventListener("click", () => {
@@ -239,6 +307,14 @@ class Page {
     });
     show();
     onSystemScheme(() => this.drawAll());
+    this.opening();
+    for (const [name, { words }] of Object.entries(PLANES)) $("axes").append(new Option(words, name));
+    $("axes").addEventListener("change", () => this.state.set({ plane: $("axes").value }));
+    $("purpose").hidden = kept(PURPOSE_READ) === "yes";
+    $("purpose-close").addEventListener("click", () => {
+      $("purpose").hidden = true;
+      keep(PURPOSE_READ, "yes");
+    });
     // The address belongs to the state: a link within the page must not write into it.
     $("skip").addEventListener("click", (event) => {
       event.preventDefault();

@@ -1,55 +1,37 @@
 // How runs end over two keys: filled in while it is computed; each cell leads to its run.
 
 import { Refused, fetchMap } from "./api.js";
+import { CIVIDIS, cividis, hatch, outline, outlineBox, rangeOf } from "./cells.js";
 import { label } from "./charts.js";
+import { $ } from "./dom.js";
+import { mapCsv, sweepLine } from "./map-files.js";
 import { Frame, drawAxes, fontOf, inside, prepare, ticks } from "./plot.js";
 import { MOST_CELLS, readValue } from "./state.js";
-import { mix } from "./theme.js";
+import { copy, save } from "./take.js";
 import { number, plain, prose, reasonText, unitText } from "./words.js";
 
-const $ = (id) => document.getElementById(id);
 const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
 /** Larger than beside the small charts. */
 const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
-/** Cividis, which is read alike with and without red and green (Nuñez, Anderton & Renslow 2018). */
-const CIVIDIS = [
-  "#00224e",
-  "#123570",
-  "#3b496c",
-  "#575d6d",
-  "#707173",
-  "#8a8678",
-  "#a59c74",
-  "#c3b369",
-  "#e1cc55",
-  "#fee838",
-].map((hex) => `rgb(${[1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)).join(" ")})`);
-
-function cividis(part) {
-  const at = Math.min(Math.max(part, 0), 1) * (CIVIDIS.length - 1);
-  const i = Math.min(Math.floor(at), CIVIDIS.length - 2);
-  return mix(CIVIDIS[i], CIVIDIS[i + 1], at - i);
-}
-
+/** Values that span this are coloured by their logarithms. */
+const DECADES = 100;
 export class SweepMap {
   constructor(state, { colours, onPick }) {
-    Object.assign(this, {
-      state,
-      colours,
-      onPick,
-      cells: null,
-      controller: null,
-      timer: null,
-      cursor: [0, 0],
-      question: "",
-    });
+    this.state = state;
+    this.colours = colours;
+    this.onPick = onPick;
+    this.cells = null;
+    this.controller = null;
+    this.timer = null;
+    this.cursor = [0, 0];
+    this.question = "";
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
     for (const side of ["x", "y"]) this.#axisFields(side);
-    for (const column of state.schema.map) {
+    for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
       const unit = column.unit ? ` [${column.unit}]` : "";
       $("map-colour").append(new Option(prose(column.meaning) + unit, column.name));
     }
@@ -58,6 +40,10 @@ export class SweepMap {
     );
     $("map-run").addEventListener("click", () => this.compute());
     $("map-stop").addEventListener("click", () => this.stop("stopped"));
+    $("map-wider").addEventListener("click", () => this.#zoomOut());
+    $("map-png").addEventListener("click", () => this.canvas.toBlob((blob) => save(blob, "map.png"), "image/png"));
+    $("map-csv").addEventListener("click", () => this.cells && save(mapCsv(this.cells, this.columns), "map.csv"));
+    $("map-sweep").addEventListener("click", () => copy($("map-sweep"), sweepLine(state)));
     this.box.addEventListener("toggle", () => {
       if (this.box.open === (state.map !== null)) return;
       state.set({ map: this.box.open ? this.#usualMap() : null });
@@ -152,7 +138,9 @@ export class SweepMap {
     this.cursor = [nearest(this.cells.xs, this.#own(x.key)), nearest(this.cells.ys, this.#own(y.key))];
     if (this.pointed) this.#point(this.cursor);
     const controller = (this.controller = new AbortController());
-    $("map-stop").hidden = false;
+    this.#progress(`0 of ${count} runs`);
+    $("map-bar").value = 0;
+    this.#running(true);
     try {
       for await (const line of fetchMap(question, controller.signal)) this.#fill(line);
       this.#progress(`${count} runs`);
@@ -164,7 +152,7 @@ export class SweepMap {
     } finally {
       if (this.controller === controller) {
         this.controller = null;
-        $("map-stop").hidden = true;
+        this.#running(false);
       }
     }
     this.draw();
@@ -174,11 +162,15 @@ export class SweepMap {
     clearTimeout(this.timer);
     this.controller?.abort();
     this.controller = null;
-    $("map-stop").hidden = true;
+    this.#running(false);
     if (word) {
       this.#progress(`${word} at ${this.cells?.done ?? 0} of ${this.cells?.count ?? 0} runs`);
     }
     if (!this.state.map) this.question = "";
+  }
+
+  #running(running) {
+    $("map-stop").hidden = $("map-bar").hidden = !running;
   }
 
   #own(name) {
@@ -195,6 +187,7 @@ export class SweepMap {
     });
     cells.done += line.reason.length;
     this.#progress(`${Math.min(cells.done, cells.count)} of ${cells.count} runs`);
+    $("map-bar").value = cells.done / cells.count;
     this.draw();
   }
 
@@ -213,12 +206,50 @@ export class SweepMap {
     this.canvas.addEventListener("pointermove", (event) => this.#point(cellAt(event)));
     const focused = () => document.activeElement === this.canvas;
     this.canvas.addEventListener("pointerleave", () => this.#point(focused() ? this.cursor : null));
-    // A press focuses the map, which shows the cursor: it is where the press was before that.
-    this.canvas.addEventListener("pointerdown", (event) => (this.cursor = cellAt(event) ?? this.cursor));
-    this.canvas.addEventListener("click", (event) => this.#pick(cellAt(event)));
+    this.canvas.addEventListener("pointerdown", (event) => {
+      const cell = cellAt(event);
+      // A press focuses the map, which shows the cursor: it is where the press was before that.
+      this.cursor = cell ?? this.cursor;
+      this.drawn = cell && event.pointerType === "mouse" ? { from: cell, to: cell } : null;
+      if (this.drawn) this.canvas.setPointerCapture(event.pointerId);
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      const cell = this.drawn && cellAt(event);
+      if (cell) this.drawn.to = cell;
+    });
+    this.canvas.addEventListener("pointerup", (event) => {
+      const box = this.drawn;
+      this.drawn = null;
+      if (box && box.from.join() !== box.to.join()) this.#zoomTo(box);
+      else this.#pick(cellAt(event));
+    });
+    this.canvas.addEventListener("pointercancel", () => (this.drawn = null));
     this.canvas.addEventListener("keydown", (event) => this.#key(event));
     this.canvas.addEventListener("focus", () => this.#point(this.cursor));
     this.canvas.addEventListener("blur", () => this.#point(null));
+  }
+
+  /** A box that was drawn becomes the whole map, in as many cells. */
+  #zoomTo({ from, to }) {
+    const axis = (side, values, k) => {
+      const [low, high] = [values[from[k]], values[to[k]]].sort((a, b) => a - b);
+      const now = this.state.map[side];
+      return high > low ? { ...now, low, high } : now;
+    };
+    const { xs, ys } = this.cells;
+    this.state.set({ map: { ...this.state.map, x: axis("x", xs, 0), y: axis("y", ys, 1) } });
+  }
+
+  /** Twice the range of both keys, as far as they go. */
+  #zoomOut() {
+    const axis = (now) => {
+      const { kind } = this.numeric.find((one) => one.name === now.key);
+      const [middle, half] = [0.5 * (now.low + now.high), now.high - now.low];
+      const round = (value) => Number(value.toPrecision(6));
+      return { ...now, low: round(Math.max(middle - half, kind.low)), high: round(Math.min(middle + half, kind.high)) };
+    };
+    const { x, y } = this.state.map;
+    this.state.set({ map: { ...this.state.map, x: axis(x), y: axis(y) } });
   }
 
   #key(event) {
@@ -246,6 +277,7 @@ export class SweepMap {
   }
 
   #point(cell) {
+    if (!this.cells) return;
     this.pointed = cell;
     $("map-said").textContent = cell ? this.#words(cell) : "";
     this.draw();
@@ -266,10 +298,11 @@ export class SweepMap {
     if (cells.error[k]) return place + cells.error[k];
     if (cells.reason[k] === null) return `${place}not computed yet`;
     const { colour } = this.state.map;
+    const sure = this.#uncertain(k) ? ", not certain" : "";
     const more = ["reason", "t", "impacts"].includes(colour)
       ? ""
       : `, ${prose(this.#column(colour).meaning)} ${number(cells[colour][k])}`;
-    return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}`;
+    return `${place}${reasonText(cells.reason[k])} at t = ${number(cells.t[k])}, ${cells.impacts[k]} impacts${more}${sure}`;
   }
 
   draw() {
@@ -297,11 +330,17 @@ export class SweepMap {
     const edge = (k, size) => Math.round(k * size);
     for (let j = 0; j < y.count; j += 1) {
       for (let i = 0; i < x.count; i += 1) {
-        const fill = paint(j * x.count + i);
+        const k = j * x.count + i;
+        const fill = paint(k);
         if (!fill) continue;
-        context.fillStyle = fill;
         const [left, top] = [edge(i, w), edge(y.count - 1 - j, h)];
-        context.fillRect(frame.left + left, frame.top + top, edge(i + 1, w) - left, edge(y.count - j, h) - top);
+        /** @type {[number, number, number, number]} */
+        const cell = [frame.left + left, frame.top + top, edge(i + 1, w) - left, edge(y.count - j, h) - top];
+        context.fillStyle = fill;
+        context.fillRect(...cell);
+        if (!this.#uncertain(k)) continue;
+        context.fillStyle = hatch(context);
+        context.fillRect(...cell);
       }
     }
     const bare = { ...colours, rule: "transparent" };
@@ -313,6 +352,7 @@ export class SweepMap {
     label(context, colours, this.#axisWords(x), frame.left + frame.width / 2, height - 8, 0, LETTERS);
     label(context, colours, this.#axisWords(y), 14, frame.top + frame.height / 2, -Math.PI / 2, LETTERS);
     this.#crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
+    if (this.drawn) outlineBox(context, frame, cells, this.drawn, colours);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);
     this.canvas.setAttribute(
@@ -337,13 +377,23 @@ export class SweepMap {
     const { colour } = this.state.map;
     const other = (k) => (cells.error[k] ? colours.faint : null);
     if (colour === "reason") return (k) => (cells.reason[k] ? colours[`end-${cells.reason[k]}`] : other(k));
-    const [low, high] = this.#range(colour);
-    return (k) => (cells[colour][k] === null ? other(k) : cividis((cells[colour][k] - low) / (high - low || 1)));
+    const { low, high, log } = this.#scale(colour);
+    const along = log ? (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low) : null;
+    const linear = (value) => (value - low) / (high - low || 1);
+    return (k) => (cells[colour][k] === null ? other(k) : cividis((along ?? linear)(cells[colour][k])));
   }
 
-  #range(colour) {
-    const known = this.cells[colour].filter((value) => value !== null);
-    return known.length ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : [0, 1];
+  /** From the lowest to the highest value that there is; by decades where the values span some. */
+  #scale(colour) {
+    const [low, high] = rangeOf(this.cells[colour]);
+    const [least] = rangeOf(this.cells[colour].map((value) => (value > 0 ? value : null)));
+    const log = low >= 0 && high > DECADES * least;
+    return { low: log ? least : low, high, log };
+  }
+
+  /** What rounding may decide: the run is not known to its end. */
+  #uncertain(k) {
+    return this.cells.certain[k] === false;
   }
 
   #legend(colours) {
@@ -360,13 +410,15 @@ export class SweepMap {
           .map(([reason, n]) => swatch(colours[`end-${reason}`], `${reasonText(reason)} (${n})`)),
       );
     } else {
-      const [low, high] = this.#range(colour);
+      const { low, high, log } = this.#scale(colour);
       parts.unshift(
         `<span>${number(low, 3)}</span>`,
         `<i class="bar-key" style="background:linear-gradient(90deg,${CIVIDIS.join()})"></i>`,
-        `<span>${number(high, 3)}</span>`,
+        `<span>${number(high, 3)}${log ? ", by decades" : ""}</span>`,
       );
     }
+    const unsure = cells.certain.filter((one) => one === false).length;
+    if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain, as rounding may decide (${unsure})</span>`);
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
   }
@@ -386,13 +438,6 @@ export class SweepMap {
       context.stroke();
     }
   }
-}
-
-function outline(context, frame, { x, y }, [i, j], colours) {
-  const [w, h] = [frame.width / x.count, frame.height / y.count];
-  context.strokeStyle = colours.ink;
-  context.lineWidth = 2;
-  context.strokeRect(frame.left + i * w - 1, frame.top + (y.count - 1 - j) * h - 1, w + 2, h + 2);
 }
 
 /** The values of an axis as decimals that one would write. */

@@ -5,7 +5,12 @@ import { SPEEDS } from "./state.js";
 export class Playback {
   /** `now` gives the run that is shown. */
   constructor(state, now) {
-    Object.assign(this, { state, now, playing: false, frame: null, onPlaying: () => {} });
+    this.state = state;
+    this.now = now;
+    this.playing = false;
+    this.frame = null;
+    /** @type {(playing: boolean) => void} */
+    this.onPlaying = () => {};
   }
 
   get run() {
@@ -19,7 +24,8 @@ export class Playback {
 
   play() {
     if (!this.run) return;
-    if (this.state.t >= this.#last) this.state.set({ t: this.#first });
+    const { t } = this.state;
+    if (t < this.#first || t >= this.#last) this.state.set({ t: this.#first });
     this.playing = true;
     this.onPlaying(true);
     let before = null;
@@ -30,8 +36,11 @@ export class Playback {
       before = time;
       const t = this.state.t + elapsed * this.state.speed;
       this.state.set({ t: Math.min(t, this.#last) });
-      if (t >= this.#last) this.pause();
-      else this.frame = requestAnimationFrame(tick);
+      if (t >= this.#last) {
+        if (!this.state.loop) return this.pause();
+        this.state.set({ t: this.#first });
+      }
+      this.frame = requestAnimationFrame(tick);
     };
     this.frame = requestAnimationFrame(tick);
   }
@@ -75,7 +84,6 @@ export class Playback {
 
   get #last() {
     const end = this.run.tEnd;
-    const last = Math.min(this.state.window?.[1] ?? end, end);
-    return this.state.t > last ? end : last;
+    return Math.min(this.state.window?.[1] ?? end, end);
   }
 }

@@ -25,8 +25,20 @@ export const inside = (width, height, { left, right, top, bottom }) => [
 
 /** A rectangle of the page that shows a range of x and a range of y. */
 export class Frame {
+  /**
+   * @param {number[]} rectangle left, top, width and height [px]
+   * @param {number[]} across the range of x
+   * @param {number[]} up the range of y
+   */
   constructor([left, top, width, height], [x0, x1], [y0, y1]) {
-    Object.assign(this, { left, top, width, height, x0, x1, y0, y1 });
+    this.left = left;
+    this.top = top;
+    this.width = width;
+    this.height = height;
+    this.x0 = x0;
+    this.x1 = x1;
+    this.y0 = y0;
+    this.y1 = y1;
   }
 
   x(value) {
@@ -84,7 +96,12 @@ export function drawAxes(context, frame, colours, { xLabels = true, xTicks, yTic
       [x, frame.top],
       [x, frame.top + frame.height],
     ]);
-    if (xLabels) context.fillText(xTicks.label(value), x, frame.top + frame.height + 6);
+    if (!xLabels) continue;
+    const text = xTicks.label(value);
+    // A label at the edge of the canvas moves inwards as far as it has to.
+    const half = context.measureText(text).width / 2;
+    const room = context.canvas.width / context.getTransform().a;
+    context.fillText(text, Math.min(Math.max(x, half), room - half), frame.top + frame.height + 6);
   }
   context.strokeStyle = colours.faint;
   context.strokeRect(crisp(frame.left), crisp(frame.top), Math.round(frame.width), Math.round(frame.height));

@@ -1,15 +1,16 @@
 // The seal of a run: what of it is proved. It belongs to the run that is shown, and goes with it.
 
 import { fetchProof } from "./api.js";
+import { $ } from "./dom.js";
 import { number, prose, sentence } from "./words.js";
 
-const $ = (id) => document.getElementById(id);
 /** A tick where the proof reaches the end, a bar where it does not. */
 const SIGNS = { whole: "M4.6 8.3 7 10.7 11.5 5.6", part: "M4.8 8h6.4" };
 
 export class Proof {
   constructor() {
-    Object.assign(this, { values: null, asking: null });
+    this.values = null;
+    this.asking = null;
     $("prove").addEventListener("click", () => (this.asking ? this.#stop() : this.#ask()));
   }
 

@@ -20,6 +20,9 @@ function hermite(p0, v0, p1, v1, d, u) {
   return [value, rate];
 }
 
+/** Between rows that are further apart [T] a cubic is a sketch of the motion. */
+const ROUGH_T = 0.25;
+
 const COORDINATES = [
   ["x", "vx"],
   ["y", "vy"],
@@ -39,7 +42,7 @@ export class Motion {
     const j = Math.min(i + 1, this.t.length - 1);
     const d = this.t[j] - this.t[i];
     const u = d > 0 ? Math.min((t - this.t[i]) / d, 1) : 0;
-    const moment = { t };
+    const moment = { t, rough: d > ROUGH_T && u > 0 && u < 1 };
     for (const [place, speed] of COORDINATES) {
       const known = u === 0;
       [moment[place], moment[speed]] = known
@@ -54,6 +57,33 @@ export class Motion {
 }
 
 export class Run {
+  /** What the server answers. @type {any} */
+  values;
+  /** @type {any} */
+  geometry;
+  /** @type {any} */
+  end;
+  /** @type {any} */
+  norms;
+  /** @type {any} */
+  horizon;
+  /** @type {any} */
+  modes;
+  /** @type {any} */
+  impacts;
+  /** @type {any} */
+  cut;
+  /** @type {any} */
+  motion;
+  /** @type {any} */
+  ghost;
+  /** @type {any} */
+  ghost_error;
+  shell = "";
+  python = "";
+  /** The times of all events, once they are asked for. @type {number[] | undefined} */
+  eventTimes;
+
   constructor(answer) {
     Object.assign(this, answer);
     this.motionAt = new Motion(answer.motion);

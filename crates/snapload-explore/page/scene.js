@@ -2,6 +2,7 @@
 
 import { eventWords } from "./events.js";
 import { hang } from "./hang.js";
+import { magnifier } from "./magnifier.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
@@ -15,7 +16,7 @@ const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
  * What the picture shows of the plane, and how: `real` has the anchors on the sea floor below, `thesis` is turned
  * over, so that net buoyancy pulls down the page as a weight. y of the model grows towards the anchors.
  */
-function camera(run, { width, height, picture, view }) {
+export function camera(run, { width, height, picture, view, zoom }) {
   const { x, y } = run.motion;
   const { a, b } = run.geometry.body;
   const size = Math.hypot(a, b);
@@ -38,26 +39,34 @@ function camera(run, { width, height, picture, view }) {
     [beyondFloor, beyondSurface] = [room * BEYOND_FLOOR_PX, room * BEYOND_SURFACE_PX];
   }
   const usable = height - beyondFloor - beyondSurface;
-  const scale = Math.min(width / (right - left), usable / (high - low));
-  const middle = [0.5 * (left + right), 0.5 * (low + high)];
+  const whole = Math.min(width / (right - left), usable / (high - low));
   const up = picture === "real" ? 1 : -1;
-  const centre = (height + up * (beyondSurface - beyondFloor)) / 2;
+  // Zoomed in: so many times as large as the whole, about a place of the plane.
+  const scale = zoom ? whole * zoom[0] : whole;
+  const middle = zoom ? zoom.slice(1) : [0.5 * (left + right), 0.5 * (low + high)];
+  const centre = zoom ? height / 2 : (height + up * (beyondSurface - beyondFloor)) / 2;
   const place = ([px, py]) => [width / 2 + scale * (px - middle[0]), centre + up * scale * (py - middle[1])];
-  return { place, scale, up, surface, anchorLevel, level: (py) => place([0, py])[1] };
+  const unplace = ([x, y]) => [middle[0] + (x - width / 2) / scale, middle[1] + (up * (y - centre)) / scale];
+  return { place, unplace, scale, whole, up, surface, anchorLevel, level: (py) => place([0, py])[1] };
 }
 
-function turned([x, y], moment) {
+/**
+ * A point of the body's frame in the plane.
+ * @param {number[]} point
+ * @returns {number[]}
+ */
+export function turned([x, y], moment) {
   const [c, s] = [Math.cos(moment.theta), Math.sin(moment.theta)];
   return [moment.x + c * x - s * y, moment.y + s * x + c * y];
 }
 
 /**
- * All shapes at time t. Of `options`: width, height [px], picture, view, colours, playing, speed [T/s], and still (no
- * flash).
+ * All shapes at time t. Of `options`: width, height [px], picture, view, zoom, colours, playing, speed [T/s], still (no
+ * flash), and perhaps the camera.
  */
 export function sceneShapes(run, t, options) {
   const { width, height, colours } = options;
-  const cam = camera(run, options);
+  const cam = options.camera ?? camera(run, options);
   const moment = run.at(t);
   const snaps = fresh(run, t, options);
   const ghost = run.ghostAt?.at(Math.min(t, run.ghost.end.t));
@@ -88,6 +97,7 @@ export function sceneShapes(run, t, options) {
     ...forces(run, t, moment, cam, options),
     ...labels(run, cam, options),
     ...scaleBar(cam, width, height, colours),
+    ...magnifier(run, t, cam, options, path),
   ];
 }
 
@@ -259,6 +269,7 @@ function line(run, i, moment, cam, { colours, picture }, snaps) {
   }
   const hung = { points: hanging(cable, moment, cam, picture), stroke: colour, width: 1.5 };
   // At the instant itself the line is straight, and nothing hangs.
+  /** @type {object[]} */
   const shapes = snap?.left === 1 ? [anchor] : [hung, anchor];
   if (snap) {
     const strength = impulsePart(run, snap.i) * snap.left;
@@ -308,8 +319,8 @@ function snapShapes(run, { i, left }, moment, cam, { colours, still, width }) {
   return [...flash, ...arrow(at, to, colours.snap, 3, { alpha: still ? 1 : Math.min(1, 1.6 * left) })];
 }
 
-/** The wave's ellipse with its turning force beside the body, and net buoyancy on the same scale. */
-function forces(run, t, moment, cam, { width, height, colours }) {
+/** Where the wave's ellipse is drawn, beside the body, and the length of the unit of force [px]. */
+export function ellipsePlace(run, moment, cam, { width, height }) {
   const { f_o, nu } = run.values;
   const size = Math.min(width, height);
   const most = Math.max(Math.abs(f_o), Math.abs(f_o * nu), 1e-9);
@@ -321,7 +332,14 @@ function forces(run, t, moment, cam, { width, height, colours }) {
   const half = unit * Math.abs(f_o);
   const wide = Math.max(half, 0.04 * size);
   const right = bx + reach + wide + 0.07 * size;
-  const centre = [Math.min(right, width - wide - 14), by];
+  return { centre: [Math.min(right, width - wide - 14), by], unit };
+}
+
+/** The wave's ellipse with its turning force beside the body, and net buoyancy on the same scale. */
+function forces(run, t, moment, cam, { width, height, colours }) {
+  const { f_o, nu } = run.values;
+  const { centre, unit } = ellipsePlace(run, moment, cam, { width, height });
+  const [bx, by] = cam.place([moment.x, moment.y]);
   const at = ([fx, fy]) => [centre[0] + unit * fx, centre[1] + cam.up * unit * fy];
   const turn = Array.from({ length: 49 }, (_, k) => (2 * Math.PI * k) / 48);
   const ellipse = turn.map((phase) => at([f_o * Math.cos(phase), nu * f_o * Math.sin(phase)]));

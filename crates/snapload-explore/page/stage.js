@@ -1,24 +1,31 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
+import { $ } from "./dom.js";
 import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
 import { readValue } from "./state.js";
 import { paint } from "./shapes.js";
-import { sceneShapes, sceneWords } from "./scene.js";
+import { camera, sceneShapes, sceneWords } from "./scene.js";
 import { colours, stillness } from "./theme.js";
 import { modeName, number, plain, prose, sentence } from "./words.js";
 
-const $ = (id) => document.getElementById(id);
 /** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
 const REST_MS = 900;
 
+/** @returns {Iterable<any>} The choices of a name. */
+const radios = (name) => document.getElementsByName(name);
+
 export class Stage {
   constructor(state, playback) {
-    Object.assign(this, { state, playback, run: null, saying: null });
+    this.state = state;
+    this.playback = playback;
+    this.run = null;
+    this.saying = null;
+    this.held = null;
     this.canvas = $("scene");
     for (const name of ["picture", "view"]) {
-      for (const radio of document.getElementsByName(name)) {
-        radio.addEventListener("change", () => state.set({ [name]: radio.value }));
+      for (const radio of radios(name)) {
+        radio.addEventListener("change", () => state.set({ [name]: radio.value, zoom: null }));
       }
     }
     const ghost = () => {
@@ -46,10 +53,8 @@ export class Stage {
     this.#summarise();
     clearTimeout(this.saying);
     const words = this.#words();
-    this.saying = setTimeout(
-      () => words !== $("said").textContent && ($("said").textContent = words),
-      $("said").textContent ? REST_MS : 0,
-    );
+    $("said").textContent = words;
+    this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
     $("ramp-key").hidden = !(run.timeTaut > 0);
     $("ramp-words").textContent = `tension, up to ${number(run.mostTension, 3)} F`;
   }
@@ -88,14 +93,28 @@ export class Stage {
   draw() {
     const { run, canvas, state } = this;
     const { context, width, height } = prepare(canvas);
-    paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), this.options(width, height)));
+    const options = { ...this.options(width, height), camera: this.held };
+    paint(context, sceneShapes(run, Math.min(state.t, run.tEnd), options));
     this.#caption();
   }
 
   options(width, height, scheme) {
-    const { picture, view, speed } = this.state;
+    const { picture, view, zoom, speed } = this.state;
     const { playing } = this.playback;
-    return { width, height, picture, view, speed, playing, colours: colours(scheme), still: stillness.matches };
+    return { width, height, picture, view, zoom, speed, playing, colours: colours(scheme), still: stillness.matches };
+  }
+
+  /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
+  view() {
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const cam = this.held ?? camera(this.run, this.options(width, height));
+    const moment = this.run.at(Math.min(this.state.t, this.run.tEnd));
+    return { run: this.run, moment, cam, whole: cam.whole, size: { width, height } };
+  }
+
+  /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
+  hold(cam) {
+    this.held = cam;
   }
 
   #caption() {
@@ -114,7 +133,7 @@ export class Stage {
   showChoices() {
     const { picture, view, ghost } = this.state;
     for (const [name, value] of Object.entries({ picture, view })) {
-      for (const radio of document.getElementsByName(name)) radio.checked = radio.value === value;
+      for (const radio of radios(name)) radio.checked = radio.value === value;
     }
     $("ghost").checked = ghost !== null;
     if (ghost !== null) $("ghost-size").value = plain(ghost);

@@ -3,6 +3,8 @@
 export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20];
 const PICTURES = ["real", "thesis"];
 const VIEWS = ["whole", "close"];
+const PLANES = ["path", "x", "y", "theta", "section"];
+export const MOST_PINS = 3;
 export const MOST_CELLS = 200;
 
 const BEGINNING = {
@@ -10,6 +12,10 @@ const BEGINNING = {
   speed: 1,
   picture: "real",
   view: "whole",
+  plane: "path",
+  loop: false,
+  zoom: null,
+  pins: [],
   ghost: null,
   window: null,
   map: null,
@@ -17,12 +23,25 @@ const BEGINNING = {
 
 /** The state with whoever listens to it. */
 export class State {
+  /** What the page shows of the run: the fields of BEGINNING. */
+  t = BEGINNING.t;
+  speed = BEGINNING.speed;
+  picture = BEGINNING.picture;
+  view = BEGINNING.view;
+  plane = BEGINNING.plane;
+  loop = BEGINNING.loop;
+  zoom = BEGINNING.zoom;
+  /** @type {object[]} */
+  pins = BEGINNING.pins;
+  ghost = BEGINNING.ghost;
+  window = BEGINNING.window;
+  map = BEGINNING.map;
+
   constructor(schema) {
     this.schema = schema;
     this.defaults = Object.fromEntries(schema.keys.map((key) => [key.name, key.default]));
     this.derived = new Set(schema.keys.filter((key) => key.derived).map((key) => key.name));
     this.values = { ...schema.start.values };
-    Object.assign(this, BEGINNING);
     this.listeners = [];
   }
 
@@ -38,12 +57,14 @@ export class State {
     for (const listener of this.listeners) listener(new Set(changed));
   }
 
-  /** One key; a value of null, or its default, leaves it out. */
-  setValue(name, value) {
+  /** Some keys; a value of null, or its default, leaves one out. `more` of the state changes with them. */
+  setValues(changes, more = {}) {
     const values = { ...this.values };
-    if (value === null || (value === this.defaults[name] && !this.derived.has(name))) delete values[name];
-    else values[name] = value;
-    this.set({ values });
+    for (const [name, value] of Object.entries(changes)) {
+      if (value === null || (value === this.defaults[name] && !this.derived.has(name))) delete values[name];
+      else values[name] = value;
+    }
+    this.set({ values, ...more });
   }
 
   /** The value of a key; null where it follows from others. */
@@ -66,7 +87,11 @@ export class State {
     add("speed", this.speed, BEGINNING.speed);
     add("picture", this.picture, BEGINNING.picture);
     add("view", this.view, BEGINNING.view);
+    add("plane", this.plane, BEGINNING.plane);
+    add("loop", this.loop, BEGINNING.loop);
+    for (const values of this.pins) parts.push(["pin", JSON.stringify(values)]);
     add("ghost", this.ghost, BEGINNING.ghost);
+    if (this.zoom) parts.push(["zoom", this.zoom.join(",")]);
     if (this.window) parts.push(["window", this.window.join(",")]);
     if (this.map) parts.push(["map", mapToText(this.map)]);
     return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
@@ -88,6 +113,7 @@ export class State {
       const key = this.schema.keys.find((one) => one.name === name);
       const value = text === null ? undefined : key ? readValue(key, text) : readView(name, text, this.schema);
       if (value === undefined) broken.push(part);
+      else if (name === "pin") next.pins = [...next.pins, value].slice(-MOST_PINS);
       else if (key) next.values[name] = value;
       else next[name] = value;
     }
@@ -114,8 +140,12 @@ function decode(text) {
   }
 }
 
+/** A decimal number, with the minus sign of a keyboard or of print; what JavaScript takes beside that is none here. */
+const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+
 function finite(text) {
-  const value = text.trim() === "" ? NaN : Number(text);
+  const plain = text.trim().replaceAll("\u2212", "-");
+  const value = DECIMAL.test(plain) ? Number(plain) : NaN;
   return Number.isFinite(value) ? value : undefined;
 }
 
@@ -145,10 +175,34 @@ function readView(name, text, schema) {
       const [from, to] = text.split(",").map(finite);
       return from >= 0 && to > from ? [from, to] : undefined;
     }
+    case "plane":
+      return oneOf(PLANES, text);
+    case "loop":
+      return text === "true" || undefined;
+    case "pin":
+      return pinFromText(text, schema);
+    case "zoom": {
+      const [k, x, y] = text.split(",").map(finite);
+      return k > 1 && x !== undefined && y !== undefined ? [k, x, y] : undefined;
+    }
     case "map":
       return mapFromText(text, schema);
     default:
       return undefined;
+  }
+}
+
+/** The values of a pinned run: keys and what they may be. */
+function pinFromText(text, schema) {
+  try {
+    const values = Object.entries(JSON.parse(text));
+    const legal = ([name, value]) => {
+      const key = schema.keys.find((one) => one.name === name);
+      return key !== undefined && readValue(key, String(value)) === value;
+    };
+    return values.every(legal) ? Object.fromEntries(values) : undefined;
+  } catch {
+    return undefined;
   }
 }
 

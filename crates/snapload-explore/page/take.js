@@ -1,11 +1,11 @@
 // What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
 
 import { fetchFile } from "./api.js";
+import { $ } from "./dom.js";
 import { Film } from "./film.js";
 import { paint, svg } from "./shapes.js";
 import { sceneShapes } from "./scene.js";
 
-const $ = (id) => document.getElementById(id);
 /** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
 const SIZE = { width: 960, height: 676 };
 const FINENESS = 2;
@@ -14,9 +14,14 @@ const MAY_MS = 4000;
 export class Take {
   /** `question` gives what is asked of the server now; `now` the run that is shown. */
   constructor({ state, stage, now, question, address }) {
-    Object.assign(this, { state, stage, now, question, address, film: null });
+    this.state = state;
+    this.stage = stage;
+    this.now = now;
+    this.question = question;
+    this.address = address;
+    this.film = null;
     for (const button of document.querySelectorAll("[data-file]")) {
-      button.addEventListener("click", () => this.#try(() => this.#file(button.dataset.file)));
+      button.addEventListener("click", () => this.#try(() => this.#file(button)));
     }
     $("scene-svg").addEventListener("click", () => this.#try(() => this.#sceneSvg()));
     $("scene-png").addEventListener("click", () => this.#try(() => this.#scenePng()));
@@ -50,9 +55,18 @@ export class Take {
     $("take-said").textContent = text;
   }
 
-  async #file(name) {
-    save(await fetchFile(name, this.question()), name);
-    this.say(`${name} is saved.`);
+  /** The file is of the values as they are now, whatever they become while it is written. */
+  async #file(button) {
+    const name = button.dataset.file;
+    const of = `${name} of ${this.state.caseName ?? "values of your own"}`;
+    button.disabled = true;
+    this.say(`${of}: writing`);
+    try {
+      save(await fetchFile(name, this.question()), name);
+    } finally {
+      button.disabled = false;
+    }
+    this.say(`${of} is saved.`);
   }
 
   #shapes(scheme) {
@@ -93,12 +107,12 @@ export class Take {
     $("film").disabled = true;
     $("film-cancel").hidden = $("film-progress").hidden = false;
     try {
-      const blob = await film.record((part, left) => {
+      const blob = await film.record((part) => {
         $("film-progress").value = part;
-        this.say(`Recording: ${Math.ceil(left)} s left. Keep this page in view.`);
+        this.say(`run.webm: ${Math.floor(100 * part)} %`);
       });
       if (blob) save(blob, "run.webm");
-      this.say(blob ? "run.webm is saved." : "The recording was given up.");
+      this.say(blob ? "run.webm is saved." : "The film was given up.");
     } finally {
       $("film").disabled = false;
       $("film-cancel").hidden = $("film-progress").hidden = true;
@@ -118,13 +132,13 @@ const sheet = (fill) => ({
   fill,
 });
 
-function save(blob, name) {
+export function save(blob, name) {
   const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), MAY_MS);
 }
 
-async function copy(button, text) {
+export async function copy(button, text) {
   const before = button.dataset.words ?? (button.dataset.words = button.textContent);
   try {
     await navigator.clipboard.writeText(text);

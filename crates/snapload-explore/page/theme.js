@@ -38,6 +38,8 @@ export function colours(scheme = "") {
   if (known) return known;
   const probe = document.createElement("span");
   probe.hidden = true;
+  // Where the system chooses the page's few colours, pictures keep their own.
+  probe.style.forcedColorAdjust = "none";
   if (scheme) probe.style.colorScheme = scheme;
   document.body.append(probe);
   const found = {};
@@ -65,25 +67,34 @@ export function mix(from, to, part) {
 const KEY = "snapload-theme";
 export const THEMES = ["auto", "light", "dark"];
 
-/** The theme that was chosen before; `auto` follows the system. A browser may keep nothing for us. */
-export function chosenTheme() {
+/** What the browser keeps for the page under a name; it may keep nothing for us. */
+export function kept(name) {
   try {
-    const kept = localStorage.getItem(KEY);
-    return THEMES.includes(kept) ? kept : "auto";
+    return localStorage.getItem(name);
   } catch {
-    return "auto";
+    return null;
   }
+}
+
+export function keep(name, value) {
+  try {
+    localStorage.setItem(name, value);
+  } catch {
+    // It then lasts as long as the page.
+  }
+}
+
+/** The theme that was chosen before; `auto` follows the system. */
+export function chosenTheme() {
+  const theme = kept(KEY);
+  return THEMES.includes(theme) ? theme : "auto";
 }
 
 export function chooseTheme(theme) {
   if (theme === "auto") delete document.documentElement.dataset.theme;
   else document.documentElement.dataset.theme = theme;
   caches.clear();
-  try {
-    localStorage.setItem(KEY, theme);
-  } catch {
-    // The choice then lasts as long as the page.
-  }
+  keep(KEY, theme);
 }
 
 /** Calls back when the system's scheme changes. */

@@ -1,6 +1,6 @@
-// The path of the body's centre, with the boundaries at which a cable is taut.
+// The path of the body's centre, with the boundaries at which a cable is taut; or another plane of the motion.
 
-import { label } from "./charts.js";
+import { about, label } from "./charts.js";
 import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, prepare, span, stroke, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
@@ -11,11 +11,32 @@ const PIECES = 64;
 /** Rotations at which is looked whether a boundary comes into the frame. */
 const LOOKS = 60;
 
+/** What can be drawn against what: columns of the motion with the words at their axes. */
+export const PLANES = {
+  path: { words: "Path of the centre", x: "x", y: "y", axes: ["x  [L]", "y  [L], towards the anchors"] },
+  x: { words: "Phase plane of x", x: "x", y: "vx", axes: ["x  [L]", "velocity along x  [L/T]"] },
+  y: { words: "Phase plane of y", x: "y", y: "vy", axes: ["y  [L]", "velocity along y  [L/T]"] },
+  theta: { words: "Phase plane of θ", x: "theta", y: "vtheta", axes: ["θ  [rad]", "angular velocity  [rad/T]"] },
+  section: {
+    words: "Section once a period, x and y",
+    x: "x",
+    y: "y",
+    axes: ["x  [L] at t = k 2π/Ω", "y  [L]"],
+    section: true,
+  },
+};
+
 export class Trajectory {
   constructor(figure, { colours, onJump, onHover }) {
     const over = figure.querySelector("svg");
-    Object.assign(this, { base: figure.querySelector("canvas"), over, colours, run: null, frame: null });
-    [this.boundaries, this.now, this.hovered] = [over.querySelectorAll(".boundary"), ...over.querySelectorAll(".at")];
+    this.base = figure.querySelector("canvas");
+    this.over = over;
+    this.colours = colours;
+    this.run = null;
+    this.frame = null;
+    this.boundaries = over.querySelectorAll(".boundary");
+    this.now = over.querySelector(".at.now");
+    this.hovered = over.querySelector(".at.hovered");
     this.window = over.querySelector("svg");
     this.reading = figure.querySelector("output");
     this.legend = figure.parentElement.querySelectorAll(".legend [data-of]");
@@ -32,7 +53,8 @@ export class Trajectory {
   /** The time at which the path passes nearest to the pointer, if it does so within reach. */
   #timeNear(event) {
     if (!this.run) return null;
-    const { t, x, y } = this.run.motion;
+    const { t } = this.run.motion;
+    const [x, y] = this.#columns(this.run.motion);
     const box = this.over.getBoundingClientRect();
     const [px, py] = [event.clientX - box.left, event.clientY - box.top];
     let best = [REACH_PX, null];
@@ -43,8 +65,19 @@ export class Trajectory {
     return best[1];
   }
 
-  draw(run, window, picture) {
+  /** The columns of a motion that are drawn against each other. */
+  #columns(motion) {
+    return [motion[this.plane.x], motion[this.plane.y]];
+  }
+
+  get #isPath() {
+    return this.plane === PLANES.path;
+  }
+
+  draw(run, { window, picture, plane }, pins) {
     this.run = run;
+    this.pins = pins;
+    this.plane = PLANES[plane];
     this.rows = rowsWithin(run.motion.t, window ?? [0, run.tEnd]);
     const colours = this.colours();
     const { context, width, height } = prepare(this.base);
@@ -54,20 +87,50 @@ export class Trajectory {
       xTicks: ticks(frame.x0, frame.x1, frame.width / 75),
       yTicks: ticks(Math.min(frame.y0, frame.y1), Math.max(frame.y0, frame.y1), frame.height / 34),
     });
-    label(context, colours, "x  [L]", frame.left + frame.width / 2, height - 5);
-    label(context, colours, "y  [L], towards the anchors", 11, frame.top + frame.height / 2, -Math.PI / 2);
+    const [across, up] = this.plane.axes;
+    label(context, colours, across, frame.left + frame.width / 2, height - 5);
+    label(context, colours, up, 11, frame.top + frame.height / 2, -Math.PI / 2);
     context.save();
     frame.clip(context);
-    this.#upright(context, colours);
-    this.#legs(context, colours);
-    this.#marks(context, colours);
-    this.#ghost(context, colours);
+    this.#pinned(context);
+    if (this.plane.section) this.#section(context, colours);
+    else {
+      if (this.#isPath) this.#upright(context, colours);
+      this.#legs(context, colours);
+      if (this.#isPath) this.#marks(context, colours);
+      this.#ghost(context, colours);
+    }
     context.restore();
-    this.#letters(context, colours);
+    if (!this.plane.section) this.#letters(context, colours);
     this.#legend();
-    const reach = `from x = ${number(frame.x0, 3)} to ${number(frame.x1, 3)} L`;
-    const words = `${reach}; y at most ${number(run.norms.y_max, 3)} L`;
-    this.base.setAttribute("aria-label", `Path of the body's centre, y against x, ${words}.`);
+    const reach = `${this.plane.axes[0]} from ${number(frame.x0, 3)} to ${number(frame.x1, 3)}`;
+    this.base.setAttribute("aria-label", `${this.plane.words}: ${reach}; y at most ${number(run.norms.y_max, 3)} L.`);
+  }
+
+  /** Runs that were kept, as far as they last in the time that is shown. */
+  #pinned(context) {
+    const { t } = this.run.motion;
+    const shown = [t[this.rows[0]], t[this.rows[1] - 1]];
+    context.lineWidth = 1.2;
+    for (const { run, colour } of this.plane.section ? [] : this.pins) {
+      context.strokeStyle = colour;
+      drawColumn(context, this.frame, ...this.#columns(run.motion), ...rowsWithin(run.motion.t, shown));
+    }
+  }
+
+  /** Where the motion is once a period of the forcing, at its phase at t = 0; pale what is past the horizon. */
+  #section(context, colours) {
+    const { run } = this;
+    const period = (2 * Math.PI) / run.values.omega;
+    const { t } = run.motion;
+    const first = Math.ceil(t[this.rows[0]] / period - 1e-9);
+    for (let k = first; k * period <= t[this.rows[1] - 1]; k += 1) {
+      const moment = run.at(k * period);
+      context.fillStyle = run.beyond(moment.t) ? colours.past : colours.ink;
+      context.beginPath();
+      context.arc(this.frame.x(moment.x), this.frame.y(moment.y), 2.4, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
 
   /** One scale for both axes, as in the scene; y grows downwards on the page where the anchors are below. */
@@ -75,8 +138,10 @@ export class Trajectory {
     const [from, to] = this.rows;
     const of = (column) => span([column.slice(from, to)]);
     const [left, top, w, h] = inside(width, height, MARGIN);
-    const [x, y] = [of(this.run.motion.x), of(this.run.motion.y)];
+    const [x, y] = this.#columns(this.run.motion).map(of);
+    if (this.plane.x !== "x" || this.plane.y !== "y") return new Frame([left, top, w, h], x, y);
     const scale = Math.max((x[1] - x[0]) / w, (y[1] - y[0]) / h, 1e-12);
+    /** @param {number[]} range @param {number} size */
     const around = ([low, high], size) => [0.5 * (low + high - size * scale), 0.5 * (low + high + size * scale)];
     const [ys, xs] = [around(y, h), around(x, w)];
     this.perPx = scale;
@@ -131,7 +196,7 @@ export class Trajectory {
       const [stroke, width] = styles[Math.min(modes.taut[leg]?.length ?? 0, 2)];
       context.strokeStyle = lost ? colours.past : stroke;
       context.lineWidth = width;
-      drawColumn(context, this.frame, motion.x, motion.y, i, j + 1);
+      drawColumn(context, this.frame, ...this.#columns(motion), i, j + 1);
       i = j;
     }
   }
@@ -150,7 +215,8 @@ export class Trajectory {
 
   #ghost(context, colours) {
     if (!this.run.ghost) return;
-    const { t, x, y } = this.run.ghost.motion;
+    const { t } = this.run.ghost.motion;
+    const [x, y] = this.#columns(this.run.ghost.motion);
     const [from, to] = rowsWithin(t, [this.run.motion.t[this.rows[0]], this.run.motion.t[this.rows[1] - 1]]);
     context.strokeStyle = colours.ghost;
     context.lineWidth = 1.1;
@@ -175,11 +241,11 @@ export class Trajectory {
     const { cable: cables } = run.impacts;
     const struck = (cable) => run.impacts.t.some((time, i) => cables[i] === cable && time >= first && time <= last);
     const there = {
-      "snap-1": struck(1),
-      "snap-2": struck(2),
-      "taut-1": this.#passes(0),
-      "taut-2": this.#passes(1),
-      upright: run.geometry.cables.some((cable) => this.#boundary(cable, 0).some(this.#within)),
+      "snap-1": this.#isPath && struck(1),
+      "snap-2": this.#isPath && struck(2),
+      "taut-1": this.#isPath && this.#passes(0),
+      "taut-2": this.#isPath && this.#passes(1),
+      upright: this.#isPath && run.geometry.cables.some((cable) => this.#boundary(cable, 0).some(this.#within)),
       slack: moded(0) && (moded(1) || moded(2)),
       sliding: moded(1),
       rocking: moded(2),
@@ -207,7 +273,9 @@ export class Trajectory {
 
   /** I where the motion starts, E where it ends: the letters of the thesis's figures. */
   #letters(context, colours) {
-    const { t, x, y } = this.run.motion;
+    const { t } = this.run.motion;
+    const [x, y] = this.#columns(this.run.motion);
+    /** @type {[string, number][]} */
     const ends = [
       ["I", 0],
       ["E", t.length - 1],
@@ -234,17 +302,16 @@ export class Trajectory {
     set(this.window, { x: left, y: top, width, height, viewBox: `${left} ${top} ${width} ${height}` });
     const now = this.run.at(Math.min(t, this.run.tEnd));
     this.run.geometry.cables.forEach((cable, i) => {
-      set(this.boundaries[i], {
-        points: this.#boundary(cable, now.theta)
-          .map((point) => point.map(short).join())
-          .join(" "),
-      });
+      const points = this.#isPath ? this.#boundary(cable, now.theta) : [];
+      set(this.boundaries[i], { points: points.map((point) => point.map(short).join()).join(" ") });
     });
-    set(this.now, { cx: this.frame.x(now.x), cy: this.frame.y(now.y) });
+    const place = (moment) => ({ cx: this.frame.x(moment[this.plane.x]), cy: this.frame.y(moment[this.plane.y]) });
+    set(this.now, place(now));
     const read = hover ? this.run.at(hover.t) : now;
     this.hovered.style.display = hover ? "" : "none";
-    set(this.hovered, { cx: this.frame.x(read.x), cy: this.frame.y(read.y) });
-    const words = `t ${fixed(read.t, 3)}  x ${fixed(read.x, 4)}  y ${fixed(read.y, 4)}`;
+    set(this.hovered, place(read));
+    const [across, up] = [read[this.plane.x], read[this.plane.y]].map((value) => fixed(value, 4));
+    const words = `${about(read)}t ${fixed(read.t, 3)}  ${this.plane.x} ${across}  ${this.plane.y} ${up}`;
     if (this.reading.value !== words) this.reading.value = words;
   }
 }
@@ -255,6 +322,11 @@ function set(element, attributes) {
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
 }
 
+/**
+ * The first row of a range of time, and the one after its last.
+ * @param {number[]} t
+ * @param {number[]} range
+ */
 function rowsWithin(t, [from, to]) {
   let [low, high] = [0, t.length];
   while (low < high - 1 && t[low] < from) low += 1;

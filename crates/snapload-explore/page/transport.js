@@ -1,16 +1,17 @@
 // The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
 
+import { $ } from "./dom.js";
 import { prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
 
-const $ = (id) => document.getElementById(id);
-
 export class Transport {
   constructor(state, playback) {
-    Object.assign(this, { state, playback, run: null });
-    for (const speed of SPEEDS) $("speed").append(new Option(`${speed} T/s`, speed));
+    this.state = state;
+    this.playback = playback;
+    this.run = null;
+    for (const speed of SPEEDS) $("speed").append(new Option(`${speed} T/s`, String(speed)));
     const on = (id, action) => $(id).addEventListener("click", action);
     on("play", () => playback.toggle());
     on("first", () => this.#jump(0));
@@ -21,6 +22,7 @@ export class Transport {
     on("zoom-out", () => this.zoom(2));
     on("zoom-all", () => state.set({ window: null }));
     $("speed").addEventListener("change", () => state.set({ speed: Number($("speed").value) }));
+    $("loop").addEventListener("change", () => state.set({ loop: $("loop").checked }));
     $("scrub").addEventListener("input", () => {
       playback.pause();
       playback.seek(Number($("scrub").value));
@@ -64,6 +66,7 @@ export class Transport {
     $("clock").value = `t = ${fixed(t, 4)} T`;
     $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
     $("speed").value = speed;
+    $("loop").checked = this.state.loop;
     $("window-words").value = window ? `t ${number(from, 4)} to ${number(to, 4)}` : "";
     $("zoom-all").disabled = window === null;
   }

@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::request::{Body, LARGEST_BODY};
 use crate::schema::{Start, schema};
 use crate::work::compute;
-use crate::{export, map, page, proof, run};
+use crate::{case_file, export, map, page, proof, run};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -17,8 +17,10 @@ use tokio::sync::Semaphore;
 
 /// Runs at one time; others wait.
 const WORKERS: usize = 4;
-/// Maps at one time, each of which takes all processors.
-const MAPPERS: usize = 2;
+/// Files at one time. They have workers of their own, so that a page whose files are written goes on.
+const WRITERS: usize = 2;
+/// Lines of maps at one time, each of which takes all processors: maps take turns.
+const MAPPERS: usize = 1;
 /// Proofs at one time.
 const PROVERS: usize = 2;
 
@@ -26,6 +28,7 @@ const PROVERS: usize = 2;
 struct Shared {
     start: Start,
     workers: Arc<Semaphore>,
+    writers: Arc<Semaphore>,
     mappers: Arc<Semaphore>,
     provers: Arc<Semaphore>,
 }
@@ -35,11 +38,13 @@ pub(crate) fn router(start: Start, port: u16) -> Router {
     let shared = Shared {
         start,
         workers: Arc::new(Semaphore::new(WORKERS)),
+        writers: Arc::new(Semaphore::new(WRITERS)),
         mappers: Arc::new(Semaphore::new(MAPPERS)),
         provers: Arc::new(Semaphore::new(PROVERS)),
     };
     Router::new()
         .route("/api/schema", get(answer_schema))
+        .route("/api/case", post(answer_case))
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
         .route("/api/proof", post(answer_proof))
@@ -58,6 +63,13 @@ async fn wrong_method() -> Refusal {
 
 async fn answer_schema(State(shared): State<Arc<Shared>>) -> impl IntoResponse {
     Json(schema(&shared.start))
+}
+
+/// The values of a case file, as far as they differ from the defaults.
+async fn answer_case(
+    Body(request): Body<case_file::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    case_file::answer(&request).map(Json)
 }
 
 async fn answer_run(
@@ -98,7 +110,7 @@ async fn answer_export(
 ) -> Result<Response, Refusal> {
     let file = export::File::named(&name).ok_or_else(Refusal::nothing_there)?;
     let kind = file.content_type();
-    let bytes = compute(&shared.workers, move |allowance| {
+    let bytes = compute(&shared.writers, move |allowance| {
         file.write(request, allowance)
     })
     .await?;

@@ -6,10 +6,12 @@ use crate::work::Allowance;
 use axum::body::Bytes;
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
-use snapload::analysis::{Progress, in_parallel, outcome, outcomes};
-use snapload::{Case, CaseError, Kind, Outcome, Parameters, Stop, Value, key_named};
+use snapload::analysis::{
+    Cancelled, Certainty, Counter, Progress, in_parallel, on_all_threads, outcome,
+};
+use snapload::{Case, CaseError, Kind, Lanes, Outcome, Parameters, Stop, Value, key_named};
 use snapload_report::tables::Cell;
-use snapload_study::{Column, Grid, Take};
+use snapload_study::{Column, Grid, Run, Take};
 use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -22,8 +24,9 @@ use tokio_stream::{Stream, StreamExt};
 const MOST_VALUES: u64 = 200;
 /// A line is sent about so often.
 const EVERY: Duration = Duration::from_millis(50);
-/// The cells of a line: at first, at least, at most.
-const CELLS: [usize; 3] = [16, 8, 2048];
+/// The cells of a line: at first, at least, at most. Where each takes its time, one sees them come one
+/// by one.
+const CELLS: [usize; 3] = [16, 1, 2048];
 /// What one cell may take.
 const BUDGET: Duration = Duration::from_secs(2);
 /// Runs that may go on for longer are run one by one, so that they can be ended.
@@ -113,38 +116,24 @@ pub(crate) fn lines(
     request: Request,
     mappers: Arc<Semaphore>,
 ) -> Result<impl Stream<Item = Result<Bytes, Infallible>> + use<>, Refusal> {
-    let map = Map::read(request)?;
+    let map = Arc::new(Map::read(request)?);
     let (send, receive) = channel(4);
     let (waiting, allowance) = Allowance::new();
     tokio::spawn(async move {
-        // A semaphore that is closed has nobody waiting.
-        let Ok(mapper) = mappers.acquire_owned().await else {
-            return;
+        let sent = Drawing {
+            map,
+            mappers,
+            allowance,
+            send,
         };
-        tokio::task::spawn_blocking(move || {
-            let _mapper = mapper;
-            compute(&map, &allowance, &Lines(send));
-        });
+        // Where a line can not be sent nobody waits for the next.
+        let _ = sent.draw().await;
     });
     let lines = ReceiverStream::new(receive).map(move |line| {
         let _waiting = &waiting;
         Ok(line)
     });
     Ok(lines)
-}
-
-/// Where the lines go.
-struct Lines(Sender<Bytes>);
-
-impl Lines {
-    /// Sends a line; false where nobody takes it.
-    fn send(&self, line: &impl Serialize) -> bool {
-        let Ok(mut line) = serde_json::to_vec(line) else {
-            return false;
-        };
-        line.push(b'\n');
-        self.0.blocking_send(line.into()).is_ok()
-    }
 }
 
 /// The first line: what the cells stand at.
@@ -160,99 +149,149 @@ struct Done {
     done: bool,
 }
 
-fn compute(map: &Map, allowance: &Allowance, lines: &Lines) {
-    let (x, y) = (&map.x.values, &map.y.values);
-    if !lines.send(&Axes { x, y }) {
-        return;
-    }
-    let order = coarse_first(x.len(), y.len());
-    let [mut size, least, most] = CELLS;
-    let mut rest = order.as_slice();
-    while !rest.is_empty() {
-        let (now, later) = rest.split_at(size.min(rest.len()));
-        let began = Instant::now();
-        let cells = Cells::of(map, now, allowance);
-        if allowance.is_abandoned() || !lines.send(&cells) {
-            return;
+/// A map on its way to the page.
+struct Drawing {
+    map: Arc<Map>,
+    /// Whose turn it is to compute a line.
+    mappers: Arc<Semaphore>,
+    allowance: Allowance,
+    send: Sender<Bytes>,
+}
+
+/// Nobody takes the lines any more.
+struct Abandoned;
+
+impl Drawing {
+    /// Sends the cells, coarse ones first. Each line waits for its turn, so that a map that takes
+    /// long does not hold up another.
+    async fn draw(&self) -> Result<(), Abandoned> {
+        let (x, y) = (&self.map.x.values, &self.map.y.values);
+        self.send(&Axes { x, y }).await?;
+        let mut rest: Arc<[usize]> = coarse_first(x.len(), y.len()).into();
+        let [mut size, least, most] = CELLS;
+        while !rest.is_empty() {
+            let (now, later) = rest.split_at(size.min(rest.len()));
+            let (now, later): (Arc<[usize]>, Arc<[usize]>) = (now.into(), later.into());
+            // A semaphore that is closed has nobody waiting.
+            let turn = Arc::clone(&self.mappers).acquire_owned().await;
+            let (map, allowance) = (Arc::clone(&self.map), self.allowance.clone());
+            let began = Instant::now();
+            let cells = tokio::task::spawn_blocking(move || {
+                let _turn = turn;
+                Cells::of(&map, now, &allowance)
+            });
+            let cells = cells.await.map_err(|_| Abandoned)?;
+            if self.allowance.is_abandoned() {
+                return Err(Abandoned);
+            }
+            self.send(&cells).await?;
+            let pace = EVERY.as_secs_f64() / began.elapsed().as_secs_f64().max(1e-9);
+            size = ((size as f64 * pace.clamp(0.25, 4.0)) as usize).clamp(least, most);
+            rest = later;
         }
-        let pace = EVERY.as_secs_f64() / began.elapsed().as_secs_f64().max(1e-9);
-        size = ((size as f64 * pace.clamp(0.25, 4.0)) as usize).clamp(least, most);
-        rest = later;
+        self.send(&Done { done: true }).await
     }
-    lines.send(&Done { done: true });
+
+    async fn send(&self, line: &impl Serialize) -> Result<(), Abandoned> {
+        let mut line = serde_json::to_vec(line).map_err(|_| Abandoned)?;
+        line.push(b'\n');
+        self.send.send(line.into()).await.map_err(|_| Abandoned)
+    }
 }
 
 /// What is told of each cell, and what it can be coloured by.
 #[rustfmt::skip] // one row a column
-pub(crate) static COLUMNS: [Column<Outcome>; 7] = [
-    Column::new("reason", "", "", Take::Word(|run| run.end.reason.name()), "how the run ends"),
-    Column::new("t", "", "T", Take::Number(|run| Some(run.end.t)), "time of the end"),
-    Column::new("impacts", "", "", Take::Count(|run| Some(run.snaps())), "number of impacts"),
-    Column::quantity("rho1", Take::Number(|run| Some(run.norms.rho1))),
-    Column::quantity("rho3", Take::Number(|run| Some(run.norms.rho3))),
-    Column::quantity("y_max", Take::Number(|run| Some(run.norms.y_max))),
-    Column::quantity("theta_max", Take::Number(|run| Some(run.norms.theta_max))),
+pub(crate) static COLUMNS: [Column; 12] = [
+    Column::new("reason", "", "", Take::Word(|run| run.outcome.end.reason.name()), "how the run ends"),
+    Column::new("t", "", "T", Take::Number(|run| Some(run.outcome.end.t)), "time of the end"),
+    Column::new("impacts", "", "", Take::Count(|run| Some(run.outcome.snaps())), "number of impacts"),
+    Column::quantity("rho1", Take::Number(|run| Some(run.outcome.norms.rho1))),
+    Column::quantity("rho2", Take::Number(|run| Some(run.outcome.norms.rho2))),
+    Column::quantity("rho3", Take::Number(|run| Some(run.outcome.norms.rho3))),
+    Column::quantity("y_max", Take::Number(|run| Some(run.outcome.norms.y_max))),
+    Column::quantity("theta_max", Take::Number(|run| Some(run.outcome.norms.theta_max))),
+    Column::new("t_sliding", "", "T", Take::Number(|run| Some(run.outcome.sliding)), "time with one taut cable"),
+    Column::new("t_rocking", "", "T", Take::Number(|run| Some(run.outcome.rocking)), "time with both taut"),
+    Column::new("horizon_t", "", "T", Take::Number(|run| run.certainty?.horizon.map(|horizon| horizon.t)),
+        "time up to which the run can be trusted, where not to its end"),
+    Column::new("certain", "", "", Take::Flag(|run| Some(run.certainty?.decides_the_end())),
+        "whether neighbours end in the same way"),
 ];
 
 /// What some cells come to, as columns; null where there is nothing.
-struct Cells<'a> {
-    cells: &'a [usize],
-    outcomes: Vec<Result<Outcome, Refusal>>,
+struct Cells {
+    cells: Arc<[usize]>,
+    runs: Vec<Result<Run, Refusal>>,
 }
 
-impl<'a> Cells<'a> {
-    fn of(map: &Map, cells: &'a [usize], allowance: &Allowance) -> Self {
+impl Cells {
+    fn of(map: &Map, cells: Arc<[usize]>, allowance: &Allowance) -> Self {
         let cases = cells.iter().map(|cell| map.case(*cell)).collect();
         Self {
             cells,
-            outcomes: all_outcomes(cases, allowance),
+            runs: all_runs(cases, allowance),
         }
     }
 }
 
-impl Serialize for Cells<'_> {
+impl Serialize for Cells {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(COLUMNS.len() + 2))?;
-        map.serialize_entry("cells", self.cells)?;
+        map.serialize_entry("cells", &*self.cells)?;
         for column in &COLUMNS {
-            let outcomes = self.outcomes.iter().map(|outcome| outcome.as_ref().ok());
-            let values = outcomes.map(|outcome| outcome.map(|run| Cell::new(column, run)));
+            let runs = self.runs.iter().map(|run| run.as_ref().ok());
+            let values = runs.map(|run| run.map(|run| Cell::new(column, run)));
             map.serialize_entry(column.name, &values.collect::<Vec<_>>())?;
         }
-        let errors = self.outcomes.iter().map(|outcome| outcome.as_ref().err());
+        let errors = self.runs.iter().map(|run| run.as_ref().err());
         let errors = errors.map(|error| error.map(Refusal::message));
         map.serialize_entry("error", &errors.collect::<Vec<_>>())?;
         map.end()
     }
 }
 
-/// What cases come to: side by side as far as that can not take long, else by themselves.
-fn all_outcomes(
+/// What cases come to: side by side as far as that can not take long, else by themselves, where
+/// nothing is said of how certain it is.
+fn all_runs(
     cases: Vec<Result<Case, CaseError>>,
     allowance: &Allowance,
-) -> Vec<Result<Outcome, Refusal>> {
+) -> Vec<Result<Run, Refusal>> {
     let short: Vec<Case> = cases.iter().flatten().filter_map(cut).collect();
     // Where nobody waits any more there are none, and what follows ends at once, too.
-    let go_on = |progress: Progress| allowance.go_on(progress);
-    let short = outcomes(&short, &go_on).unwrap_or_default();
-    let mut short = short.into_iter();
+    let mut short = side_by_side(&short, allowance)
+        .unwrap_or_default()
+        .into_iter();
     let tried: Vec<Result<_, CaseError>> = cases
         .into_iter()
         .map(|case| {
             let case = case?;
             let quick = is_short(&case).then(|| short.next()).flatten();
-            let whole = quick.filter(|outcome| !was_cut(&case, outcome));
+            let whole = quick.filter(|run| !was_cut(&case, &run.outcome));
             Ok((case, whole))
         })
         .collect();
     let whole = in_parallel(tried.len(), |index| {
         Ok::<_, Infallible>(match &tried[index] {
-            Ok((_, Some(outcome))) => Ok(*outcome),
+            Ok((_, Some(run))) => Ok(*run),
             Ok((case, None)) => alone(case, allowance),
             Err(error) => Err(error.clone().into()),
         })
     });
     whole.unwrap_or_else(|never| match never {})
+}
+
+fn side_by_side(cases: &[Case], allowance: &Allowance) -> Result<Vec<Run>, Cancelled> {
+    let go_on = |progress: Progress| allowance.go_on(progress);
+    let counter = Counter::new("running", 0, cases.len() as u64, &go_on);
+    let made = on_all_threads(cases.len(), |numbers| {
+        let cases = &mut numbers.map(|k| cases[k].clone());
+        Certainty::with_outcomes(Lanes::best(), cases, &counter)
+    });
+    let run = |(outcome, certainty)| Run {
+        outcome,
+        certainty: Some(certainty),
+    };
+    Ok(made?.into_vec().into_iter().map(run).collect())
 }
 
 /// Whether a run can not take long: a light body turns quickly, and its taut motion takes as many
@@ -284,10 +323,14 @@ fn was_cut(case: &Case, outcome: &Outcome) -> bool {
     outcome.end.reason == Stop::ImpactLimit && case.parameters().max_impacts > MANY
 }
 
-fn alone(case: &Case, allowance: &Allowance) -> Result<Outcome, Refusal> {
+fn alone(case: &Case, allowance: &Allowance) -> Result<Run, Refusal> {
     let allowance = allowance.within(BUDGET);
     let done = outcome(case, &|progress| allowance.go_on(progress));
-    done.map_err(|_| {
+    let run = |outcome| Run {
+        outcome,
+        certainty: None,
+    };
+    done.map(run).map_err(|_| {
         let seconds = BUDGET.as_secs();
         Refusal::values(format!(
             "not done after {seconds} s of computing\nhint: lower t_end or max_impacts"

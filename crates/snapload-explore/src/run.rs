@@ -37,6 +37,9 @@ pub(crate) struct Request {
     ghost: Option<f64>,
     #[serde(default)]
     samples: Option<u32>,
+    /// A part of time that has as many samples of its own.
+    #[serde(default)]
+    window: Option<[f64; 2]>,
 }
 
 /// The answer, as JSON.
@@ -51,12 +54,20 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         let allowed = format!("a number, 0 < ghost <= {FARTHEST}, or null");
         return Err(CaseError::value("ghost", Value::Number(by), allowed).into());
     }
+    if let Some([from, to]) = request.window.filter(|[from, to]| !(0.0 <= *from && from < to)) {
+        let allowed = "two times, 0 <= from < to, or null";
+        return Err(CaseError::value("window", format!("[{from}, {to}]"), allowed).into());
+    }
     let case = case(request.values)?;
     let followed = follow(&case, allowance)?;
     let (parameters, run) = (case.parameters(), &followed.run);
+    let sampling = Times {
+        samples,
+        window: request.window,
+    };
     let ghost = request
         .ghost
-        .map(|by| Ghost::of(&case, by, samples, run, allowance));
+        .map(|by| Ghost::of(&case, by, sampling, run, allowance));
     let (ghost, ghost_error) = match ghost.transpose() {
         Ok(ghost) => (ghost, None),
         Err(refusal) => (None, Some(refusal.message().to_owned())),
@@ -77,7 +88,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             impacts: run.impacts().len(),
             shown: shown.len(),
         }),
-        motion: Columns::of(run, shown, samples),
+        motion: Columns::of(run, shown, sampling),
         ghost,
         ghost_error,
         shell: shell_line(parameters),
@@ -262,13 +273,13 @@ impl Serialize for Impacts<'_> {
 struct Columns([Vec<f64>; 10]);
 
 impl Columns {
-    /// At evenly spaced times, and just before and just after each impact.
-    fn of(run: &Trajectory, impacts: &[Impact], samples: u32) -> Self {
+    /// At the times asked for, and just before and just after each impact.
+    fn of(run: &Trajectory, impacts: &[Impact], sampling: Times) -> Self {
         let mut columns = Self(Default::default());
         let mut playback = Playback::new(run);
         let mut instants = impacts.chunk_by(|p, q| p.t == q.t).peekable();
         let mut latest = f64::NEG_INFINITY;
-        for t in times(run, samples) {
+        for t in sampling.of(run) {
             while let Some([first, ..]) = instants.next_if(|instant| instant[0].t <= t) {
                 let mut before = playback.at(first.t.next_down());
                 before.t = first.t;
@@ -298,13 +309,33 @@ impl Serialize for Columns {
     }
 }
 
-/// Evenly spaced times from the start to the end.
-fn times(run: &Trajectory, samples: u32) -> impl Iterator<Item = f64> {
-    let (end, last) = (run.end().t, samples - 1);
-    (0..samples).map(move |k| match k == last {
-        true => end,
-        false => end * f64::from(k) / f64::from(last),
-    })
+/// The times that a motion is told at.
+#[derive(Clone, Copy)]
+struct Times {
+    samples: u32,
+    window: Option<[f64; 2]>,
+}
+
+impl Times {
+    /// Evenly spaced from the start to the end, and closer within the window.
+    fn of(self, run: &Trajectory) -> Vec<f64> {
+        let end = run.end().t;
+        let mut times: Vec<f64> = self.evenly(0.0, end).collect();
+        if let Some([from, to]) = self.window.filter(|[from, _]| *from < end) {
+            times.extend(self.evenly(from, to.min(end)));
+            times.sort_unstable_by(f64::total_cmp);
+            times.dedup();
+        }
+        times
+    }
+
+    fn evenly(self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let last = self.samples - 1;
+        (0..self.samples).map(move |k| match k == last {
+            true => to,
+            false => from + (to - from) * f64::from(k) / f64::from(last),
+        })
+    }
 }
 
 /// The same run from a start that differs a little.
@@ -322,7 +353,7 @@ impl Ghost {
     fn of(
         case: &Case,
         by: f64,
-        samples: u32,
+        sampling: Times,
         run: &Trajectory,
         allowance: &Allowance,
     ) -> Result<Self, Refusal> {
@@ -335,9 +366,9 @@ impl Ghost {
         Ok(Self {
             key,
             by,
-            motion: Columns::of(&other, shown, samples),
+            motion: Columns::of(&other, shown, sampling),
             end: EndInWords::of(&other, neighbour.parameters()),
-            parts_at: parting(run, &other, samples),
+            parts_at: parting(run, &other, sampling),
         })
     }
 }
@@ -358,13 +389,14 @@ fn neighbour(case: &Case, by: f64) -> Result<(&'static str, f64, Case), CaseErro
 }
 
 /// When two runs have come apart, while both last.
-fn parting(run: &Trajectory, other: &Trajectory, samples: u32) -> Option<f64> {
+fn parting(run: &Trajectory, other: &Trajectory, sampling: Times) -> Option<f64> {
     let (mut one, mut two) = (Playback::new(run), Playback::new(other));
     let apart = |p: &State, q: &State| {
         let distances = [p.x - q.x, p.y - q.y, p.theta - q.theta];
         distances.iter().any(|distance| distance.abs() > PARTED)
     };
-    times(run, samples)
+    sampling
+        .evenly(0.0, run.end().t)
         .take_while(|t| *t <= other.end().t)
         .find(|t| apart(&one.at(*t).state, &two.at(*t).state))
 }

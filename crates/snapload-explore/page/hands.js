@@ -1,0 +1,183 @@
+// Hands on the scene: pull the body and let it go, move anchors and fairleads, stretch the wave's ellipse, zoom in.
+
+import { ellipsePlace, turned } from "./scene.js";
+
+/** How near a pointer has to be [px]. */
+const REACH = { fairlead: 9, anchor: 14, ellipse: 10, body: 16 };
+/** A start keeps so far from the end of its cables that rounding to the digits of a field leaves it legal [L]. */
+const CLEAR = 3e-4;
+const ROUNDS = 40;
+const MOST_ZOOM = 200;
+const LEAST_A = 0.01;
+
+const rounded = (value, decimals) => Number(value.toFixed(decimals));
+
+export class Hands {
+  /**
+   * On the canvas of a stage. `onChange({ settled })` follows a change of values, `onLetGo` a body that was let go.
+   */
+  constructor(stage, state, { onChange, onLetGo }) {
+    this.stage = stage;
+    this.state = state;
+    this.onChange = onChange;
+    this.onLetGo = onLetGo;
+    this.held = null;
+    this.pan = null;
+    this.fingers = new Map();
+    const { canvas } = stage;
+    canvas.addEventListener("pointerdown", (event) => this.#press(event));
+    canvas.addEventListener("pointermove", (event) => this.#move(event));
+    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => this.#release(event));
+    canvas.addEventListener("dblclick", () => state.set({ zoom: null }));
+    canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
+    // A finger that takes hold of something moves it, and not the page.
+    const keep = (event) => (event.touches.length > 1 || this.held) && event.preventDefault();
+    for (const name of ["touchstart", "touchmove"]) canvas.addEventListener(name, keep, { passive: false });
+  }
+
+  /** What there is to take hold of at a place of the canvas; nothing where there is nothing. */
+  #at(px) {
+    const { run, moment, cam, size } = this.stage.view();
+    const near = (point, reach) => Math.hypot(point[0] - px[0], point[1] - px[1]) <= reach;
+    const { cables } = run.geometry;
+    const rigid = run.geometry.body.kind === "rigid";
+    if (rigid && cables.some((cable) => near(cam.place(turned(cable.arm, moment)), REACH.fairlead))) return "fairlead";
+    if (cables.some((cable) => near(cam.place(cable.anchor), REACH.anchor))) return "anchor";
+    const { a, b } = run.geometry.body;
+    if (near(cam.place([moment.x, moment.y]), Math.max(Math.hypot(a, b) * cam.scale, REACH.body))) return "body";
+    const { centre, unit } = ellipsePlace(run, moment, cam, size);
+    const { f_o, nu } = run.values;
+    const [across, up] = [unit * Math.abs(f_o), unit * Math.abs(nu * f_o)];
+    const inside = Math.abs(px[0] - centre[0]) <= across + REACH.ellipse && Math.abs(px[1] - centre[1]) <= up + REACH.ellipse;
+    return inside ? "ellipse" : null;
+  }
+
+  #press(event) {
+    if (event.button !== 0 || !this.stage.run) return;
+    const px = [event.offsetX, event.offsetY];
+    this.fingers.set(event.pointerId, px);
+    if (this.fingers.size > 1) return this.#beginPinch();
+    const what = this.#at(px);
+    const view = this.stage.view();
+    if (what) {
+      const centre = view.cam.place([view.moment.x, view.moment.y]);
+      this.held = { what, view, offset: [px[0] - centre[0], px[1] - centre[1]], moved: false };
+      this.stage.hold(view.cam);
+    } else if (this.state.zoom) this.pan = { px, zoom: this.state.zoom, view };
+    if (what || this.pan) this.stage.canvas.setPointerCapture(event.pointerId);
+  }
+
+  #move(event) {
+    if (!this.stage.run) return;
+    const px = [event.offsetX, event.offsetY];
+    if (this.fingers.has(event.pointerId)) this.fingers.set(event.pointerId, px);
+    if (this.pinch) return this.#pinch();
+    if (this.held) {
+      this.held.moved = true;
+      return this.#drag(px);
+    }
+    if (this.pan) {
+      const { cam } = this.pan.view;
+      const [from, to] = [cam.unplace(this.pan.px), cam.unplace(px)];
+      const [k, x, y] = this.pan.zoom;
+      return this.state.set({ zoom: [k, rounded(x + from[0] - to[0], 5), rounded(y + from[1] - to[1], 5)] });
+    }
+    this.stage.canvas.style.cursor = this.#at(px) ? "grab" : this.state.zoom ? "move" : "";
+  }
+
+  #release(event) {
+    this.fingers.delete(event.pointerId);
+    if (this.fingers.size < 2) this.pinch = null;
+    const { held } = this;
+    this.pan = null;
+    this.held = null;
+    this.stage.hold(null);
+    if (!held?.moved) return;
+    this.onChange({ since: event.timeStamp, settled: true });
+    if (held.what === "body" && event.type === "pointerup") this.onLetGo();
+  }
+
+  /** The values that put what is held under the pointer. */
+  #drag(px) {
+    const { what, view, offset } = this.held;
+    const { run, moment, cam, size } = view;
+    const centred = what === "body" ? [px[0] - offset[0], px[1] - offset[1]] : px;
+    const [x, y] = cam.unplace(centred);
+    const values = {
+      body: () => this.#start(run, moment, [x, y]),
+      anchor: () => ({ r: rounded(Math.hypot(1 - run.values.a, y - run.values.b), 3) }),
+      fairlead: () => this.#arms(run, moment, [x, y]),
+      ellipse: () => {
+        const { centre, unit } = ellipsePlace(run, moment, cam, size);
+        const f_o = rounded(Math.abs(px[0] - centre[0]) / unit, 3);
+        const up = Math.abs(px[1] - centre[1]) / unit;
+        return f_o > 0 ? { f_o, nu: rounded(up / f_o, 3) } : { f_o };
+      },
+    }[what]();
+    this.state.setValues(values, what === "body" ? { t: 0, window: null } : {});
+    this.onChange({ since: performance.now(), settled: false });
+  }
+
+  /** A start at rest with the rotation that the body has, as near to a place as the cables allow. */
+  #start(run, { theta }, place) {
+    let [x, y] = place;
+    const rigid = run.geometry.body.kind === "rigid";
+    for (let i = 0; i < ROUNDS; i += 1) {
+      for (const { anchor, arm, length } of run.geometry.cables) {
+        const [px, py] = turned(arm, { x, y, theta });
+        const [dx, dy] = [px - anchor[0], py - anchor[1]];
+        const over = Math.hypot(dx, dy) - (length - CLEAR);
+        if (over <= 0) continue;
+        x -= (over * dx) / Math.hypot(dx, dy);
+        y -= (over * dy) / Math.hypot(dx, dy);
+      }
+    }
+    const start = { x: rounded(x, 4), y: rounded(y, 4), vx: 0, vy: 0 };
+    return rigid ? { ...start, theta: rounded(theta, 4), vtheta: 0 } : start;
+  }
+
+  /** The half-width, and of a box the half-height, that put a fairlead at a place. */
+  #arms(run, moment, [x, y]) {
+    const [c, s] = [Math.cos(moment.theta), Math.sin(moment.theta)];
+    const [dx, dy] = [x - moment.x, y - moment.y];
+    const a = rounded(Math.max(Math.abs(c * dx + s * dy), LEAST_A), 3);
+    return run.geometry.body.b > 0 ? { a, b: rounded(Math.max(c * dy - s * dx, LEAST_A), 3) } : { a };
+  }
+
+  #wheel(event) {
+    // What scrolls the page goes on doing so; two fingers on a touchpad come with ctrl.
+    if (!event.ctrlKey || !this.stage.run) return;
+    event.preventDefault();
+    this.#zoom(Math.exp(-event.deltaY / 250), [event.offsetX, event.offsetY]);
+  }
+
+  #beginPinch() {
+    this.held = this.pan = null;
+    this.stage.hold(null);
+    this.pinch = { before: this.#spread() };
+  }
+
+  #pinch() {
+    const now = this.#spread();
+    this.#zoom(now.distance / this.pinch.before.distance, now.middle);
+    this.pinch.before = now;
+  }
+
+  #spread() {
+    const [one, two] = [...this.fingers.values()];
+    return {
+      distance: Math.max(Math.hypot(one[0] - two[0], one[1] - two[1]), 1),
+      middle: [(one[0] + two[0]) / 2, (one[1] + two[1]) / 2],
+    };
+  }
+
+  /** So many times as large about a place of the canvas, which stays where it is. */
+  #zoom(factor, px) {
+    const { cam, whole, size } = this.stage.view();
+    const k = Math.min((cam.scale / whole) * factor, MOST_ZOOM);
+    if (k <= 1) return this.state.set({ zoom: null });
+    const [x, y] = cam.unplace(px);
+    const away = [(px[0] - size.width / 2) / (whole * k), (cam.up * (px[1] - size.height / 2)) / (whole * k)];
+    this.state.set({ zoom: [k, x - away[0], y - away[1]].map((value) => Number(value.toPrecision(6))) });
+  }
+}

@@ -1,0 +1,275 @@
+"""The page of `snapload explore` as an instrument: hands on the scene, runs compared, the map, films, case files."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import re
+from pathlib import Path
+
+import pytest
+from explore import comes_true, count, download, drawn, exact_time, read, settled, shown_is
+from playwright.sync_api import Page, expect
+
+
+def place(page: Page, what: str) -> tuple[float, float]:
+    """Where something of the scene is on the page."""
+    box = page.locator("#scene").bounding_box()
+    found = page.evaluate(
+        """async ([what, width, height]) => {
+            const { Run } = await import('./run.js');
+            const { camera, turned } = await import('./scene.js');
+            const values = Object.fromEntries(location.hash.slice(1).split('&').map(one => one.split('='))
+                .filter(([name]) => ['f_o', 'nu', 'x', 'y'].includes(name)).map(([name, value]) => [name, Number(value)]));
+            const headers = { 'Content-Type': 'application/json' };
+            const body = JSON.stringify({ values, samples: 1200 });
+            const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
+            const cam = camera(run, { width, height, picture: 'real', view: 'whole', zoom: null });
+            const moment = run.at(0);
+            return {
+                body: cam.place([moment.x, moment.y]),
+                fairlead: cam.place(turned(run.geometry.cables[0].arm, moment)),
+                anchor: cam.place(run.geometry.cables[0].anchor),
+                scale: [cam.scale, cam.up],
+            }[what];
+        }""",
+        [what, box["width"], box["height"]],
+    )
+    return (found[0], found[1]) if what == "scale" else (box["x"] + found[0], box["y"] + found[1])
+
+
+def drag(page: Page, start: tuple[float, float], by: tuple[float, float]) -> None:
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + by[0], start[1] + by[1], steps=6)
+    page.mouse.up()
+
+
+def test_the_body_is_pulled_and_let_go(open_page, command_json):
+    page = open_page("t=0")
+    scale, up = place(page, "scale")
+    drag(page, place(page, "body"), (-50, 40))
+    comes_true(page, lambda: page.locator("#field-x").input_value() != "0")
+    x, y = (float(page.locator(f"#field-{key}").input_value()) for key in ["x", "y"])
+    assert (x, y) == pytest.approx((-50 / scale, 0.1 + up * 40 / scale), abs=2e-3)
+    comes_true(page, lambda: exact_time(page) > 0)
+    shown_is(page, command_json("run", "--ensemble", "0", "--set", f"x={x}", "--set", f"y={y}"))
+
+
+def test_the_body_is_pulled_no_further_than_its_cables_reach(open_page):
+    page = open_page("t=0")
+    drag(page, place(page, "body"), (250, -160))
+    comes_true(page, lambda: page.locator("#field-x").input_value() != "0")
+    comes_true(page, lambda: exact_time(page) > 0)
+    expect(page.locator("#failed")).to_be_hidden()
+
+
+@pytest.mark.parametrize(("what", "by", "key"), [("fairlead", (20, 0), "a"), ("anchor", (0, 40), "r")])
+def test_the_mooring_is_pulled(open_page, what, by, key):
+    page = open_page("t=0")
+    before = float(page.locator(f"#field-{key}").input_value())
+    drag(page, place(page, what), by)
+    comes_true(page, lambda: float(page.locator(f"#field-{key}").input_value()) > before)
+    expect(page.locator("#failed")).to_be_hidden()
+
+
+def test_the_wheel_zooms_about_the_pointer(open_page):
+    page = open_page("t=0")
+    whole = drawn(page)[0]
+    page.mouse.move(*place(page, "body"))
+    page.keyboard.down("Control")
+    page.mouse.wheel(0, -500)
+    page.keyboard.up("Control")
+    comes_true(page, lambda: "zoom=" in page.evaluate("() => location.hash"))
+    linked = open_page(page.evaluate("() => location.hash").removeprefix("#"))
+    assert drawn(linked)[0] == drawn(page)[0] != whole
+    page.locator("#scene").dblclick(position={"x": 20, "y": 20})
+    comes_true(page, lambda: drawn(page)[0] == whole)
+
+
+def test_a_pinned_run_is_compared_in_words(open_page, command_json):
+    page = open_page("t=1")
+    page.keyboard.press("p")
+    expect(page.locator("#pins li")).to_contain_text("the run that is shown")
+    before = count(page)
+    page.locator("#field-f_o").fill("0.31")
+    settled(page, before)
+    pinned = command_json("run", "--ensemble", "0")
+    line = page.locator("#pins li")
+    expect(line).to_contain_text("f_o = 0.3: settled at t = 7.246")
+    assert read(line.inner_text().split("hardest snap ")[1]) == pytest.approx(pinned["norms"]["rho1"], rel=1e-3)
+    comes_true(page, lambda: "pin=" in page.evaluate("() => location.hash"))
+    linked = open_page(page.evaluate("() => location.hash").removeprefix("#"))
+    expect(linked.locator("#pins li")).to_have_text(line.inner_text())
+    assert drawn(linked) == drawn(page)
+    page.locator("#pins .back").click()
+    expect(page.locator("#field-f_o")).to_have_value("0.3")
+    page.locator("#pins .unpin").click()
+    expect(page.locator("#pins li")).to_have_count(0)
+
+
+def test_a_case_file_is_opened(open_page, command_json, tmp_path: Path):
+    page = open_page("t=0")
+    case = tmp_path / "mine.toml"
+    case.write_text("f_o = 0.42\nr = 1.7\n", encoding="utf-8")
+    before = count(page)
+    page.locator("#open-case").set_input_files(case)
+    settled(page, before)
+    shown_is(page, command_json("run", str(case), "--ensemble", "0"))
+    case.write_text("f_o = 0.42\nrr = 1.7\n", encoding="utf-8")
+    wrong = open_page("t=0", refused=1)
+    wrong.locator("#open-case").set_input_files(case)
+    expect(wrong.locator("#note")).to_contain_text("mine.toml, line 2")
+    expect(wrong.locator("#note")).to_contain_text("rr")
+
+
+def test_what_is_on_the_axes_is_chosen(open_page):
+    page = open_page("t=2")
+    path = drawn(page)[2]
+    pictures = {path}
+    for plane in ["x", "y", "theta", "section"]:
+        page.locator("#axes").select_option(plane)
+        pictures.add(drawn(page)[2])
+    assert len(pictures) == 5
+    comes_true(page, lambda: "plane=section" in page.evaluate("() => location.hash"))
+    page.locator("#axes").select_option("theta")
+    expect(page.locator("#trajectory .reading")).to_contain_text("vtheta")
+
+
+def test_the_ends_of_a_slider_can_be_typed(open_page):
+    page = open_page("t=0")
+    row = page.locator(".key", has=page.locator("#field-f_o"))
+    row.locator(".end.high").fill("3")
+    row.locator(".end.high").press("Enter")
+    assert page.locator("#slider-f_o").get_attribute("max") == "3"
+    assert page.locator("#slider-f_o").input_value() == "0.3"
+    row.locator(".end.low").fill("9")
+    row.locator(".end.low").press("Enter")
+    assert row.locator(".end.low").input_value() == "0", "no range"
+
+
+def test_cases_are_called_by_what_happens(open_page, command_json):
+    names = open_page("t=0").locator("#case option").all_inner_texts()
+    snaps = len(command_json("run", "--case", "1910001000-359", "--ensemble", "0")["impacts"])
+    assert any(re.match(rf"1910001000-359: settles after (about )?{snaps} snaps \(", name) for name in names), names
+
+
+def test_the_line_of_purpose_is_closed_for_good(open_page):
+    page = open_page("t=0")
+    expect(page.locator("#purpose")).to_contain_text("go slack and snap taut")
+    page.locator("#purpose-close").click()
+    page.reload()
+    expect(page.locator("#purpose")).to_be_hidden()
+
+
+def test_it_moves_at_once_unless_that_is_not_wanted(open_page):
+    moving = open_page(reduced_motion="no-preference")
+    comes_true(moving, lambda: exact_time(moving) > 0.2)
+    still = open_page(reduced_motion="reduce")
+    still.wait_for_timeout(300)
+    assert exact_time(still) == 0
+
+
+def test_a_film_lasts_as_long_as_it_is_played_and_can_be_sought(open_page, tmp_path: Path):
+    page = open_page("t=0&speed=5")
+    film = download(page, "#film", tmp_path / "run.webm")
+    player = page.context.new_page()
+    player.goto("about:blank")
+    told = player.evaluate(
+        """async data => {
+            const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));
+            const video = document.createElement('video');
+            video.muted = true;
+            video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/webm' }));
+            await new Promise((done, failed) => { video.onloadedmetadata = done; video.onerror = failed; });
+            const sought = [];
+            for (const t of [1.2, 0.3]) {
+                video.currentTime = t;
+                await new Promise(done => video.onseeked = done);
+                sought.push(video.currentTime);
+            }
+            return { duration: video.duration, width: video.videoWidth, sought };
+        }""",
+        base64.b64encode(film).decode(),
+    )
+    # 7.2463 T at 5 T/s, thirty pictures a second, and the end stands for 0.7 s.
+    assert told["duration"] == pytest.approx(round(30 * 7.2463 / 5) / 30 + 0.7, abs=0.05)
+    assert told["width"] == 960 and told["sought"] == [1.2, 0.3]
+
+
+MAP = "f_o,0.2,0.4,11,e,0.7,0.95,6"
+
+
+def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_json):
+    page = open_page(f"t=0&map={MAP},reason")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    boxes = [page.locator(one).bounding_box() for one in ["#scene", "#map"]]
+    assert all(box["y"] + 200 < 900 for box in boxes) and boxes[0]["x"] + boxes[0]["width"] < boxes[1]["x"]
+    page.locator("#map").focus()
+    said, told = page.locator("#map-said"), set()
+    for _ in range(11):
+        words = said.inner_text()
+        f_o, e = (re.search(rf"{key} = ([\d.]+)", words)[1] for key in ["f_o", "e"])
+        run = command_json("run", "--ensemble", "0", "--set", f"f_o={f_o}", "--set", f"e={e}")
+        certain = run["trust"]["horizon"]["t"] is None
+        assert ("not certain" not in words) == certain, words
+        told.add(certain)
+        page.keyboard.press("ArrowRight")
+        if f_o == "0.4":
+            page.keyboard.press("Home")
+    assert told == {True, False}
+    expect(page.locator("#map-legend")).to_contain_text("not certain, as rounding may decide")
+
+
+def test_the_map_goes_by_decades_where_values_do(open_page):
+    page = open_page(f"t=0&map={MAP},rho1")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    expect(page.locator("#map-legend")).not_to_contain_text("by decades")
+    page.locator("#map-colour").select_option("impacts")
+    values = [int(row["impacts"]) for row in csv.DictReader(io.StringIO(map_table(page)))]
+    by_decades = max(values) > 100 * min(value for value in values if value > 0)
+    assert by_decades == ("by decades" in page.locator("#map-legend").inner_text())
+
+
+def map_table(page: Page) -> str:
+    with page.expect_download() as event:
+        page.locator("#map-csv").click()
+    return Path(event.value.path()).read_text(encoding="utf-8")
+
+
+def test_the_map_is_taken_away(open_page, command, tmp_path: Path):
+    page = open_page(f"t=0&map={MAP},reason")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    rows = list(csv.DictReader(io.StringIO(map_table(page))))
+    page.locator("#map-sweep").click()
+    expect(page.locator("#map-sweep")).to_have_text("Copied")
+    line = page.evaluate("() => navigator.clipboard.readText()")
+    assert line == "snapload sweep --vary f_o=0.2:0.4:11 --vary e=0.7:0.95:6 --out map.parquet"
+    pq = pytest.importorskip("pyarrow.parquet")
+    command("sweep", *line.split()[2:-1], str(tmp_path / "map.parquet"))
+    study = pq.read_table(tmp_path / "map.parquet").to_pylist()
+    swept = {(row["f_o"], row["e"]): (row["end"], row["t"], row["certain"]) for row in study}
+    mapped = {
+        (float(row["f_o"]), float(row["e"])): (row["reason"], float(row["t"]), row["certain"] == "true") for row in rows
+    }
+    assert mapped == swept
+    png = download(page, "#map-png", tmp_path / "map.png")
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_a_box_in_the_map_becomes_the_map(open_page):
+    page = open_page(f"t=0&map={MAP},reason")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    box = page.locator("#map").bounding_box()
+    width, height = box["width"] - 68, box["height"] - 50
+    cell = lambda i, j: (box["x"] + 56 + (i + 0.5) / 11 * width, box["y"] + 10 + (5.5 - j) / 6 * height)  # noqa: E731
+    start, end = cell(2, 1), cell(7, 4)
+    drag(page, start, (end[0] - start[0], end[1] - start[1]))
+    expect(page.locator("#map-x-low")).to_have_value("0.24")
+    expect(page.locator("#map-x-high")).to_have_value("0.34")
+    expect(page.locator("#map-y-low")).to_have_value("0.75")
+    expect(page.locator("#map-y-high")).to_have_value("0.9")
+    expect(page.locator("#map-progress")).to_have_text("66 runs", timeout=60_000)
+    page.locator("#map-wider").click()
+    expect(page.locator("#map-x-low")).to_have_value("0.19")

@@ -1,0 +1,255 @@
+"""What went wrong on the page of `snapload explore` once, and must not again."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+import subprocess
+from pathlib import Path
+
+import pytest
+from explore import PHONE, ROOT, comes_true, count, drawn, exact_time, read, settled
+from playwright.sync_api import expect
+
+SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
+
+
+def test_the_verdict_is_that_of_the_picture(open_page):
+    page = open_page("t=0")
+    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    expect(page.locator("#announced")).to_contain_text("Settled at t = 7.246")
+    before = count(page)
+    page.locator("#slider-f_o").evaluate(SLIDE, 0.4)
+    settled(page, before)
+    assert "Settled" not in page.locator("#said").inner_text()
+    assert "Settled" in page.locator("#announced").inner_text(), "a screen reader is told once it rests"
+    expect(page.locator("#announced")).to_have_text(page.locator("#said").inner_text())
+
+
+def test_forced_colours_leave_the_pictures_theirs(open_page):
+    usual, forced = open_page("t=1"), open_page("t=1", forced_colors="active")
+    assert drawn(forced) == drawn(usual)
+
+
+def test_a_file_is_written_while_the_page_goes_on(open_page):
+    page = open_page("f_o=0.31&t=0")
+    waiting = []
+    page.route("**/api/export/*", lambda route: waiting.append(route))
+    button = page.locator('[data-file="impacts.csv"]')
+    button.click()
+    expect(button).to_be_disabled()
+    expect(page.locator("#take-said")).to_have_text("impacts.csv of values of your own: writing")
+    before = count(page)
+    page.locator("#field-f_o").fill("0.29")
+    settled(page, before)
+    with page.expect_download():
+        waiting[0].continue_()
+    expect(button).to_be_enabled()
+    assert waiting[0].request.post_data_json["values"] == {"f_o": 0.31}, "the values are those of the click"
+
+
+def test_dragging_through_slow_runs_shows_some_of_them(open_page):
+    answers = open_page("t=0").evaluate(
+        """async () => {
+            const { Runner } = await import('./api.js');
+            const slow = signal => new Promise((done, failed) => {
+                const timer = setTimeout(() => done(new Response('{}')), 300);
+                signal.addEventListener('abort', () => {
+                    clearTimeout(timer);
+                    failed(new DOMException('', 'AbortError'));
+                });
+            });
+            const fetch = window.fetch;
+            window.fetch = (path, { signal }) => slow(signal);
+            const shown = [];
+            const runner = new Runner({ onAnswer: (_, since) => shown.push(since), onError() {}, onBusy() {} });
+            for (let i = 0; i < 50; i += 1) {
+                runner.ask({}, i);
+                await new Promise(done => setTimeout(done, 40));
+            }
+            await new Promise(done => setTimeout(done, 800));
+            window.fetch = fetch;
+            return shown;
+        }"""
+    )
+    assert len(answers) >= 4 and answers[-1] == 49, answers
+
+
+def test_a_drag_with_shift_selects_no_text(open_page):
+    page = open_page("t=0")
+    page.locator("#window-words").click()
+    area = page.locator("#charts .over").first.bounding_box()
+    page.keyboard.down("Shift")
+    page.mouse.move(area["x"] + 100, area["y"] + 40)
+    page.mouse.down()
+    page.mouse.move(area["x"] + 240, area["y"] + 50, steps=5)
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    expect(page.locator("#window-words")).not_to_have_text("")
+    assert page.evaluate("() => getSelection().toString()") == ""
+
+
+def test_arrow_keys_are_one_step_to_go_back(open_page):
+    page = open_page("t=0")
+    length = page.evaluate("() => history.length")
+    page.locator("#field-f_o").focus()
+    for _ in range(5):
+        before = count(page)
+        page.keyboard.press("ArrowUp")
+        settled(page, before)
+    page.locator("#slider-nu").focus()
+    for _ in range(3):
+        before = count(page)
+        page.keyboard.press("ArrowLeft")
+        settled(page, before)
+    assert page.evaluate("() => history.length") == length + 2
+    page.go_back()
+    expect(page.locator("#field-nu")).to_have_value("0.5")
+    page.go_back()
+    expect(page.locator("#field-f_o")).to_have_value("0.3")
+
+
+def test_labels_of_axes_stay_on_the_canvas(open_page):
+    cut = open_page("t=0").evaluate(
+        """async () => {
+            const { Frame, drawAxes, ticks } = await import('./plot.js');
+            const canvas = Object.assign(document.createElement('canvas'), { width: 340, height: 120 });
+            const context = canvas.getContext('2d');
+            const cut = [];
+            const write = context.fillText.bind(context);
+            context.fillText = (text, x, y) => {
+                const half = context.textAlign === 'center' ? context.measureText(text).width / 2 : 0;
+                if (x - half < -0.01 || x + half > canvas.width + 0.01) cut.push(text);
+                write(text, x, y);
+            };
+            const frame = new Frame([50, 6, 280, 80], [0, 10000], [0, 1]);
+            const xTicks = ticks(0, 10000, 4);
+            drawAxes(context, frame, {}, { xTicks, yTicks: ticks(0, 1, 4) });
+            return { cut, labels: xTicks.values.map(xTicks.label) };
+        }"""
+    )
+    assert "10000" in cut["labels"] and cut["cut"] == []
+
+
+def test_on_paper_nothing_lies_over_the_charts(open_page):
+    page = open_page("t=2")
+    page.emulate_media(media="print")
+    expect(page.locator("#charts .over").first).to_be_hidden()
+    expect(page.locator("#charts canvas").first).to_be_visible()
+    expect(page.locator("#play")).to_be_hidden()
+
+
+def test_links_keep_their_port():
+    target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+    servers = [
+        subprocess.Popen(
+            [target / "debug" / "snapload", "explore", "--no-browser"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+        for _ in range(2)
+    ]
+    ports = [int(re.search(r":(\d+)/", server.stdout.readline())[1]) for server in servers]
+    with socket.create_connection(("127.0.0.1", 7627), timeout=5):
+        pass  # One of them has it, or whoever had it before.
+    assert len(set(ports)) == 2
+    for server in servers:
+        server.send_signal(signal.SIGINT)
+        assert server.wait(timeout=10) == 0
+        server.stdout.close()
+
+
+def test_the_map_opens_on_a_fresh_page(open_page):
+    page = open_page("t=0")
+    page.keyboard.press("m")
+    expect(page.locator("#map-progress")).to_have_text("2091 runs", timeout=60_000)
+
+
+def test_time_comes_back_after_a_shorter_run(open_page):
+    page = open_page("t=5")
+    for value, t in [("0.31", None), ("0.3", 5)]:
+        before = count(page)
+        page.locator("#field-f_o").fill(value)
+        settled(page, before)
+        assert exact_time(page) < 4 if t is None else exact_time(page) == t
+
+
+def test_it_plays_the_time_that_is_shown(open_page):
+    page = open_page("t=6&window=2,2.4&speed=1")
+    page.locator("#play").click()
+    comes_true(page, lambda: page.locator("#play").inner_text() == "Play")
+    assert exact_time(page) == 2.4
+    page.keyboard.press("l")
+    page.locator("#play").click()
+    page.wait_for_timeout(900)
+    assert page.locator("#play").inner_text() == "Pause" and 2 <= exact_time(page) <= 2.4
+
+
+@pytest.mark.parametrize(("text", "value"), [("−0.25", "-0.25"), ("-.5", "-0.5"), ("2.5E-1", "0.25")])
+def test_numbers_may_be_pasted_as_they_are_printed(open_page, text, value):
+    page = open_page("t=0")
+    before = count(page)
+    page.locator("#field-nu").fill(text)
+    page.locator("#field-nu").press("Enter")
+    settled(page, before)
+    expect(page.locator("#shell")).to_contain_text(f"nu={value}")
+
+
+@pytest.mark.parametrize("text", ["0x10", "Infinity", "1_0"])
+def test_what_is_no_decimal_is_refused(open_page, text):
+    page = open_page("t=0", refused=1)
+    page.locator("#field-nu").fill(text)
+    page.locator("#field-nu").press("Enter")
+    expect(page.locator("#error-nu")).to_contain_text("is not allowed")
+
+
+def test_what_is_read_between_distant_rows_says_so(open_page, command_json):
+    values = {"f_o": "0.05", "stop_when_settled": "false", "t_end": "600"}
+    at = 433.21
+    page = open_page("&".join(f"{key}={value}" for key, value in values.items()) + f"&t={at}")
+    reading = page.locator("#charts .reading").first
+    expect(reading).not_to_contain_text("about", timeout=10_000)
+    options = [text for pair in values.items() for text in ("--set", "=".join(pair))]
+    motion = command_json("run", "--ensemble", "0", *options, "--sample", "0.01")["motion"]
+    near = min(motion, key=lambda row: abs(row["t"] - at))
+    assert read(reading.inner_text()) == pytest.approx(near["theta"], abs=2e-4)
+    coarse = page.evaluate(
+        """async ([values, at]) => {
+            const { Run } = await import('./run.js');
+            const headers = { 'Content-Type': 'application/json' };
+            const body = JSON.stringify({ values, samples: 100 });
+            const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
+            return run.at(at).rough;
+        }""",
+        [{"f_o": 0.05, "stop_when_settled": False, "t_end": 600}, at],
+    )
+    assert coarse
+
+
+def test_a_swipe_over_a_slider_leaves_its_value(open_page):
+    page = open_page("t=0", viewport=PHONE, has_touch=True)
+    slider = page.locator("#slider-f_o")
+    slider.dispatch_event("pointerdown")
+    before = count(page)
+    slider.evaluate(SLIDE, 0.5)
+    settled(page, before)
+    slider.dispatch_event("pointercancel")
+    expect(page.locator("#field-f_o")).to_have_value("0.3")
+    assert slider.input_value() == "0.3"
+
+
+def test_a_refused_link_says_what_is_shown(open_page):
+    page = open_page("e=7", refused=1)
+    expect(page.locator("#failed")).to_contain_text("e = 7 is not allowed")
+    expect(page.locator("#failed")).to_contain_text("that of the case of the start, the standard case")
+
+
+def test_one_row_of_the_events_takes_the_tab_key(open_page):
+    page = open_page("t=0")
+    assert page.locator('#events-body .go[tabindex="0"]').count() == 1
+    page.locator('#events-body .go[tabindex="0"]').focus()
+    page.keyboard.press("ArrowDown")
+    assert page.evaluate("() => document.activeElement.closest('tr').dataset.event") == "1"
