@@ -1,7 +1,7 @@
 //! `snapload assess`: one structure in SI units, from its case to a verdict.
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
-use crate::structure_input::{Answers, StructureArgs};
+use crate::structure_input::{Answers, StructureArgs, ending};
 use snapload::analysis::Progress;
 use snapload_structure::{STRUCTURE, assess, note};
 use std::path::PathBuf;
@@ -37,6 +37,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return print(&STRUCTURE.listing());
     }
     let (name, structure) = args.input.read()?;
+    if let Some(path) = &args.out {
+        ending(path, &["html"])?;
+    }
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);

@@ -31,8 +31,7 @@ impl Json {
             return Ok(Self::Stdout);
         }
         refuse_directory(path)?;
-        // A link is followed, so that what it points to is replaced and not the link.
-        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+        let path = behind_links(path);
         if path.exists() && !path.is_file() {
             return Ok(Self::Device(path));
         }
@@ -77,11 +76,37 @@ impl Json {
     }
 }
 
-/// Opens the directory in which a file is to be written, and creates it where it is absent.
+/// The file that a path leads to: a link is followed, so that what it points to is replaced and not
+/// the link. Any other path is left as it was typed, as it will be printed.
+fn behind_links(path: &Path) -> PathBuf {
+    let there = || path.canonicalize().ok();
+    // Where nothing stands behind a link yet.
+    let new = || Some(parent_of(path).join(path.read_link().ok()?));
+    let followed = path.is_symlink().then(|| there().or_else(new)).flatten();
+    followed.unwrap_or_else(|| path.to_owned())
+}
+
+/// Whether two paths lead to one file, which need not be there yet.
 #[cfg(feature = "structure")]
-pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
+pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = parent_of(path).canonicalize().ok()?;
+        Some(folder.join(path.file_name()?))
+    };
+    place(one).is_some_and(|one| place(other) == Some(one))
+}
+
+/// Opens the directory in which a file is to be written, and creates it where it is absent. Returns
+/// the path to be written; what is no plain file, such as a device, is written into.
+#[cfg(feature = "structure")]
+pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<(Room, PathBuf), Failure> {
     refuse_directory(path)?;
-    stage.create_and_open(parent_of(path))
+    let path = behind_links(path);
+    let room = match path.exists() && !path.is_file() {
+        true => stage.open(&std::env::temp_dir())?,
+        false => stage.create_and_open(parent_of(&path))?,
+    };
+    Ok((room, path))
 }
 
 /// Says so where a file is to be written and a directory stands.

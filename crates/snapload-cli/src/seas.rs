@@ -1,7 +1,7 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
 use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::structure_input::{Answers, StructureArgs};
+use crate::structure_input::{Answers, StructureArgs, ending};
 use snapload_structure::{SeaOutcome, Seas, end_words, note, seas};
 use std::io;
 use std::path::PathBuf;
@@ -28,26 +28,14 @@ pub(crate) struct Args {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, structure) = args.input.read()?;
-    let ending = |path: &PathBuf| {
-        path.extension()
-            .and_then(|ending| ending.to_str())
-            .map(str::to_owned)
-    };
-    let ending = args.out.as_ref().map(|path| (path, ending(path)));
-    if let Some((path, ending)) = &ending
-        && !matches!(ending.as_deref(), Some("html" | "csv"))
-    {
-        return Err(Failure::BadInput(format!(
-            "--out {}: allowed is a name that ends in .html or .csv",
-            path.display()
-        )));
-    }
+    let out = args.out.as_deref();
+    let ending = out.map(|path| ending(path, &["html", "csv"])).transpose()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let bar = Bar::counting();
     let result = seas(structure, args.seeds, &|progress| bar.show(progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
-    match ending.and_then(|(_, ending)| ending).as_deref() {
+    match ending {
         None => {}
         Some("csv") => answers.write(|out| table(&result, out))?,
         Some(_) => {
@@ -70,6 +58,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         "snaps",
         "fastest_snap_m_s",
         "peak_tension_n",
+        "largest_tension_n",
         "slack_fraction",
     ])?;
     for SeaOutcome { seed, outcome } in &seas.records {
@@ -82,6 +71,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
             outcome.snaps().to_string(),
             outcome.speed_m_s().to_string(),
             peak.unwrap_or_default(),
+            outcome.largest_n().to_string(),
             slack.fold(0.0, f64::max).to_string(),
         ])?;
     }

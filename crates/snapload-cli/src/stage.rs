@@ -2,7 +2,7 @@
 //! then renamed into their places.
 use crate::failure::Failure;
 use crate::interrupt::leftovers;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -87,8 +87,7 @@ impl Stage {
         let mut leftovers = leftovers();
         let mut placed = Vec::new();
         for (scratch, target) in std::mem::take(&mut self.files) {
-            fs::rename(&scratch, &target)
-                .map_err(|error| Failure::write(target.display(), &error))?;
+            put(&scratch, &target).map_err(|error| Failure::write(target.display(), &error))?;
             placed.push(target);
         }
         leftovers.new.clear();
@@ -101,6 +100,15 @@ impl Drop for Stage {
     fn drop(&mut self) {
         leftovers().clear();
     }
+}
+
+/// Puts a file in its place; into what is no plain file, such as a device or a pipe, it is written.
+fn put(scratch: &Path, target: &Path) -> io::Result<()> {
+    if target.exists() && !target.is_file() {
+        let mut to = OpenOptions::new().write(true).open(target)?;
+        return io::copy(&mut File::open(scratch)?, &mut to).map(drop);
+    }
+    fs::rename(scratch, target)
 }
 
 /// The directories that have to be created for this one, outermost first.

@@ -1,7 +1,7 @@
 //! What the verbs for structures have in common: which case, and where the answers go.
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
-use crate::json::{Json, room_of};
+use crate::json::{Json, is_same_file, room_of};
 use crate::stage::{Room, Stage};
 use serde::Serialize;
 use snapload::Entries;
@@ -33,7 +33,15 @@ impl StructureArgs {
         let name = path.display().to_string();
         let mut entries = Entries::parse(&STRUCTURE, &name, &read_text(path)?)?;
         self.set.iter().try_for_each(|text| entries.set(text))?;
-        Ok((name, Structure::from_entries(&entries)?))
+        let structure = Structure::from_entries(&entries).map_err(|error| {
+            let located = entries.locate(error);
+            // A key that is left out has no line; the file it is missing from is known.
+            match located.place {
+                Some(_) => located,
+                None => located.at(name.clone()),
+            }
+        });
+        Ok((name, structure?))
     }
 
     /// The command that reads it again.
@@ -45,6 +53,17 @@ impl StructureArgs {
         }
         command
     }
+}
+
+/// The ending of a file that is asked for, one of those allowed.
+pub(crate) fn ending(path: &Path, allowed: &[&'static str]) -> Result<&'static str, Failure> {
+    let given = path.extension().and_then(|ending| ending.to_str());
+    let known = allowed.iter().find(|ending| given == Some(**ending));
+    known.copied().ok_or_else(|| {
+        let names = allowed.join(" or .");
+        let path = path.display();
+        Failure::BadInput(format!("--out {path}: allowed is a name that ends in .{names}"))
+    })
 }
 
 /// Where the answers of a verb go: a file, JSON, standard output.
@@ -60,9 +79,16 @@ impl Answers {
         let mut stage = Stage::default();
         let json = Json::open(&mut stage, json)?;
         let file = match out {
-            Some(path) => Some((room_of(&mut stage, path)?, path.to_owned())),
+            Some(path) => Some(room_of(&mut stage, path)?),
             None => None,
         };
+        if let (Json::File(_, json), Some((_, file))) = (&json, &file)
+            && is_same_file(json, file)
+        {
+            let path = file.display();
+            let message = format!("--out and --json: both name {path}; allowed are two files");
+            return Err(Failure::BadInput(message));
+        }
         Ok(Self { stage, json, file })
     }
 

@@ -60,6 +60,27 @@ pub struct LineSi {
 }
 
 impl BodySi {
+    /// How long it is across the plane, of which the case says nothing but the volume \[m\].
+    pub fn length_m(&self) -> f64 {
+        let outline = match self.outline {
+            Outline::Circle => PI * self.width_m * self.width_m / 4.0,
+            Outline::Rectangle => self.width_m * self.height_m,
+        };
+        self.displaced_volume_m3 / outline
+    }
+
+    /// Whether a point of the plane is on the body at its position or within it, to a thousandth.
+    pub fn reaches(&self, [x, z]: [f64; 2]) -> bool {
+        let [right, up] = [x - self.position_m[0], z - self.position_m[1]];
+        let most = 0.501;
+        match self.outline {
+            Outline::Circle => right.hypot(up) <= most * self.width_m,
+            Outline::Rectangle => {
+                right.abs() <= most * self.width_m && up.abs() <= most * self.height_m
+            }
+        }
+    }
+
     /// Half of its size in z, turned by θ \[m\].
     pub fn half_height_m(&self, theta_rad: f64) -> f64 {
         let (sine, cosine) = theta_rad.sin_cos();

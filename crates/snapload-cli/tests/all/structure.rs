@@ -88,7 +88,50 @@ fn bad_input_is_told_and_ends_with_2() {
         .assert()
         .code(2)
         .stderr(contains(".html or .csv"));
+    snapload(room.path())
+        .args(["assess", "cylinder.toml", "--out", "note.pdf"])
+        .assert()
+        .code(2)
+        .stderr(contains("--out note.pdf").and(contains("ends in .html")));
+    snapload(room.path())
+        .args(["assess", "cylinder.toml", "--out", "a.html"])
+        .args(["--json", "./a.html"])
+        .assert()
+        .code(2)
+        .stderr(contains("both name").and(contains("a.html")));
+    let text = fs::read_to_string(room.path().join("cylinder.toml")).unwrap();
+    let text = text.replace("displaced_volume = 141.37", "");
+    fs::write(room.path().join("cylinder.toml"), text).unwrap();
+    snapload(room.path())
+        .args(["assess", "cylinder.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("cylinder.toml").and(contains("displaced_volume")));
     assert_eq!(listing(room.path()), ["cylinder-sea.toml", "cylinder.toml"]);
+}
+
+/// What stands behind a link is replaced and the link kept; a device is written into.
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_devices_written_into() {
+    use std::os::unix::fs::{FileTypeExt, symlink};
+    let room = room();
+    let at = |name: &str| room.path().join(name);
+    fs::create_dir(at("far")).unwrap();
+    fs::write(at("far/note.html"), "before").unwrap();
+    symlink(at("far/note.html"), at("note.html")).unwrap();
+    symlink("/dev/null", at("nowhere.html")).unwrap();
+    for out in ["note.html", "nowhere.html"] {
+        snapload(room.path())
+            .args(["assess", "cylinder.toml", "--out", out])
+            .args(["--set", "run.duration=120", "--neighbours", "0", "--no-scan"])
+            .assert()
+            .success();
+        assert!(at(out).is_symlink(), "{out}");
+    }
+    assert!(fs::read_to_string(at("far/note.html")).unwrap().contains("Assumptions"));
+    let device = fs::metadata("/dev/null").unwrap();
+    assert!(device.file_type().is_char_device());
 }
 
 /// A structure given to `run` leads to `assess`.

@@ -14,6 +14,7 @@ use crate::runs::seas::Seas;
 use crate::structure::{Outline, Structure, Water};
 use askama::Template;
 use snapload_figures::{FigureError, Picture};
+use std::cmp::Ordering;
 use std::fmt;
 
 /// Readable on a phone, in print, in light and dark.
@@ -72,7 +73,13 @@ pub fn page(
     let verdict = assessment.verdict();
     let mut hardest: Vec<&Snap> = assessment.judged().collect();
     let all = hardest.len();
-    hardest.sort_by(|a, b| b.effective_speed_m_s.total_cmp(&a.effective_speed_m_s));
+    // What governs is the peak, where it is known; in front of it, what part of its own line it is.
+    let governs = |snap: &Snap| (snap.utilisation, snap.peak_n, snap.effective_speed_m_s);
+    hardest.sort_by(|a, b| {
+        governs(b)
+            .partial_cmp(&governs(a))
+            .unwrap_or(Ordering::Equal)
+    });
     hardest.truncate(LISTED);
     hardest.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
     let scanned = scan.map(|scan| plots::of_scan(scan, &prepared.structure));
@@ -83,7 +90,7 @@ pub fn page(
         class: match verdict.standing {
             Standing::Holds => "holds",
             Standing::Breaks | Standing::Exceeds => "fails",
-            Standing::Unknown => "open",
+            Standing::Unknown | Standing::Open => "open",
         },
         note: assessment,
         structure: &prepared.structure,
@@ -110,6 +117,7 @@ pub fn seas_page(name: &str, command: &str, seas: &Seas) -> Result<String, Figur
         name,
         command,
         class: match seas.failing() {
+            _ if seas.is_open() => "open",
             None => "open",
             Some(share) if share.count > 0 => "fails",
             Some(_) => "holds",

@@ -250,7 +250,7 @@ pub(super) fn of_scan(scan: &Scan, structure: &Structure) -> Result<Picture, Fig
 /// Largest tensions on Gumbel's paper, where his distribution is a straight line, and how often
 /// tensions are exceeded; speeds where tensions are not known.
 pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
-    let peaks = seas.peaks_n();
+    let peaks = seas.largest_n();
     let (all, fit, unit, label) = match &peaks {
         Some(_) => {
             let fit = seas.peak_in_three_hours();
@@ -287,7 +287,7 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
         ("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
     ];
     let gumbel = plot(
-        "Largest snap of each record on Gumbel's paper",
+        "The largest of each record on Gumbel's paper",
         axes,
         layers,
     );

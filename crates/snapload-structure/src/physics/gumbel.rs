@@ -29,6 +29,9 @@ pub struct Estimate {
 }
 
 impl Gumbel {
+    /// A smaller sample is not fitted.
+    pub const FEWEST: usize = 3;
+
     /// The fit to a sample of at least three values that are not all equal:
     ///
     /// ```text
@@ -39,7 +42,7 @@ impl Gumbel {
     /// (1990) 105.
     pub fn fit(sample: &[f64]) -> Option<Self> {
         let count = sample.len();
-        if count < 3 {
+        if count < Self::FEWEST {
             return None;
         }
         let mut sorted = sample.to_vec();

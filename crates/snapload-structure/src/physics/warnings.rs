@@ -3,7 +3,7 @@
 
 use super::equilibrium::Equilibrium;
 use super::wave::LinearWave;
-use crate::structure::{Structure, Water};
+use crate::structure::{LineSi, Structure, Water};
 use crate::words::paragraph;
 use askama::Template;
 use serde::Serialize;
@@ -20,6 +20,10 @@ const KEULEGAN: f64 = 5.0;
 const DIFFRACTION: f64 = 0.2;
 /// Lines with more than this part of the mass that moves are not massless.
 const LIGHT: f64 = 0.1;
+/// A body is so many times as long across the plane as it is wide, or as wide as it is long, at most.
+const PROPORTION: f64 = 100.0;
+/// A line may be so many times as long as its ends are apart where the case has the body.
+const LONG: f64 = 3.0;
 /// A phase of the wave that is off by this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
@@ -30,6 +34,17 @@ pub struct Warning {
     pub rule: &'static str,
     /// What is the matter, with the numbers.
     pub message: String,
+    /// Where tensions of inextensible lines are not to be relied on, the command that decides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decided_by: Option<&'static str>,
+}
+
+/// What decides where a rule is broken that the tensions of inextensible lines hang on.
+fn decided_by(rule: &str) -> Option<&'static str> {
+    match rule {
+        "instant snap" | "shared loads" => Some("snapload elastic"),
+        _ => None,
+    }
 }
 
 #[derive(Template)]
@@ -47,6 +62,7 @@ fn broken(is: bool, rule: &'static str, [a, b]: [f64; 2], words: &str) -> Option
     is.then(|| Warning {
         rule,
         message: paragraph(&message),
+        decided_by: decided_by(rule),
     })
 }
 
@@ -74,7 +90,31 @@ pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
     let part = masses.sum::<f64>() / structure.moving_mass_kg();
     found.push(above(LIGHT, part, "light lines", ""));
+    found.extend(implausible(structure));
     found.into_iter().flatten().collect()
+}
+
+/// What can be computed and is hardly meant.
+fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
+    let body = &structure.body;
+    let (length, size) = (body.length_m(), body.width_m.max(body.height_m));
+    let odd = !(size / PROPORTION..=size * PROPORTION).contains(&length);
+    let numbered = || structure.lines.iter().zip(1..);
+    let listed = |numbers: Vec<String>| numbers.join(", ");
+    let outside = numbered().filter(|(line, _)| !body.reaches(line.fairlead_m));
+    let outside = listed(outside.map(|(_, number)| number.to_string()).collect());
+    let slack = |line: &LineSi| {
+        let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
+        line.length_m / x.hypot(z)
+    };
+    let long = numbered().filter(|(line, _)| slack(line) > LONG);
+    let long = long.map(|(line, number)| format!("line {number} {:.1} times", slack(line)));
+    let long = listed(long.collect());
+    [
+        broken(odd, "proportions", [length, size], ""),
+        broken(!outside.is_empty(), "fairleads", [0.0; 2], &outside),
+        broken(!long.is_empty(), "long lines", [0.0; 2], &long),
+    ]
 }
 
 /// The same in waves, of which the highest is so high.

@@ -78,7 +78,9 @@ impl Seas {
             })),
             "snaps_in_three_hours": self.snaps_in_three_hours(),
             "slack_fraction": self.slack_fractions(),
-            "peaks_n": self.peaks_n(),
+            "warnings": self.warnings,
+            "largest_tensions_n": self.largest_n(),
+            "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
             "fastest_m_s": self.speeds_m_s(),
         })
     }

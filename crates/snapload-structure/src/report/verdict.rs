@@ -2,6 +2,7 @@
 
 use crate::physics::gumbel::Gumbel;
 use crate::physics::snap::Snap;
+use crate::physics::warnings::Warning;
 use crate::runs::assess::{Assessment, quantile, sorted};
 use crate::runs::outcome::Outcome;
 use crate::runs::seas::Seas;
@@ -24,6 +25,8 @@ pub enum Standing {
     Exceeds,
     /// A tension or a breaking load is not known.
     Unknown,
+    /// A rule is broken that tensions hang on: another command decides.
+    Open,
 }
 
 /// The answer.
@@ -63,6 +66,10 @@ struct VerdictWords<'a> {
     transient_s: f64,
     /// The hardest snap that is not judged, where it is harder than those that are.
     early: Option<&'a Snap>,
+    /// The rules that leave it open, and what decides.
+    open: Option<(String, &'static str)>,
+    /// Whether the run ended before anything is judged.
+    unjudged: bool,
 }
 
 #[derive(Template)]
@@ -90,6 +97,17 @@ struct SeasWords {
     fastest_m_s: f64,
     median_m_s: f64,
     failing: Option<Share>,
+    /// The rules that leave it open, and what decides.
+    open: Option<(String, &'static str)>,
+    /// Whether there are too few records for a fit, whatever they hold.
+    few: bool,
+}
+
+/// The broken rules that tensions hang on, and what decides.
+fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
+    let deciding = warnings.iter().filter_map(|w| Some((w.rule, w.decided_by?)));
+    let (rules, commands): (Vec<_>, Vec<_>) = deciding.unzip();
+    Some((rules.join(" and "), *commands.first()?))
 }
 
 impl Assessment {
@@ -113,8 +131,11 @@ impl Assessment {
             });
         let broken: Vec<_> = broken.collect();
         let all_known = known.len() == outcome.lines.len();
+        let open = left_open(&self.warnings);
         let standing = if outcome.stop.exceeds() {
             Standing::Exceeds
+        } else if open.is_some() {
+            Standing::Open
         } else if !broken.is_empty() {
             Standing::Breaks
         } else if outcome.stop == Stop::ImpactLimit || !all_known {
@@ -137,6 +158,8 @@ impl Assessment {
             broken,
             transient_s: structure.transient_s,
             early: hardest.filter(harder),
+            open,
+            unjudged: outcome.end_s <= structure.transient_s,
         };
         Verdict {
             standing,
@@ -160,6 +183,11 @@ impl Assessment {
 }
 
 impl Seas {
+    /// Whether a rule is broken that tensions hang on.
+    pub fn is_open(&self) -> bool {
+        left_open(&self.warnings).is_some()
+    }
+
     /// The answer in a sentence or two.
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter());
@@ -173,6 +201,8 @@ impl Seas {
             fastest_m_s: speeds.last().copied().unwrap_or(0.0),
             median_m_s: quantile(&speeds, 0.5).unwrap_or(0.0),
             failing: self.failing(),
+            open: left_open(&self.warnings),
+            few: self.records.len() < Gumbel::FEWEST,
         })
     }
 }

@@ -63,6 +63,12 @@ impl Outcome {
         peaks.reduce(f64::max)
     }
 
+    /// The largest tension of any line, in a snap as far as that is known or while it is taut \[N\].
+    pub fn largest_n(&self) -> f64 {
+        let held = self.lines.iter().map(|line| line.held_n);
+        held.fold(self.peak_n().unwrap_or(0.0), f64::max)
+    }
+
     /// The fastest snap of any line \[m/s\].
     pub fn speed_m_s(&self) -> f64 {
         let speeds = self.lines.iter().map(|line| line.speed_m_s);

@@ -4,6 +4,7 @@ use super::assess::sorted;
 use super::outcome::Outcome;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
+use crate::physics::warnings::{Warning, warnings};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use snapload::analysis::{Counter, OnProgress, Share, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
@@ -22,6 +23,8 @@ pub struct SeaOutcome {
 pub struct Seas {
     /// The structure, with the first seed.
     pub prepared: Prepared,
+    /// Rules of thumb that the case breaks.
+    pub warnings: Vec<Warning>,
     /// By seed.
     pub records: Vec<SeaOutcome>,
 }
@@ -48,7 +51,11 @@ pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result
         counter.add(1)?;
         Ok::<_, Unfinished>(SeaOutcome { seed, outcome })
     })?;
-    Ok(Seas { records, prepared })
+    Ok(Seas {
+        records,
+        warnings: warnings(&prepared.structure, &prepared.rest),
+        prepared,
+    })
 }
 
 impl Seas {
@@ -57,14 +64,12 @@ impl Seas {
         self.records.iter().map(|record| &record.outcome)
     }
 
-    /// The largest tension of each record in a snap, 0 where none snaps; none if tensions are not
-    /// known \[N\].
-    pub fn peaks_n(&self) -> Option<Vec<f64>> {
-        let peaks = self
-            .outcomes()
-            .map(|outcome| outcome.peak_n().unwrap_or(0.0));
+    /// The largest tension of each record, in a snap or held; none if tensions of snaps are not known
+    /// \[N\].
+    pub fn largest_n(&self) -> Option<Vec<f64>> {
+        let largest = self.outcomes().map(Outcome::largest_n);
         let known = self.prepared.structure.tensions_known();
-        known.then(|| peaks.collect())
+        known.then(|| largest.collect())
     }
 
     /// The fastest snap of each record \[m/s\].
@@ -75,7 +80,7 @@ impl Seas {
     /// The distribution of the largest tension in three hours, if the records are long enough to
     /// have snaps in all of them \[N\].
     pub fn peak_in_three_hours(&self) -> Option<Gumbel> {
-        self.in_three_hours(&self.peaks_n()?)
+        self.in_three_hours(&self.largest_n()?)
     }
 
     /// The same of the fastest snap \[m/s\].

@@ -8,4 +8,5 @@ mod equilibrium;
 mod manual;
 mod moordyn;
 mod physics;
+mod verdicts;
 mod waves;
