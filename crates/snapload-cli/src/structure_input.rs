@@ -62,7 +62,9 @@ pub(crate) fn ending(path: &Path, allowed: &[&'static str]) -> Result<&'static s
     known.copied().ok_or_else(|| {
         let names = allowed.join(" or .");
         let path = path.display();
-        Failure::BadInput(format!("--out {path}: allowed is a name that ends in .{names}"))
+        Failure::BadInput(format!(
+            "--out {path}: allowed is a name that ends in .{names}"
+        ))
     })
 }
 

@@ -54,7 +54,10 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         let allowed = format!("a number, 0 < ghost <= {FARTHEST}, or null");
         return Err(CaseError::value("ghost", Value::Number(by), allowed).into());
     }
-    if let Some([from, to]) = request.window.filter(|[from, to]| !(0.0 <= *from && from < to)) {
+    if let Some([from, to]) = request
+        .window
+        .filter(|[from, to]| !(0.0 <= *from && from < to))
+    {
         let allowed = "two times, 0 <= from < to, or null";
         return Err(CaseError::value("window", format!("[{from}, {to}]"), allowed).into());
     }

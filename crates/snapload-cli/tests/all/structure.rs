@@ -124,12 +124,22 @@ fn links_are_followed_and_devices_written_into() {
     for out in ["note.html", "nowhere.html"] {
         snapload(room.path())
             .args(["assess", "cylinder.toml", "--out", out])
-            .args(["--set", "run.duration=120", "--neighbours", "0", "--no-scan"])
+            .args([
+                "--set",
+                "run.duration=120",
+                "--neighbours",
+                "0",
+                "--no-scan",
+            ])
             .assert()
             .success();
         assert!(at(out).is_symlink(), "{out}");
     }
-    assert!(fs::read_to_string(at("far/note.html")).unwrap().contains("Assumptions"));
+    assert!(
+        fs::read_to_string(at("far/note.html"))
+            .unwrap()
+            .contains("Assumptions")
+    );
     let device = fs::metadata("/dev/null").unwrap();
     assert!(device.file_type().is_char_device());
 }

@@ -286,11 +286,7 @@ pub(super) fn of_seas(seas: &Seas) -> Result<[Picture; 2], FigureError> {
         (label, Range::Auto),
         ("−ln(−ln *P*)", Range::AtLeast(-1.6, 4.8)),
     ];
-    let gumbel = plot(
-        "The largest of each record on Gumbel's paper",
-        axes,
-        layers,
-    );
+    let gumbel = plot("The largest of each record on Gumbel's paper", axes, layers);
     let exceedance = exceedance(seas, &all, unit, label);
     Ok([
         draw("gumbel", Width::Column, &[gumbel])?,

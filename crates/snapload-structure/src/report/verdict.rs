@@ -105,7 +105,9 @@ struct SeasWords {
 
 /// The broken rules that tensions hang on, and what decides.
 fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
-    let deciding = warnings.iter().filter_map(|w| Some((w.rule, w.decided_by?)));
+    let deciding = warnings
+        .iter()
+        .filter_map(|w| Some((w.rule, w.decided_by?)));
     let (rules, commands): (Vec<_>, Vec<_>) = deciding.unzip();
     Some((rules.join(" and "), *commands.first()?))
 }

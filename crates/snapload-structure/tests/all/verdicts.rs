@@ -31,7 +31,11 @@ fn soft_lines_leave_the_verdict_open() {
     assert_eq!(rule.unwrap().decided_by, Some("snapload elastic"));
     let verdict = open.verdict();
     assert_eq!(verdict.standing, Standing::Open);
-    assert!(verdict.words.contains("snapload elastic decides"), "{}", verdict.words);
+    assert!(
+        verdict.words.contains("snapload elastic decides"),
+        "{}",
+        verdict.words
+    );
     assert!(!verdict.words.contains("No line breaks") && !verdict.words.contains("Would break"));
     assert!(!open.trust_words().contains("not in doubt"));
 }
@@ -68,9 +72,21 @@ fn what_a_line_holds_is_among_the_largest() {
     let calm = text.replace("hs = 1.2", "hs = 0.05");
     let calm = seas(structure(&calm), 4, &unwatched).unwrap();
     let held = calm.largest_n().unwrap();
-    let rest = calm.prepared.rest.tension_n.iter().fold(0.0_f64, |a, b| a.max(*b));
-    assert!(calm.records.iter().all(|record| record.outcome.snaps() == 0));
-    assert!(held.iter().all(|largest| *largest >= rest), "{held:?} {rest}");
+    let rest = calm
+        .prepared
+        .rest
+        .tension_n
+        .iter()
+        .fold(0.0_f64, |a, b| a.max(*b));
+    assert!(
+        calm.records
+            .iter()
+            .all(|record| record.outcome.snaps() == 0)
+    );
+    assert!(
+        held.iter().all(|largest| *largest >= rest),
+        "{held:?} {rest}"
+    );
     assert!(calm.peak_in_three_hours().is_some());
 }
 
@@ -83,11 +99,18 @@ fn too_few_records_are_not_too_few_snaps() {
 
 #[test]
 fn what_is_hardly_meant_is_told() {
-    assert!(!rules(EXAMPLE).iter().any(|rule| ["proportions", "fairleads", "long lines"].contains(rule)));
+    assert!(
+        !rules(EXAMPLE)
+            .iter()
+            .any(|rule| ["proportions", "fairleads", "long lines"].contains(rule))
+    );
     // A comma in the wrong place: a body of 3 mm, which is then twenty thousand kilometres long.
     let thin = EXAMPLE.replace("width = 3 ", "width = 0.003 ");
     let told = rules(&thin);
-    assert!(told.contains(&"proportions") && told.contains(&"fairleads"), "{told:?}");
+    assert!(
+        told.contains(&"proportions") && told.contains(&"fairleads"),
+        "{told:?}"
+    );
     let long = EXAMPLE.replacen("length = 6", "length = 60", 1);
     assert!(rules(&long).contains(&"long lines"));
 }
@@ -96,5 +119,9 @@ fn what_is_hardly_meant_is_told() {
 fn a_run_that_ends_at_once_says_so() {
     let text = EXAMPLE.replace("[run]", "[run]\nmax_snaps = 1");
     let verdict = assess(structure(&text), 0, &unwatched).unwrap().verdict();
-    assert!(verdict.words.contains("ended before the 60 s were over"), "{}", verdict.words);
+    assert!(
+        verdict.words.contains("ended before the 60 s were over"),
+        "{}",
+        verdict.words
+    );
 }
