@@ -69,7 +69,7 @@ fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
     table.write_record(names.into_iter().chain(tensions))?;
     for look in &both.elastic.looks {
         let state = &look.state;
-        let [x, z] = both.prepared.model.scales.to_si([state.x, state.y]);
+        let [x, z] = both.sprung.model.scales.to_si([state.x, state.y]);
         let place = [look.t_s, x, z, 0.0 - state.theta];
         let row = place.iter().chain(&look.tension_n);
         table.write_record(row.map(f64::to_string))?;

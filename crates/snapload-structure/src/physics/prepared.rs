@@ -29,18 +29,23 @@ impl Prepared {
     pub fn new(structure: Structure) -> Result<Self, CaseError> {
         let rest = equilibrium(&structure)?;
         let model = model_at_rest(&structure, &rest);
+        let prepared = Self::starting(structure, rest, model);
+        prepared.begin(1.0)?;
+        Ok(prepared)
+    }
+
+    /// A structure with its place of rest and the model about it, at its start.
+    pub(super) fn starting(structure: Structure, rest: Equilibrium, model: Model) -> Self {
         let start = match structure.start_m {
             Some(place) => model.at_rest(place, 0.0),
             None => model.at_rest(rest.place_m, rest.theta_rad),
         };
-        let prepared = Self {
+        Self {
             structure,
             rest,
             model,
             start,
-        };
-        prepared.begin(1.0)?;
-        Ok(prepared)
+        }
     }
 
     /// The same structure in another sea; where it rests stays.

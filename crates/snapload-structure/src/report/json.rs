@@ -97,7 +97,8 @@ impl BothModels {
                 "spring_rate_n_m": rate,
                 "damping_n_s_m": damping,
                 "slack_fraction": self.elastic.slack_fraction(index),
-                "peak_n": self.elastic.peak_n(index),
+                "peak_n": self.elastic.peaks_n[index],
+                "rest_tension_n": self.sprung.rest.tension_n[index],
                 "breaking_load_n": structure.lines[index].breaking_load_n,
             })
         });

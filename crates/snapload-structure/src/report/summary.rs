@@ -109,7 +109,10 @@ impl BothModels {
         let all = pulls.len().max(snaps.len());
         let lines = self.springs.iter().enumerate().map(|(line, spring)| {
             let [rate, damping] = self.si(spring);
-            let (slack, peak) = (self.elastic.slack_fraction(line), self.elastic.peak_n(line));
+            let (slack, peak) = (
+                self.elastic.slack_fraction(line),
+                self.elastic.peaks_n[line],
+            );
             [rate, damping, slack, self.slack_fraction[line], peak]
         });
         let e = self.prepared.structure.restitution;

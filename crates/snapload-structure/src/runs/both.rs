@@ -17,6 +17,8 @@ pub struct BothModels {
     pub stiffer: f64,
     /// The lines that stretch.
     pub springs: Vec<Spring>,
+    /// The same about its place of rest on them.
+    pub sprung: Prepared,
     /// The motion on them.
     pub elastic: ElasticRun,
     /// Time that its computation took \[s\].
@@ -29,8 +31,8 @@ pub struct BothModels {
     pub inextensible_took_s: f64,
 }
 
-/// Runs a structure on lines `stiffer` times as stiff as they are, and on lines that do not
-/// stretch; the motion on the former is kept every `every_s` seconds.
+/// Runs a structure on lines `stiffer` times as stiff as they are, from its place of rest on them
+/// unless the case starts elsewhere, and on lines that do not stretch; the motion on the former is kept every `every_s` seconds.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the integrator gives up, and
@@ -43,7 +45,8 @@ pub fn both_models(
 ) -> Result<BothModels, Unfinished> {
     let springs = springs(&prepared, stiffer)?;
     let clock = Instant::now();
-    let elastic = run_elastic(&prepared, &springs, every_s, on_progress)?;
+    let sprung = prepared.on_springs(&springs)?;
+    let elastic = run_elastic(&sprung, &springs, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
     let clock = Instant::now();
     let (snaps, slack_fraction) = inextensible(&prepared)?;
@@ -51,6 +54,7 @@ pub fn both_models(
         prepared,
         stiffer,
         springs,
+        sprung,
         elastic,
         elastic_took_s,
         snaps,

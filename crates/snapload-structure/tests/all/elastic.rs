@@ -198,3 +198,76 @@ fn a_body_at_rest_stays() {
         assert!((last / at_rest - 1.0).abs() < 1e-3, "{last} {at_rest}");
     }
 }
+
+/// In still water a body that begins at its place of rest on springs stays there, and each line
+/// holds what balances the buoyancy: on two lines alike half of it each, over the cosine of their
+/// slope.
+#[test]
+fn it_begins_where_it_rests_on_springs() {
+    let still = CYLINDER
+        .replace("height = 2 ", "height = 0 ")
+        .replace("[wave]\nheight = 2\nperiod = 6\n", "");
+    for stiffer in [0.1, 1.0, 100.0] {
+        let prepared = prepared(&still, &["run.duration=20", "run.transient=0"]);
+        let law = springs(&prepared, stiffer).expect("springs");
+        let sprung = prepared.on_springs(&law).expect("a place of rest");
+        let motion = run(&sprung, &law);
+        let (rest, scales) = (&sprung.rest, &sprung.model.scales);
+        let line = &sprung.structure.lines[0];
+        let fairlead = [0, 1]
+            .map(|k| line.fairlead_m[k] - sprung.structure.body.position_m[k] + rest.place_m[k]);
+        let along = [0, 1].map(|k| fairlead[k] - line.anchor_m[k]);
+        let slope = along[1] / along[0].hypot(along[1]);
+        let known = prepared.structure.net_buoyancy_n() / (2.0 * slope);
+        for tension in &rest.tension_n {
+            assert!((tension / known - 1.0).abs() < 1e-9, "{tension} {known}");
+        }
+        // As long as the force makes it.
+        let stretched = line.length_m + known / (line.spring_rate_n_m().unwrap() * stiffer);
+        assert!((along[0].hypot(along[1]) - stretched).abs() < 1e-9);
+        for (line, peak) in motion.peaks_n.iter().enumerate() {
+            assert!((peak / rest.tension_n[line] - 1.0).abs() < 1e-7, "{peak}");
+        }
+        let [x, z] = scales.to_si([motion.end.x, motion.end.y]);
+        assert!((x - rest.place_m[0]).hypot(z - rest.place_m[1]) < 1e-8);
+    }
+}
+
+/// Four lines of which two are a hair short: which carries how much follows from their stiffness,
+/// and hardly from the hair.
+#[test]
+fn lines_share_what_they_hold_by_their_stiffness() {
+    let line = |side: f64, length: f64, rate: f64| {
+        format!(
+            "[[line]]\nanchor = [{}, -20]\nfairlead = [{}, -5]\nlength = {length}\nspring_rate = {rate}\n",
+            2.0 * side,
+            2.0 * side
+        )
+    };
+    let case = |hair: f64| {
+        let lines = [
+            line(1.0, 15.0, 4e5),
+            line(1.0, 15.0 - hair, 1e5),
+            line(-1.0, 15.0, 4e5),
+            line(-1.0, 15.0 - hair, 1e5),
+        ];
+        let text = format!(
+            "[body]\nshape = \"rectangle\"\nheight = 1\nmass = 5000\nadded_mass = 3000\n\
+             displaced_volume = 8\nwidth = 4\nposition = [0, -5]\n{}[site]\ndepth = 21\n\
+             [run]\nduration = 2\n",
+            lines.concat()
+        );
+        let prepared = prepared(&text, &[]);
+        let law = springs(&prepared, 1.0).expect("springs");
+        prepared.on_springs(&law).expect("a place of rest")
+    };
+    let (even, short) = (case(0.0), case(3e-5));
+    let buoyancy = even.structure.net_buoyancy_n();
+    // Beside each other they stretch alike, and share as 4 to 1.
+    for (line, part) in [0.4, 0.1, 0.4, 0.1].into_iter().enumerate() {
+        assert!((even.rest.tension_n[line] / (part * buoyancy) - 1.0).abs() < 1e-6);
+        let hair = short.rest.tension_n[line] - even.rest.tension_n[line];
+        // A hair of 0.03 mm on 1e5 N/m is 3 N, of some kN.
+        assert!(hair.abs() < 3.0, "{hair}");
+    }
+}

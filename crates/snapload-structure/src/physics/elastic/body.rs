@@ -44,6 +44,17 @@ impl SprungBody<'_> {
         }
     }
 
+    /// The row (n, s) of a line and its stretch δ.
+    pub(super) fn row(&self, line: usize, state: &State) -> ([f64; 3], f64) {
+        let Stretch {
+            n: [x, y],
+            arm,
+            stretch,
+            ..
+        } = self.stretch(line, state);
+        ([x, y, arm], stretch)
+    }
+
     /// The lines that pull at a state.
     pub(super) fn pulling(&self, state: &State) -> TautSet {
         let pulls = |line: &usize| {

@@ -4,6 +4,7 @@ mod body;
 mod law;
 mod motion;
 mod record;
+mod rest;
 
 pub use law::{Spring, damping_ratio, springs};
 pub use motion::run_elastic;

@@ -198,7 +198,7 @@ pub fn run_elastic(
         system: &model.system,
         springs,
     };
-    let mut record = Record::new(&model.scales, &body, look_s);
+    let mut record = Record::new(prepared, &body, look_s);
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);

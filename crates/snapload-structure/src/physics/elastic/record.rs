@@ -2,6 +2,7 @@
 
 use super::body::SprungBody;
 use crate::physics::model::Scales;
+use crate::physics::prepared::Prepared;
 use crate::physics::snap::number_of_line;
 use serde::Serialize;
 use snapload::{State, TautSet};
@@ -48,15 +49,11 @@ pub struct ElasticRun {
     pub end_s: f64,
     /// The state then, in the engine's units.
     pub end: State,
+    /// The largest tension of each line after the transient \[N\].
+    pub peaks_n: Vec<f64>,
 }
 
 impl ElasticRun {
-    /// The largest tension of a line \[N\].
-    pub fn peak_n(&self, line: usize) -> f64 {
-        let pulls = self.pulls.iter().filter(|pull| pull.line == line);
-        pulls.fold(0.0, |peak, pull| pull.peak_n.max(peak))
-    }
-
     /// The part of the time in which a line does not pull.
     pub fn slack_fraction(&self, line: usize) -> f64 {
         let pulls = self.pulls.iter().filter(|pull| pull.line == line);
@@ -70,19 +67,25 @@ pub(super) struct Record<'a> {
     body: &'a SprungBody<'a>,
     look: f64,
     next: f64,
+    transient_s: f64,
     run: ElasticRun,
     /// The pull that each line is in, by its place among the pulls.
     open: Vec<Option<usize>>,
 }
 
 impl<'a> Record<'a> {
-    pub(super) fn new(scales: &'a Scales, body: &'a SprungBody<'a>, look_s: f64) -> Self {
+    pub(super) fn new(prepared: &'a Prepared, body: &'a SprungBody<'a>, look_s: f64) -> Self {
+        let scales = &prepared.model.scales;
         Self {
             scales,
             body,
             look: look_s / scales.time_s,
             next: 0.0,
-            run: ElasticRun::default(),
+            transient_s: prepared.structure.transient_s,
+            run: ElasticRun {
+                peaks_n: vec![0.0; body.springs.len()],
+                ..ElasticRun::default()
+            },
             open: vec![None; body.springs.len()],
         }
     }
@@ -97,6 +100,10 @@ impl<'a> Record<'a> {
         let t_s = t * self.scales.time_s;
         for line in pulling.iter() {
             let tension = self.tension_n(line, state);
+            if t_s >= self.transient_s {
+                let peak = &mut self.run.peaks_n[line];
+                *peak = peak.max(tension);
+            }
             if let Some(pull) = self.open[line].map(|place| &mut self.run.pulls[place])
                 && tension > pull.peak_n
             {

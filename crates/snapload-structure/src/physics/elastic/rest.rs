@@ -1,0 +1,140 @@
+//! Where the body rests on lines that stretch.
+//!
+//! Lines that pull have stretched, so the body rests higher than on lines that do not, and which of
+//! several lines carries how much follows from their stiffness. The place of rest is the least
+//! potential energy of buoyancy and springs,
+//!
+//! ```text
+//! V = −F·(x, y) + Σ ½ k_i max(δ_i, 0)²,    ∇V = −(F, 0) + Σ T_i (n_i, s_i),    T_i = k_i max(δ_i, 0)
+//! ```
+//!
+//! found by the method of Levenberg and Marquardt (J. Nocedal and S. Wright, *Numerical
+//! Optimization* (2006), chapter 4): Newton's step with as much of the identity added to the second
+//! derivatives as it takes to go down.
+
+use super::body::SprungBody;
+use super::law::Spring;
+use crate::physics::equilibrium::Equilibrium;
+use crate::physics::model::Model;
+use crate::physics::prepared::Prepared;
+use nalgebra::{Matrix3, Vector3};
+use snapload::{CaseError, State};
+
+/// A force that is left over, in the engine's units, at rest.
+const BALANCED: f64 = 1e-12;
+/// Steps of the search.
+const STEPS: usize = 400;
+/// Step of the differences that stand for second derivatives.
+const DIFFERENCE: f64 = 1e-6;
+/// What is added to the second derivatives at first, and at most.
+const DAMPING: [f64; 2] = [1e-6, 1e12];
+
+impl Prepared {
+    /// The same structure about its place of rest on springs, from which it starts unless the case
+    /// says otherwise; waves are those at that depth.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if it rests nowhere on them.
+    pub fn on_springs(&self, springs: &[Spring]) -> Result<Self, CaseError> {
+        let body = SprungBody {
+            system: &self.model.system,
+            springs,
+        };
+        let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
+        let rest = least_energy(&body, rest)?;
+        let place_m = self.model.scales.to_si([rest.x, rest.y]);
+        let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
+        let tension_n = (0..springs.len()).map(|line| tension(line) * self.model.scales.force_n);
+        let tension_n: Vec<f64> = tension_n.collect();
+        let taut = (0..springs.len()).filter(|&line| tension_n[line] > 0.0);
+        let rest = Equilibrium {
+            place_m,
+            theta_rad: -rest.theta,
+            taut: taut.collect(),
+            tension_n,
+            indeterminate: false,
+        };
+        let structure = self.structure.clone();
+        let model = Model::about(&structure, rest.place_m, &[]);
+        Ok(Self::starting(structure, rest, model))
+    }
+}
+
+/// V at a place, and ∇V.
+fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
+    let force = body.system.forcing.constant;
+    let mut energy = -(force.x * at.x + force.y * at.y);
+    let mut gradient = Vector3::new(-force.x, -force.y, 0.0);
+    for (line, spring) in body.springs.iter().enumerate() {
+        let (row, stretch) = body.row(line, at);
+        if stretch > 0.0 {
+            energy += 0.5 * spring.rate * stretch * stretch;
+            gradient += Vector3::from(row) * (spring.rate * stretch);
+        }
+    }
+    (energy, gradient)
+}
+
+fn moved(at: &State, step: &Vector3<f64>) -> State {
+    State {
+        x: at.x + step[0],
+        y: at.y + step[1],
+        theta: at.theta + step[2],
+        ..*at
+    }
+}
+
+/// The second derivatives of V, by differences of the first.
+fn curvature(body: &SprungBody, at: &State) -> Matrix3<f64> {
+    let mut curvature = Matrix3::zeros();
+    for k in 0..3 {
+        let mut step = Vector3::zeros();
+        step[k] = DIFFERENCE;
+        let (_, ahead) = energy(body, &moved(at, &step));
+        let (_, behind) = energy(body, &moved(at, &-step));
+        curvature.set_column(k, &((ahead - behind) / (2.0 * DIFFERENCE)));
+    }
+    (curvature + curvature.transpose()) * 0.5
+}
+
+fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
+    let mut at = start;
+    let [mut damping, most] = DAMPING;
+    let (mut least, mut gradient) = energy(body, &at);
+    for _ in 0..STEPS {
+        let scale = body.springs.iter().map(|spring| spring.rate).sum::<f64>();
+        if gradient.amax() <= BALANCED * scale.max(1.0) {
+            return Ok(at);
+        }
+        let second = curvature(body, &at);
+        loop {
+            let damped = second + Matrix3::identity() * (damping * scale.max(1.0));
+            let step = damped.lu().solve(&-gradient);
+            let tried = step.map(|step| moved(&at, &step));
+            if let Some(tried) = tried
+                && let (energy, slope) = energy(body, &tried)
+                // Close to rest V is the same but for rounding, and its slope decides.
+                && (energy < least || slope.amax() < 0.5 * gradient.amax())
+            {
+                (at, least, gradient) = (tried, energy, slope);
+                damping = (damping / 10.0).max(1e-15);
+                break;
+            }
+            damping *= 10.0;
+            if damping > most {
+                return nowhere(&gradient);
+            }
+        }
+    }
+    nowhere(&gradient)
+}
+
+fn nowhere(left: &Vector3<f64>) -> Result<State, CaseError> {
+    let shown = format!(
+        "(forces out of balance by {:.1e} of the buoyancy)",
+        left.amax()
+    );
+    let allowed = "lines that hold the body at rest as they stretch";
+    Err(CaseError::value("line.stiffness", shown, allowed)
+        .with_hint("give run.start, or look at the lines' stiffness and lengths"))
+}
