@@ -101,9 +101,12 @@ fn what_is_not_proved_is_said() {
         "{text}"
     );
     assert!(
-        text.contains("\n          no further: whether the length of cable "),
+        text.contains("\n          no further: the length of cable "),
         "{text}"
     );
+    let joined = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(joined.contains("and the length of cable "), "{text}");
+    assert!(joined.contains("all at one instant"), "{text}");
     assert!(!text.contains("the same in five digits"), "{text}");
 }
 
