@@ -254,7 +254,7 @@ fn lines_share_what_they_hold_by_their_stiffness() {
         let text = format!(
             "[body]\nshape = \"rectangle\"\nheight = 1\nmass = 5000\nadded_mass = 3000\n\
              displaced_volume = 8\nwidth = 4\nposition = [0, -5]\n{}[site]\ndepth = 21\n\
-             [run]\nduration = 2\n",
+             [run]\nrestitution = 0.5\nduration = 2\n",
             lines.concat()
         );
         let prepared = prepared(&text, &[]);
