@@ -21,7 +21,7 @@ def test_the_verdict_is_that_of_the_picture(open_page):
     expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
     expect(page.locator("#announced")).to_contain_text("Settled at t = 7.246")
     before = count(page)
-    page.locator("#slider-f_o").evaluate(SLIDE, 0.4)
+    page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
     settled(page, before)
     assert "Settled" not in page.locator("#said").inner_text()
     assert "Settled" in page.locator("#announced").inner_text(), "a screen reader is told once it rests"
@@ -79,7 +79,7 @@ def test_dragging_through_slow_runs_shows_some_of_them(open_page):
 
 def test_a_drag_with_shift_selects_no_text(open_page):
     page = open_page("t=0")
-    page.locator("#window-words").click()
+    page.locator("#caption").click()
     area = page.locator("#charts .over").first.bounding_box()
     page.keyboard.down("Shift")
     page.mouse.move(area["x"] + 100, area["y"] + 40)

@@ -30,8 +30,8 @@ const DIFFERENCE: f64 = 1e-6;
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
 impl Prepared {
-    /// The same structure about its place of rest on springs, from which it starts unless the case
-    /// says otherwise; waves are those at that depth.
+    /// The same structure about its place of rest on springs, from which it starts in the waves at
+    /// that depth, unless the case has a start of its own.
     ///
     /// # Errors
     /// A [`CaseError`] if it rests nowhere on them.
@@ -55,7 +55,11 @@ impl Prepared {
             indeterminate: false,
         };
         let structure = self.structure.clone();
-        let model = Model::about(&structure, rest.place_m, &[]);
+        // From a start of its own it is compared with lines that do not stretch, in the same waves.
+        let model = match structure.start_m {
+            Some(_) => self.model.clone(),
+            None => Model::about(&structure, rest.place_m, &[]),
+        };
         Ok(Self::starting(structure, rest, model))
     }
 }
