@@ -212,7 +212,7 @@ def test_the_map_is_beside_the_scene_and_tells_what_is_sure(open_page, command_j
         words = said.inner_text()
         f_o, e = (re.search(rf"{key} = ([\d.]+)", words)[1] for key in ["f_o", "e"])
         run = command_json("run", "--ensemble", "0", "--set", f"f_o={f_o}", "--set", f"e={e}")
-        certain = run["trust"]["horizon"]["t"] is None
+        certain = run["trust"]["t"] is None
         assert ("not certain" not in words) == certain, words
         told.add(certain)
         page.keyboard.press("ArrowRight")
