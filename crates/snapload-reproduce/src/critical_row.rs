@@ -1,8 +1,8 @@
 //! The rows of Table 6.2: what is published, what is proved of it, and what neighbours do.
 
-use crate::claims::Verdict;
 use crate::proved::{self, Proved};
-use crate::study::{Both, Reading, first_exceeding, of_shape};
+use crate::reading::{Both, Reading, TABLE_6_2, first_exceeding, of_shape};
+use crate::verdict::Verdict;
 use snapload::analysis::{
     CriticalForce, ExceedanceCurve, ForceScan, Uncertainty, Unfinished, unwatched,
 };
@@ -30,26 +30,6 @@ pub(crate) struct CriticalRow {
 
 /// Neighbours of each run of Table 6.2, 1e-12 away at the most.
 pub(crate) const NEIGHBOURS: u32 = 100;
-
-/// Table 6.2 as published: r, shape, half-sizes, f_cr.
-const TABLE_6_2: [(f64, &str, [f64; 2], f64); 16] = [
-    (1.5, "circle", [0.1, 0.0], 0.31),
-    (1.5, "circle", [0.2, 0.0], 0.42),
-    (1.5, "circle", [0.3, 0.0], 0.40),
-    (1.5, "square", [0.1, 0.1], 0.32),
-    (1.5, "square", [0.2, 0.2], 0.34),
-    (1.5, "square", [0.3, 0.3], 0.60),
-    (1.5, "rectangle", [0.2, 0.1], 0.68),
-    (1.5, "rectangle", [0.3, 0.1], 0.67),
-    (2.5, "circle", [0.1, 0.0], 0.10),
-    (2.5, "circle", [0.2, 0.0], 0.18),
-    (2.5, "circle", [0.3, 0.0], 0.30),
-    (2.5, "square", [0.1, 0.1], 0.28),
-    (2.5, "square", [0.2, 0.2], 0.33),
-    (2.5, "square", [0.3, 0.3], 0.35),
-    (2.5, "rectangle", [0.2, 0.1], 0.27),
-    (2.5, "rectangle", [0.3, 0.1], 0.35),
-];
 
 impl CriticalRow {
     /// Of all rows, in the order of the table.
@@ -92,11 +72,6 @@ impl CriticalRow {
     /// The body with all else as in the standard case.
     pub(crate) fn parameters(&self) -> Parameters {
         of_shape(self.r, self.size)
-    }
-
-    /// Its cases and published values: those of all rows.
-    pub(crate) fn published() -> [(Parameters, f64); 16] {
-        TABLE_6_2.map(|(r, _, size, published)| (of_shape(r, size), published))
     }
 
     /// The first amplitude that exceeds the limits by a time, and what is proved of it and of all

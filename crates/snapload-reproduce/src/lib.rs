@@ -10,11 +10,13 @@ mod figures;
 mod many_digits;
 mod page;
 mod proved;
+mod reading;
 mod sentences;
 mod source;
 mod story;
 mod study;
 mod tables;
+mod verdict;
 
 pub use proved::proofs;
 pub use story::stretches;

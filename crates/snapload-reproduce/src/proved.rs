@@ -3,8 +3,7 @@
 //!
 //! `cargo run --release -p snapload-reproduce --example prove` makes the files in `data` anew.
 
-use crate::critical_row::CriticalRow;
-use crate::study::Reading;
+use crate::reading::{Reading, published};
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Stop};
 use snapload_certificate::{Cancelled, Ended, ExactCase, Reason, certify};
@@ -122,7 +121,7 @@ pub fn proofs() -> Result<String, CaseError> {
         let lines = lines.filter_map(|case| Some(line(case, &Proved::anew(case)?)));
         Ok::<String, CaseError>(lines.collect())
     })?;
-    let rows = CriticalRow::published();
+    let rows = published();
     let of_table_6_2 = in_parallel(rows.len(), |k| {
         let (parameters, published) = rows[k];
         let found = amplitudes(&parameters, Proved::anew, published);
@@ -153,7 +152,7 @@ mod tests {
     /// Some of the proofs that are kept come out the same again; and the run of 76 digits is theirs.
     #[test]
     fn what_is_kept_is_proved_again() -> Result<(), CaseError> {
-        let rows = CriticalRow::published();
+        let rows = published();
         let of = |row: usize, f_o: f64| {
             let (parameters, _) = rows[row];
             Reading::Chapter.apply(Parameters { f_o, ..parameters })

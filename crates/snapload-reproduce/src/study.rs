@@ -3,75 +3,12 @@
 use crate::critical_row::CriticalRow;
 use crate::many_digits::Run;
 use crate::proved::Proved;
+pub(crate) use crate::reading::{Both, Reading};
+use crate::reading::{first_exceeding, standard, up_to_exceeding};
 use snapload::analysis::{
     ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, trusted_run, unwatched,
 };
-use snapload::{
-    Case, CaseError, Outcome, Parameters, Stop, Trajectory, Value, named_case, natural_inertia,
-    table_6_1,
-};
-
-/// How a run that begins to slide is read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Reading {
-    /// As the chapter's own studies did: the run ends there (6.3.1).
-    Chapter,
-    /// As it is: the motion slides on.
-    SlidingOn,
-}
-
-impl Reading {
-    /// Both, the chapter's first.
-    pub(crate) const BOTH: [Self; 2] = [Self::Chapter, Self::SlidingOn];
-
-    /// The first of two values in the chapter's reading, the second in the other.
-    pub(crate) fn either<T>(self, chapter: T, sliding_on: T) -> T {
-        match self {
-            Self::Chapter => chapter,
-            Self::SlidingOn => sliding_on,
-        }
-    }
-
-    /// The parameters, read so.
-    pub(crate) fn apply(self, parameters: Parameters) -> Parameters {
-        Parameters {
-            stop_when_sliding: self == Self::Chapter,
-            ..parameters
-        }
-    }
-
-    /// In words, as a heading.
-    pub(crate) fn words(self) -> &'static str {
-        self.either("sliding ends the run (the chapter)", "sliding goes on")
-    }
-
-    /// What to add to a command line.
-    pub(crate) fn option(self) -> &'static str {
-        self.either(" --set stop_when_sliding=true", "")
-    }
-}
-
-/// One of each reading.
-#[derive(Clone, Debug)]
-pub(crate) struct Both<T> {
-    pub(crate) chapter: T,
-    pub(crate) sliding_on: T,
-}
-
-impl<T> Both<T> {
-    pub(crate) fn try_new(
-        make: impl Fn(Reading) -> Result<T, Unfinished>,
-    ) -> Result<Self, Unfinished> {
-        Ok(Self {
-            chapter: make(Reading::Chapter)?,
-            sliding_on: make(Reading::SlidingOn)?,
-        })
-    }
-
-    pub(crate) fn of(&self, reading: Reading) -> &T {
-        reading.either(&self.chapter, &self.sliding_on)
-    }
-}
+use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
 
 /// A built-in case, its runs, and what is proved of them.
 #[derive(Clone, Debug)]
@@ -109,25 +46,6 @@ impl Known {
     /// Whether what happens at a time is known.
     pub(crate) fn is_known_at(&self, t: f64) -> bool {
         self.horizon.is_none_or(|horizon| t < horizon)
-    }
-}
-
-/// The standard case with cables of another length.
-fn standard(r: f64) -> Parameters {
-    Parameters {
-        r,
-        ..Parameters::STANDARD
-    }
-}
-
-/// The standard case with another body and cables.
-pub(crate) fn of_shape(r: f64, [a, b]: [f64; 2]) -> Parameters {
-    let inertia = natural_inertia(a, b);
-    Parameters {
-        a,
-        b,
-        inertia,
-        ..standard(r)
     }
 }
 
@@ -301,30 +219,4 @@ fn curve(
         key,
         points: Both::try_new(points)?,
     })
-}
-
-/// The outcomes of a case over the force amplitudes of a scan, up to the first that exceeds.
-fn up_to_exceeding(
-    parameters: &Parameters,
-    scan: ForceScan,
-) -> Result<Vec<(f64, Outcome)>, CaseError> {
-    let mut outcomes = Vec::new();
-    for f_o in scan.amplitudes() {
-        let outcome = Outcome::of(&Case::new(Parameters { f_o, ..*parameters })?);
-        outcomes.push((f_o, outcome));
-        if outcome.exceeds() {
-            break;
-        }
-    }
-    Ok(outcomes)
-}
-
-/// The first force amplitude of a scan that exceeds, with the reason; nothing beyond it is run.
-pub(crate) fn first_exceeding(
-    parameters: &Parameters,
-    scan: ForceScan,
-) -> Result<Option<(f64, Stop)>, CaseError> {
-    let last = up_to_exceeding(parameters, scan)?.pop();
-    let exceeding = last.filter(|(_, outcome)| outcome.exceeds());
-    Ok(exceeding.map(|(f_o, outcome)| (f_o, outcome.end.reason)))
 }

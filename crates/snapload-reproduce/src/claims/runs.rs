@@ -5,7 +5,8 @@ use super::verdict::{Finding, Verdict};
 use crate::ReportError;
 use crate::critical_row::CriticalRow;
 use crate::many_digits::Run;
-use crate::study::{CaseRuns, LARGEST, Reading, Study, first_exceeding};
+use crate::reading::first_exceeding;
+use crate::study::{CaseRuns, LARGEST, Reading, Study};
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{Case, CaseError, Outcome, Parameters, TautSet, Trajectory, table_6_1};
 

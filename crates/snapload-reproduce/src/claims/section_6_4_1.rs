@@ -11,7 +11,7 @@ use super::runs::{MANY, Tabled, case, chapter, each, measured, near, of_runs, ro
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::many_digits::Run;
-use crate::study::first_exceeding;
+use crate::reading::first_exceeding;
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Stop};
 use std::f64::consts::TAU;

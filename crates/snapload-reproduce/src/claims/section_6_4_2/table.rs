@@ -172,7 +172,7 @@ mod tests {
             t: "20.0".to_owned(),
             impacts: 9,
         };
-        let parameters = CriticalRow::published()[0].0;
+        let parameters = crate::reading::published()[0].0;
         let mut proved = amplitudes(&parameters, |case| Some(proof(case.f_o)), published);
         proved.truncate(40);
         Ok(CriticalRow {

@@ -4,7 +4,7 @@ use super::{STEADY, Sweeps, spread};
 use crate::claims::numbers::{min, spearman};
 use crate::claims::runs::{chapter, each, run, standard};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::study::first_exceeding;
+use crate::reading::first_exceeding;
 use snapload::analysis::ForceScan;
 use snapload::{Case, CaseError, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
 

@@ -1,0 +1,164 @@
+//! Verdicts, and how they combine.
+
+use serde::Deserialize;
+
+/// What the computation says of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The computation agrees.
+    Reproduced,
+    /// It disagrees.
+    NotReproduced,
+    /// It speaks of several families of cases, holds for some of them and fails for others.
+    Mixed,
+    /// It hangs on motion past the horizon: starts that differ by 1e-12 disagree.
+    NotDecidable,
+}
+
+impl Verdict {
+    /// Of a statement that either holds or does not.
+    pub(crate) fn of(holds: bool) -> Self {
+        if holds {
+            Self::Reproduced
+        } else {
+            Self::NotReproduced
+        }
+    }
+
+    /// Of a statement that holds for some members of an ensemble: all, none, or neither. Without
+    /// members nothing was shown.
+    pub(crate) fn robust(members: impl IntoIterator<Item = bool>) -> Self {
+        let (mut yes, mut no) = (false, false);
+        for holds in members {
+            yes |= holds;
+            no |= !holds;
+        }
+        match (yes, no) {
+            (true, false) => Self::Reproduced,
+            (true, true) => Self::NotDecidable,
+            _ => Self::NotReproduced,
+        }
+    }
+
+    /// Of a statement that holds if all its parts do. One part that surely fails decides it;
+    /// without parts nothing was shown.
+    pub(crate) fn all(parts: impl IntoIterator<Item = Self>) -> Self {
+        let worst = [Self::NotReproduced, Self::Mixed, Self::NotDecidable];
+        Self::first_of(worst, parts).unwrap_or(Self::Reproduced)
+    }
+
+    /// Of a statement that holds if one of its parts does.
+    pub(crate) fn any(parts: impl IntoIterator<Item = Self>) -> Self {
+        let best = [Self::Reproduced, Self::Mixed, Self::NotDecidable];
+        Self::first_of(best, parts).unwrap_or(Self::NotReproduced)
+    }
+
+    /// Of a statement that speaks of several families of cases, or that can be taken in several
+    /// ways: mixed where it holds for one and fails for another.
+    pub(crate) fn families(parts: impl IntoIterator<Item = Self>) -> Self {
+        let parts: Vec<Self> = parts.into_iter().collect();
+        let both = [Self::Reproduced, Self::NotReproduced];
+        if both.iter().all(|verdict| parts.contains(verdict)) {
+            Self::Mixed
+        } else {
+            Self::all(parts)
+        }
+    }
+
+    /// The first of three verdicts that is among some; the first of all of none.
+    fn first_of(order: [Self; 3], parts: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let parts: Vec<Self> = parts.into_iter().collect();
+        if parts.is_empty() {
+            return Some(Self::NotReproduced);
+        }
+        order.into_iter().find(|verdict| parts.contains(verdict))
+    }
+
+    /// How many came to this verdict.
+    pub(crate) fn count(self, verdicts: impl IntoIterator<Item = Self>) -> usize {
+        verdicts
+            .into_iter()
+            .filter(|verdict| *verdict == self)
+            .count()
+    }
+
+    /// As it is written in `claims.json` and in the report.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Reproduced => "reproduced",
+            Self::NotReproduced => "not reproduced",
+            Self::Mixed => "mixed",
+            Self::NotDecidable => "not decidable",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Verdict::{Mixed, NotDecidable, NotReproduced, Reproduced};
+    use super::*;
+
+    const ALL: [Verdict; 4] = [Reproduced, NotReproduced, Mixed, NotDecidable];
+
+    fn opposite(verdict: Verdict) -> Verdict {
+        match verdict {
+            Reproduced => NotReproduced,
+            NotReproduced => Reproduced,
+            neither => neither,
+        }
+    }
+
+    #[test]
+    fn the_negation_of_a_statement_gets_the_opposite_verdict() {
+        for members in [&[true, true][..], &[false], &[true, false], &[false, true]] {
+            let negated = members.iter().map(|holds| !holds);
+            let verdict = Verdict::robust(members.iter().copied());
+            assert_eq!(Verdict::robust(negated), opposite(verdict), "{members:?}");
+        }
+        assert_eq!(Verdict::of(false), opposite(Verdict::of(true)));
+    }
+
+    #[test]
+    fn a_false_statement_is_not_reproduced() {
+        assert_eq!(Verdict::of(false), NotReproduced);
+        assert_eq!(Verdict::robust([false, false]), NotReproduced);
+        assert_eq!(Verdict::robust([true, false]), NotDecidable);
+        assert_eq!(Verdict::robust([true, true]), Reproduced);
+    }
+
+    #[test]
+    fn one_failing_part_decides_all_and_one_that_holds_decides_any() {
+        for part in ALL {
+            assert_eq!(Verdict::all([part, NotReproduced]), NotReproduced);
+            assert_eq!(Verdict::all([Reproduced, part]), part);
+            assert_eq!(Verdict::any([part, Reproduced]), Reproduced);
+            assert_eq!(Verdict::any([NotReproduced, part]), part);
+            for other in ALL {
+                // not (p and q) = not p or not q
+                assert_eq!(
+                    opposite(Verdict::all([part, other])),
+                    Verdict::any([part, other].map(opposite))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_holds_for_some_families_and_fails_for_others_is_mixed() {
+        let families = |parts: &[Verdict]| Verdict::families(parts.iter().copied());
+        assert_eq!(families(&[Reproduced, NotReproduced]), Mixed);
+        assert_eq!(families(&[NotDecidable, NotReproduced, Reproduced]), Mixed);
+        assert_eq!(families(&[Reproduced, Reproduced]), Reproduced);
+        assert_eq!(families(&[NotReproduced]), NotReproduced);
+        assert_eq!(families(&[Reproduced, NotDecidable]), NotDecidable);
+        assert_eq!(families(&[]), NotReproduced);
+    }
+
+    #[test]
+    fn nothing_looked_at_shows_nothing() {
+        assert_eq!(Verdict::robust([]), NotReproduced);
+        assert_eq!(Verdict::all([]), NotReproduced);
+        assert_eq!(Verdict::any([]), NotReproduced);
+    }
+}
