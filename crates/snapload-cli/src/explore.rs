@@ -70,13 +70,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 /// Links hold the port, so that it is the same every time where nobody says otherwise; a second page
 /// beside the first has another.
 fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
-    let server = match port {
+    match port {
         Some(port) => Server::bind(port, start.clone()).map_err(|error| no_port(port, &error)),
         None => Server::bind(USUAL_PORT, start.clone())
             .or_else(|_| Server::bind(0, start.clone()))
             .map_err(|error| no_port(0, &error)),
-    };
-    Ok(server?)
+    }
 }
 
 fn no_port(port: u16, error: &io::Error) -> Failure {
