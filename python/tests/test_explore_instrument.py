@@ -21,7 +21,8 @@ def place(page: Page, what: str) -> tuple[float, float]:
             const { Run } = await import('./run.js');
             const { camera, turned } = await import('./scene.js');
             const values = Object.fromEntries(location.hash.slice(1).split('&').map(one => one.split('='))
-                .filter(([name]) => ['f_o', 'nu', 'x', 'y'].includes(name)).map(([name, value]) => [name, Number(value)]));
+                .filter(([name]) => ['f_o', 'nu', 'x', 'y'].includes(name))
+                .map(([name, value]) => [name, Number(value)]));
             const headers = { 'Content-Type': 'application/json' };
             const body = JSON.stringify({ values, samples: 1200 });
             const run = new Run(await (await fetch('api/run', { method: 'POST', headers, body })).json());
