@@ -1,16 +1,16 @@
 //! Linear answers against results of independent code, made from the same files (`linear.json`,
-//! `decay.json`, `rests.json`): natural periods, response, decay, rest.
+//! `decay.json`): natural periods, response, decay.
 
 use crate::common::{hydro, reference};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 use snapload_hydro::{
-    Body, Fit, FitOptions, Hydrodynamics, Line, Memory, Rest, TermRow, Weight, decay,
-    decay_of_the_damping, eigenvalues, fit, natural_of_the_file, natural_of_the_memory,
-    response_of_the_file, response_of_the_memory, rest, swings,
+    Body, Fit, FitOptions, Hydrodynamics, Memory, TermRow, Weight, decay, decay_of_the_damping,
+    eigenvalues, fit, natural_of_the_file, natural_of_the_memory, response_of_the_file,
+    response_of_the_memory, swings,
 };
 
-fn file(body: &str) -> &'static str {
+pub(crate) fn file(body: &str) -> &'static str {
     match body {
         "pontoon" => "pontoon-deep.nc",
         "cylinder" => "cylinder.nc",
@@ -19,13 +19,13 @@ fn file(body: &str) -> &'static str {
     }
 }
 
-fn matrix(value: &Value) -> Matrix3<f64> {
+pub(crate) fn matrix(value: &Value) -> Matrix3<f64> {
     let rows: [[f64; 3]; 3] = serde_json::from_value(value.clone()).expect("a matrix");
     Matrix3::from_fn(|i, j| rows[i][j])
 }
 
 /// The memory and A∞ that the other program used.
-fn given(body: &str) -> (Memory, Matrix3<f64>) {
+pub(crate) fn given(body: &str) -> (Memory, Matrix3<f64>) {
     let fits = reference("fits.json");
     let rows: Vec<TermRow> = serde_json::from_value(fits[body]["memory"].clone()).expect("rows");
     let inf = matrix(&fits[body]["added_mass_inf"]);
@@ -33,7 +33,7 @@ fn given(body: &str) -> (Memory, Matrix3<f64>) {
 }
 
 /// The body of a table's case, with its own numbers.
-fn body(case: &Value, hydro: &Hydrodynamics) -> Body {
+pub(crate) fn body(case: &Value, hydro: &Hydrodynamics) -> Body {
     let number = |name: &str| case[name].as_f64().expect("a number");
     let mut body = Body::new(hydro, &Weight::default()).expect("a body");
     body.mass_kg = number("mass");
@@ -44,7 +44,7 @@ fn body(case: &Value, hydro: &Hydrodynamics) -> Body {
     body
 }
 
-fn near(found: f64, expected: f64, part: f64, what: &str) {
+pub(crate) fn near(found: f64, expected: f64, part: f64, what: &str) {
     let error = (found - expected).abs();
     assert!(
         error <= part * expected.abs(),
@@ -314,122 +314,6 @@ fn the_sphere_decays_as_others_say() {
         3e-2,
         "the damping ratio",
     );
-}
-
-fn lines(case: &Value) -> Vec<Line> {
-    let pair =
-        |value: &Value| -> [f64; 2] { serde_json::from_value(value.clone()).expect("a place") };
-    let line = |line: &Value| Line {
-        anchor_m: pair(&line["anchor"]),
-        fairlead_m: pair(&line["fairlead_body"]),
-        length_m: line["length"].as_f64().expect("a length"),
-    };
-    case["lines"]
-        .as_array()
-        .expect("lines")
-        .iter()
-        .map(line)
-        .collect()
-}
-
-/// The place of rest on lines, tensions, which lines are slack, and small motion about it.
-#[test]
-fn rests_agree() {
-    for (name, entry) in reference("rests.json").as_object().expect("rests") {
-        let of = entry["body"].as_str().expect("a name");
-        let hydro = hydro(file(of));
-        let body = body(&entry["case"], &hydro);
-        let lines = lines(&entry["case"]);
-        let result = &entry["result"];
-        let found = rest(&hydro, &body, &lines).expect(name);
-        let q: [f64; 3] = serde_json::from_value(result["q"].clone()).expect("a place");
-        for i in 0..3 {
-            assert!(
-                (found.q[i] - q[i]).abs() < 1e-11,
-                "{name}: {} {q:?}",
-                found.q
-            );
-        }
-        let taut: Vec<usize> = serde_json::from_value(result["taut"].clone()).expect("lines");
-        assert_eq!(
-            found.taut.iter().map(|line| line + 1).collect::<Vec<_>>(),
-            taut,
-            "{name}"
-        );
-        let tensions: Vec<f64> =
-            serde_json::from_value(result["tension"].clone()).expect("tensions");
-        for (found, expected) in found.tension_n.iter().zip(&tensions) {
-            near(*found, *expected, 1e-10, name);
-        }
-        small_motion(name, &found, result, &hydro, &body, of);
-    }
-}
-
-fn small_motion(
-    name: &str,
-    found: &Rest,
-    result: &Value,
-    hydro: &Hydrodynamics,
-    body: &Body,
-    of: &str,
-) {
-    let (memory, inf) = given(of);
-    let natural = &result["natural"];
-    let (undamped, modes) = found.natural(hydro, body, &memory, &inf).expect("motions");
-    let expected = natural["undamped"].as_array().expect("a list");
-    assert_eq!(undamped.len(), expected.len(), "{name}");
-    for row in expected {
-        let omega = row["omega"].as_f64().expect("a number");
-        let found = undamped
-            .iter()
-            .map(|motion| (motion.omega_rad_s - omega).abs());
-        let off = found.fold(9.0, f64::min);
-        assert!(
-            off < 1e-9 * omega,
-            "{name}: ω = {omega} is off by {off}, {undamped:?}"
-        );
-    }
-    for row in natural["of_the_exponentials"].as_array().expect("a list") {
-        let [re, im]: [f64; 2] = serde_json::from_value(row["eigenvalue"].clone()).expect("λ");
-        let aim = Complex::new(re, im);
-        let nearest = modes.iter().min_by(|a, b| {
-            (a.eigenvalue - aim)
-                .norm()
-                .total_cmp(&(b.eigenvalue - aim).norm())
-        });
-        let mode = nearest.expect("a mode");
-        assert!(
-            (mode.eigenvalue - aim).norm() < 1e-9 * aim.norm(),
-            "{name}: {aim} {mode:?}"
-        );
-        let ratio = row["damping_ratio"].as_f64().expect("a number");
-        near(mode.damping_ratio, ratio, 1e-7, name);
-    }
-}
-
-/// No line holds the body in surge, or the weight is more than lines from below can hold: said.
-#[test]
-fn no_place_of_rest_is_said() {
-    let hydro = hydro("sphere.nc");
-    let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
-    let words = rest(&hydro, &body, &[]).expect_err("a refusal").to_string();
-    assert!(words.contains("surge"), "{words}");
-    // Half the weight more than it can carry, and a line from below.
-    body.constant_force[1] = -5.0 * body.stiffness[(1, 1)];
-    let line = Line {
-        anchor_m: [0.0, -40.0],
-        fairlead_m: [0.0, -3.0],
-        length_m: 35.0,
-    };
-    assert!(rest(&hydro, &body, &[line]).is_err());
-    let short = Line {
-        length_m: 0.0,
-        ..line
-    };
-    let words = rest(&hydro, &body, &[short])
-        .expect_err("a refusal")
-        .to_string();
-    assert!(words.contains("length of line 1"), "{words}");
 }
 
 /// What is needed for a body and is nowhere is asked for; masses that can not be are refused.

@@ -5,4 +5,5 @@ mod linear;
 mod memory;
 mod readers;
 mod report;
+mod rest;
 mod sections;

@@ -93,27 +93,25 @@ impl Tangent {
             rate(system, step.t_end, &step.after, pull, step.taut_after)
         };
         let mut begun = join(&first, 0.0).map(|component| [component]);
-        let memory = match afloat {
-            None => {
-                flow.carry(&mut begun, &mut []);
-                None
-            }
-            Some(water) => {
-                let start = simulation.memory_at_start();
-                let carried = memory_rates(water, &start, &step.start);
-                let mut carried: Vec<[f64; 1]> = carried.into_iter().map(|rate| [rate]).collect();
-                flow.carry(&mut begun, &mut carried);
-                let rate = memory_rates(water, simulation.memory(), &step.before);
-                let lag = rate
-                    .iter()
-                    .zip(&carried)
-                    .map(|(rate, [begun])| rate - begun);
-                Some(Box::new(MemoryRates {
-                    lag: lag.collect(),
-                    rate_after: memory_rates(water, simulation.memory(), &step.after),
-                    rate,
-                }))
-            }
+        let memory = if let Some(water) = afloat {
+            let start = simulation.memory_at_start();
+            let carried = memory_rates(water, &start, &step.start).into_iter();
+            let mut carried: Vec<[f64; 1]> = carried.map(|rate| [rate]).collect();
+            flow.carry(&mut begun, &mut carried);
+            let at = |state: &State| memory_rates(water, simulation.memory(), state);
+            let rate = at(&step.before);
+            let lag = rate
+                .iter()
+                .zip(&carried)
+                .map(|(rate, [begun])| rate - begun);
+            Some(Box::new(MemoryRates {
+                lag: lag.collect(),
+                rate_after: at(&step.after),
+                rate,
+            }))
+        } else {
+            flow.carry(&mut begun, &mut []);
+            None
         };
         StepMap {
             flow,

@@ -339,22 +339,30 @@ impl<T: Real> Norm<T> {
             growth: pace,
             sinusoids: T::ZERO,
         });
-        let mut add = |omega: T, cosine: [T; 3], sine: [T; 3]| {
-            let mut size = largest(by_mass(cosine)) + largest(by_mass(sine));
-            for k in 1..=ORDER + 1 {
-                size = size * omega.abs() / k as f64;
-            }
-            norm.sinusoids += size / pace;
-        };
-        for wave in &water.excitation {
-            add(wave.omega, wave.cosine, wave.sine);
-        }
-        for wave in &system.forcing.harmonics {
-            let force = |force: Vector2<T>| [force.x, force.y, T::ZERO];
-            add(wave.omega, force(wave.cosine), force(wave.sine));
-        }
+        norm.sinusoids = sinusoids(system, water, pace);
         norm
     }
+}
+
+/// What all sinusoids have beyond the order of the series, in units of the pace.
+fn sinusoids<T: Real>(system: &System<T>, water: &Floating<T>, pace: T) -> T {
+    let beyond = |omega: T, parts: [[T; 3]; 2]| {
+        let [cosine, sine] = parts.map(|part| largest(system.body.moved_by(part)));
+        let mut size = cosine + sine;
+        for k in 1..=ORDER + 1 {
+            size = size * omega.abs() / k as f64;
+        }
+        size / pace
+    };
+    let force = |force: Vector2<T>| [force.x, force.y, T::ZERO];
+    let mut sum = T::ZERO;
+    for wave in &water.excitation {
+        sum += beyond(wave.omega, [wave.cosine, wave.sine]);
+    }
+    for wave in &system.forcing.harmonics {
+        sum += beyond(wave.omega, [force(wave.cosine), force(wave.sine)]);
+    }
+    sum
 }
 
 fn largest<T: Real>([x, y, theta]: [T; 3]) -> T {
