@@ -99,18 +99,18 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
     let extension = extension.map(str::to_ascii_lowercase);
     match extension.as_deref() {
         Some("nc" | "nc4" | "netcdf" | "h5") => {
-            let dataset = Dataset::from_netcdf(&bytes(path)?)?;
+            let dataset = Dataset::from_netcdf(&bytes(path, path)?)?;
             Reading::new(Format::Capytaine, from_dataset(&dataset, given)?)
         }
         Some("1" | "2" | "3" | "hst") => {
             let files = WamitText {
-                radiation: text(&path.with_extension("1"))?,
+                radiation: text(path, &path.with_extension("1"))?,
                 excitation: match path.with_extension("3") {
-                    third if third.exists() => text(&third)?,
-                    _ => text(&path.with_extension("2"))?,
+                    third if third.exists() => text(path, &third)?,
+                    _ => text(path, &path.with_extension("2"))?,
                 },
                 hydrostatics: match path.with_extension("hst") {
-                    hst if hst.exists() => Some(text(&hst)?),
+                    hst if hst.exists() => Some(text(path, &hst)?),
                     _ => None,
                 },
             };
@@ -123,14 +123,14 @@ pub fn read(path: &Path, given: &Given) -> Result<Reading, HydroError> {
                 path.parent().unwrap_or(Path::new("")).to_owned()
             };
             let [radiation, excitation] = ["RadiationCoefficients.tec", "ExcitationForce.tec"]
-                .map(|name| text(&folder.join(name)));
+                .map(|name| text(path, &folder.join(name)));
             let hydro = from_nemoh(&radiation?, &excitation?, given)?;
             Reading::new(Format::Nemoh, hydro)
         }
-        _ => Err(HydroError::Unreadable(format!(
-            "{} is none of: Capytaine's .nc; WAMIT's .1, .3, .2, .hst; Nemoh's .tec or its folder",
-            path.display()
-        ))),
+        _ => Err(HydroError::Unreadable(
+            "it is none of: Capytaine's .nc; WAMIT's .1, .3, .2, .hst; Nemoh's .tec or its folder"
+                .to_owned(),
+        )),
     }
 }
 
@@ -141,14 +141,27 @@ fn nemoh_folder(path: &Path) -> PathBuf {
     found.unwrap_or_else(|| path.to_owned())
 }
 
-fn bytes(path: &Path) -> Result<Vec<u8>, HydroError> {
-    std::fs::read(path)
-        .map_err(|error| HydroError::Unreadable(format!("{}: {error}", path.display())))
+/// The bytes of a file of those that were `asked` for.
+fn bytes(asked: &Path, path: &Path) -> Result<Vec<u8>, HydroError> {
+    std::fs::read(path).map_err(|error| {
+        let mut words = error.to_string();
+        words.truncate(words.find(" (os error").unwrap_or(words.len()));
+        unreadable(asked, path, &words)
+    })
 }
 
-fn text(path: &Path) -> Result<String, HydroError> {
-    String::from_utf8(bytes(path)?)
-        .map_err(|_| HydroError::Unreadable(format!("{}: it is not text", path.display())))
+/// The text of a file of those that were `asked` for.
+fn text(asked: &Path, path: &Path) -> Result<String, HydroError> {
+    String::from_utf8(bytes(asked, path)?).map_err(|_| unreadable(asked, path, "it is not text"))
+}
+
+/// Who asked for a file knows its name; only another one beside it is named.
+fn unreadable(asked: &Path, path: &Path, words: &str) -> HydroError {
+    let name = path.file_name().filter(|_| path != asked);
+    HydroError::Unreadable(match name {
+        Some(name) => format!("{}: {words}", name.display()),
+        None => words.to_owned(),
+    })
 }
 
 /// The value of the file or of the case, where only one of them has it; where both do they have to

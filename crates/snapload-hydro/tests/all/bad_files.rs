@@ -306,7 +306,10 @@ fn files_of_other_sorts_are_refused() {
             .expect_err("a refusal")
             .to_string()
     };
-    says(&refused("nothing.nc"), &["can not be read", "nothing.nc"]);
+    let missing = "can not be read: No such file or directory";
+    assert_eq!(refused("nothing.nc"), missing);
+    let beside = "can not be read: RadiationCoefficients.tec: No such file or directory";
+    assert_eq!(refused("nothing.tec"), beside);
     says(&refused("pontoon.xyz"), &["Capytaine", "WAMIT", "Nemoh"]);
     let error = Dataset::from_netcdf(b"not a netCDF file at all").expect_err("a refusal");
     says(&error.to_string(), &["can not be read", "netCDF"]);
