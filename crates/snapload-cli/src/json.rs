@@ -5,7 +5,6 @@ use crate::standard_output::standard_output;
 use serde::Serialize;
 use snapload_report::write_json;
 use snapload_study::parent_of;
-use std::fs::OpenOptions;
 use std::io::{BufWriter, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
@@ -15,10 +14,8 @@ pub(crate) enum Json {
     None,
     /// `-`.
     Stdout,
-    /// A plain file, new or to be replaced.
+    /// A file, a device or a pipe.
     File(Room, PathBuf),
-    /// Something that is no plain file, such as /dev/stdout or a pipe: written straight into.
-    Device(PathBuf),
 }
 
 impl Json {
@@ -31,12 +28,8 @@ impl Json {
             return Ok(Self::Stdout);
         }
         refuse_directory(path)?;
-        let path = behind_links(path);
-        if path.exists() && !path.is_file() {
-            return Ok(Self::Device(path));
-        }
-        let room = stage.open(parent_of(&path))?;
-        Ok(Self::File(room, path))
+        let room = stage.open(&folder_for(path))?;
+        Ok(Self::File(room, path.to_owned()))
     }
 
     /// Puts the value where it was asked for, together with all else that is staged. Returns the
@@ -49,64 +42,43 @@ impl Json {
         if let Self::File(room, path) = &self {
             stage.write(*room, path.clone(), |out| write_json(value, out))?;
         }
-        let mut written = stage.commit()?;
-        match self {
-            Self::Stdout => {
-                let write = |out: StdoutLock| {
-                    let mut out = BufWriter::new(out);
-                    write_json(value, &mut out).and_then(|()| out.flush())
-                };
-                standard_output()
-                    .and_then(write)
-                    .map_err(|error| Failure::write("standard output", &error))?;
-                return Ok(None);
-            }
-            Self::Device(path) => {
-                let file = OpenOptions::new().write(true).open(&path);
-                let file = file.map_err(|error| Failure::no_place(&path, &error))?;
-                let mut out = BufWriter::new(file);
-                write_json(value, &mut out)
-                    .and_then(|()| out.flush())
-                    .map_err(|error| Failure::write(path.display(), &error))?;
-                written.push(path);
-            }
-            Self::None | Self::File(..) => {}
+        let written = stage.commit()?;
+        if !matches!(self, Self::Stdout) {
+            return Ok(Some(written));
         }
-        Ok(Some(written))
+        let write = |out: StdoutLock| {
+            let mut out = BufWriter::new(out);
+            write_json(value, &mut out).and_then(|()| out.flush())
+        };
+        standard_output()
+            .and_then(write)
+            .map_err(|error| Failure::write("standard output", &error))?;
+        Ok(None)
     }
-}
-
-/// The file that a path leads to: a link is followed, so that what it points to is replaced and not
-/// the link. Any other path is left as it was typed, as it will be printed.
-fn behind_links(path: &Path) -> PathBuf {
-    let there = || path.canonicalize().ok();
-    // Where nothing stands behind a link yet.
-    let new = || Some(parent_of(path).join(path.read_link().ok()?));
-    let followed = path.is_symlink().then(|| there().or_else(new)).flatten();
-    followed.unwrap_or_else(|| path.to_owned())
 }
 
 /// Whether two paths lead to one file, which need not be there yet.
 #[cfg(feature = "structure")]
 pub(crate) fn is_same_file(one: &Path, other: &Path) -> bool {
-    let place = |path: &Path| {
-        let folder = parent_of(path).canonicalize().ok()?;
-        Some(folder.join(path.file_name()?))
-    };
+    let new = |path: &Path| Some(parent_of(path).canonicalize().ok()?.join(path.file_name()?));
+    let place = |path: &Path| path.canonicalize().ok().or_else(|| new(path));
     place(one).is_some_and(|one| place(other) == Some(one))
 }
 
-/// Opens the directory in which a file is to be written, and creates it where it is absent. Returns
-/// the path to be written; what is no plain file, such as a device, is written into.
+/// Opens the directory in which a file is to be written, and creates it where it is absent.
 #[cfg(feature = "structure")]
-pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<(Room, PathBuf), Failure> {
+pub(crate) fn room_of(stage: &mut Stage, path: &Path) -> Result<Room, Failure> {
     refuse_directory(path)?;
-    let path = behind_links(path);
-    let room = match path.exists() && !path.is_file() {
-        true => stage.open(&std::env::temp_dir())?,
-        false => stage.create_and_open(parent_of(&path))?,
-    };
-    Ok((room, path))
+    stage.create_and_open(&folder_for(path))
+}
+
+/// Where a file is staged: beside its place, so that it can be renamed into it; elsewhere for what
+/// is no plain file, such as a device or a pipe, which is written into.
+pub(crate) fn folder_for(path: &Path) -> PathBuf {
+    match path.exists() && !path.is_file() {
+        true => std::env::temp_dir(),
+        false => parent_of(path).to_owned(),
+    }
 }
 
 /// Says so where a file is to be written and a directory stands.

@@ -110,8 +110,8 @@ fn write(args: &Write) -> Result<(), Failure> {
 /// Puts a text into a file, whole or not at all, and says where.
 fn put(path: &Path, text: &str) -> Result<String, Failure> {
     let mut stage = Stage::default();
-    let (room, at) = room_of(&mut stage, path)?;
-    stage.write(room, at, |out| out.write_all(text.as_bytes()))?;
+    let room = room_of(&mut stage, path)?;
+    stage.write(room, path.to_owned(), |out| out.write_all(text.as_bytes()))?;
     stage.commit()?;
     Ok(path.display().to_string())
 }

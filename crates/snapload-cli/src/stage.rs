@@ -102,13 +102,30 @@ impl Drop for Stage {
     }
 }
 
-/// Puts a file in its place; into what is no plain file, such as a device or a pipe, it is written.
+/// Puts a file in its place. A link is followed, so that what it points to is replaced and not the
+/// link; into what is no plain file, such as a device or a pipe, it is written, and so it is into a
+/// file on another disk, where nothing can be renamed to.
 fn put(scratch: &Path, target: &Path) -> io::Result<()> {
-    if target.exists() && !target.is_file() {
-        let mut to = OpenOptions::new().write(true).open(target)?;
-        return io::copy(&mut File::open(scratch)?, &mut to).map(drop);
+    let target = match target.is_symlink() {
+        // Where nothing stands behind a link yet.
+        true => target.canonicalize().or_else(|_| {
+            let folder = target.parent().unwrap_or(Path::new(""));
+            target.read_link().map(|behind| folder.join(behind))
+        })?,
+        false => target.to_owned(),
+    };
+    if !target.exists() || target.is_file() {
+        match fs::rename(scratch, &target) {
+            Err(error) if error.kind() == ErrorKind::CrossesDevices => {}
+            renamed => return renamed,
+        }
     }
-    fs::rename(scratch, target)
+    let mut to = OpenOptions::new()
+        .write(true)
+        .create(true)
+        .truncate(true)
+        .open(&target)?;
+    io::copy(&mut File::open(scratch)?, &mut to).map(drop)
 }
 
 /// The directories that have to be created for this one, outermost first.

@@ -81,7 +81,7 @@ impl Answers {
         let mut stage = Stage::default();
         let json = Json::open(&mut stage, json)?;
         let file = match out {
-            Some(path) => Some(room_of(&mut stage, path)?),
+            Some(path) => Some((room_of(&mut stage, path)?, path.to_owned())),
             None => None,
         };
         if let (Json::File(_, json), Some((_, file))) = (&json, &file)

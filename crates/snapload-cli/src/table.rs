@@ -1,8 +1,8 @@
 //! `--out` for tables: Parquet, or CSV where the name ends so.
 use crate::failure::Failure;
-use crate::json::refuse_directory;
+use crate::json::{folder_for, refuse_directory};
 use crate::stage::{Room, Stage};
-use snapload_study::{Axis, Values, parent_of, write_table};
+use snapload_study::{Axis, Values, write_table};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,10 @@ impl TableFile {
             );
             return Err(Failure::BadInput(message));
         }
-        Ok(Self(Some((stage.open(parent_of(path))?, path.to_owned()))))
+        Ok(Self(Some((
+            stage.open(&folder_for(path))?,
+            path.to_owned(),
+        ))))
     }
 
     /// Stages the table.
