@@ -3,14 +3,14 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::Json;
-use crate::orbit::{phase, start_at};
+use crate::orbit::NearArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
 use serde::Serialize;
-use snapload::analysis::Progress;
+use snapload::analysis::{Progress, START_KEYS};
 use snapload::{Parameters, Value, key_named};
 use snapload_orbits::{
-    Along, Branch, BranchRow, Moored, Orbit, Wanted, branch_in_words, of_attractor,
+    Along, Branch, BranchRow, Kind, Moored, Orbit, branch_in_words, of_attractor,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
@@ -35,12 +35,8 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// State at the section near which the orbit is; keys left out are the case's own
-    #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
-    start: Option<String>,
-    /// Length in periods of the forcing
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    periods: Option<u32>,
+    #[command(flatten)]
+    near: NearArgs,
     /// The key that changes, and between which values
     #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
     along: String,
@@ -53,14 +49,6 @@ pub(crate) struct Args {
     /// Kinds of events that are told, with commas between them
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]
     events: String,
-    /// Time of the section, in periods of the forcing
-    #[arg(
-        long,
-        value_name = "P",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
-    phase: f64,
     /// Write a table with a row a point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -81,17 +69,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
     let (key, along) = along(args, &parameters)?;
     let kinds = kinds(&args.events)?;
-    let wanted = Wanted {
-        periods: args.periods,
-        struck: None,
-        phase: phase(args.phase)?,
-    };
-    snapload_orbits::period_of(&parameters)?;
-    let start = args
-        .start
-        .as_deref()
-        .map(|text| start_at(text, &parameters))
-        .transpose()?;
+    let (start, wanted) = args.near.read(&parameters)?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
     let json = Json::open(&mut stage, args.json.as_deref())?;
@@ -164,28 +142,18 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, Along), 
     Ok((key, along))
 }
 
-const KINDS: [&str; 8] = [
-    "fold",
-    "period_doubling",
-    "neimark_sacker",
-    "graze",
-    "corner",
-    "tension_lost",
-    "rotation_limit",
-    "upper_bound",
-];
-
 /// The kinds that are told; none says all.
 fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
     if text == "all" {
         return Ok(Vec::new());
     }
     let kind = |word: &str| {
-        let known = KINDS.into_iter().find(|kind| *kind == word.trim());
+        let names = Kind::ALL.map(Kind::name);
+        let known = names.into_iter().find(|name| *name == word.trim());
         known.ok_or_else(|| {
             Failure::BadInput(format!(
                 "--events {word:?}: all, or some of {}",
-                KINDS.join(", ")
+                names.join(", ")
             ))
         })
     };
@@ -198,8 +166,7 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
         ("arclength", numbers(points().map(|point| point.arclength))),
         (key, numbers(points().map(|point| point.orbit.at[0]))),
     ];
-    let states = ["x", "y", "theta", "vx", "vy", "vtheta"];
-    for (i, name) in states
+    for (i, name) in START_KEYS
         .into_iter()
         .enumerate()
         .filter(|(_, name)| *name != key)

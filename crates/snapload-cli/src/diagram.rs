@@ -7,7 +7,7 @@ use crate::section::StretchArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, axis, names, numbers};
 use serde::Serialize;
-use snapload::analysis::Progress;
+use snapload::analysis::{Progress, START_KEYS};
 use snapload_orbits::{At, DiagramRow, diagram, diagram_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
@@ -105,8 +105,7 @@ fn columns(key: &'static str, found: &[At]) -> Vec<(&'static str, Values)> {
             Values::Counts(rows().map(|(_, k)| Some(k as i64)).collect()),
         ),
     ];
-    let states = ["x", "y", "theta", "vx", "vy", "vtheta"];
-    for (i, name) in states
+    for (i, name) in START_KEYS
         .into_iter()
         .enumerate()
         .filter(|(_, name)| *name != key)

@@ -5,10 +5,11 @@ use crate::failure::{Failure, print};
 use crate::json::Json;
 use crate::stage::Stage;
 use serde::Serialize;
-use snapload::analysis::Progress;
+use snapload::analysis::{Progress, START_KEYS};
 use snapload::{Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Wanted, find_orbits, of_attractor, orbit_in_words, start_of,
+    Moored, Orbit, OrbitRow, Point, Wanted, distance, find_orbits, of_attractor, orbit_in_words,
+    start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
@@ -33,12 +34,8 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// State at the section near which the orbit is; keys left out are the case's own
-    #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
-    start: Option<String>,
-    /// Length in periods of the forcing; 1 with --start or --find, what the motion has otherwise
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    periods: Option<u32>,
+    #[command(flatten)]
+    near: NearArgs,
     /// The cables that snap, in their order
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
@@ -48,6 +45,20 @@ pub(crate) struct Args {
     /// Which random starts
     #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
     seed: u64,
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    json: Option<PathBuf>,
+}
+
+/// Where an orbit is looked for.
+#[derive(clap::Args)]
+pub(crate) struct NearArgs {
+    /// State at the section near which the orbit is; keys left out are the case's own
+    #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
+    start: Option<String>,
+    /// Length in periods of the forcing; 1 near a start, what the motion has otherwise
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    periods: Option<u32>,
     /// Time of the section, in periods of the forcing
     #[arg(
         long,
@@ -56,14 +67,28 @@ pub(crate) struct Args {
         allow_negative_numbers = true
     )]
     phase: f64,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+}
+
+impl NearArgs {
+    /// The start, if there is one, and what is looked for.
+    pub(crate) fn read(&self, parameters: &Parameters) -> Result<(Option<Point>, Wanted), Failure> {
+        let wanted = Wanted {
+            periods: self.periods,
+            struck: None,
+            phase: phase(self.phase)?,
+        };
+        snapload_orbits::period_of(parameters)?;
+        let start = self.start.as_deref();
+        let start = start.map(|text| start_at(text, parameters)).transpose()?;
+        Ok((start, wanted))
+    }
 }
 
 #[derive(Serialize)]
 struct One<'a> {
     case: CaseEcho<'a>,
+    /// The largest difference of the section's state from `--start`.
+    start_distance: Option<f64>,
     #[serde(flatten)]
     orbit: OrbitRow,
 }
@@ -79,14 +104,8 @@ struct Many<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
-    let wanted = Wanted {
-        periods: args.periods,
-        struck: args.symbol.as_deref().map(cables).transpose()?,
-        phase: phase(args.phase)?,
-    };
-    snapload_orbits::period_of(&parameters)?;
-    let start = args.start.as_deref();
-    let start = start.map(|text| start_at(text, &parameters)).transpose()?;
+    let (start, mut wanted) = args.near.read(&parameters)?;
+    wanted.struck = args.symbol.as_deref().map(cables).transpose()?;
     let mut stage = Stage::default();
     let json = Json::open(&mut stage, args.json.as_deref())?;
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
@@ -96,8 +115,15 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     } else {
         let orbit = one(&parameters, start, &wanted)?;
         text.push_str(&orbit_in_words(&orbit));
+        if let Some(far) = start.and_then(|start| orbit.far_from(&start)) {
+            let _ = writeln!(
+                text,
+                "Far       from the start: by {far:.3} in one coordinate, and no nearer one was found"
+            );
+        }
         let row = One {
             case: CaseEcho(&parameters),
+            start_distance: start.map(|start| distance(&orbit.z, &start)),
             orbit: OrbitRow::new(&orbit),
         };
         json.write(stage, &row)?
@@ -159,19 +185,16 @@ pub(crate) fn phase(phase: f64) -> Result<f64, Failure> {
     Err(Failure::BadInput(message))
 }
 
-/// The names of what a start is made of.
-const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
-
 /// A start out of `x=..,y=..`.
-pub(crate) fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
+fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
     let mut z = start_of(parameters);
     for part in text.split(',') {
         let (key, value) = part.split_once('=').unwrap_or((part, ""));
         let (key, value) = (key.trim(), value.trim());
-        let Some(place) = STARTS.iter().position(|name| *name == key) else {
+        let Some(place) = START_KEYS.iter().position(|name| *name == key) else {
             return Err(Failure::BadInput(format!(
                 "--start {part:?}: write KEY=VALUE with one of the keys {}, such as --start x=0.1,y=0.2",
-                STARTS.join(", ")
+                START_KEYS.join(", ")
             )));
         };
         let number = parse_value(value).ok().as_ref().and_then(Value::number);

@@ -6,7 +6,7 @@ use crate::json::Json;
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
 use serde::Serialize;
-use snapload::analysis::Progress;
+use snapload::analysis::{Progress, START_KEYS};
 use snapload_orbits::{Section, SectionRow, Stretch, section_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
@@ -116,10 +116,7 @@ fn columns(section: &Section) -> Vec<(&'static str, Values)> {
     let count = section.points.len() as i64;
     let ks = (0..count).map(|k| Some(k + section.first as i64)).collect();
     let mut columns = vec![("k", Values::Counts(ks))];
-    for (i, name) in ["x", "y", "theta", "vx", "vy", "vtheta"]
-        .into_iter()
-        .enumerate()
-    {
+    for (i, name) in START_KEYS.into_iter().enumerate() {
         columns.push((name, numbers(section.points.iter().map(|point| point[i]))));
     }
     columns

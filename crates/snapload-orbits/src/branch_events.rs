@@ -28,6 +28,18 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 8] = [
+        Self::Fold,
+        Self::PeriodDoubling,
+        Self::NeimarkSacker,
+        Self::Graze,
+        Self::Corner,
+        Self::TensionLost,
+        Self::RotationLimit,
+        Self::UpperBound,
+    ];
+
     /// Its name in files.
     pub fn name(self) -> &'static str {
         match self {

@@ -89,8 +89,6 @@ const SLOW: f64 = 5e-2;
 const BESIDE: f64 = 0.02;
 /// Largest return error of a motion that has the orbit, for |μ| of 1.
 const RETURNS: f64 = 1e-9;
-/// A gap, a tension or a velocity on the wrong side by less is rounding.
-const ROUNDING: f64 = 1e-9;
 
 impl Orbit {
     /// The orbit near `start`: by Newton's method on the map as it is simulated, from the start
@@ -118,7 +116,7 @@ impl Orbit {
         for closed in &sets {
             let z = system.placed(*closed, *closed, start);
             match search.by_simulation(&z) {
-                Ok(orbit) if orbit.is_admissible() && distance(&orbit.z, start) < BESIDE => {
+                Ok(orbit) if orbit.is_admissible() && orbit.far_from(start).is_none() => {
                     return Ok(orbit);
                 }
                 Ok(orbit) => found.push(orbit),
@@ -132,7 +130,7 @@ impl Orbit {
         // What a body has, or what is beside the start, comes before the rest.
         let rank = |orbit: &Orbit| {
             let far = distance(&orbit.z, start);
-            (far >= BESIDE, !orbit.is_admissible(), far)
+            (orbit.far_from(start).is_some(), !orbit.is_admissible(), far)
         };
         let best = found.into_iter().min_by(|a, b| {
             let ((far_a, bad_a, a), (far_b, bad_b, b)) = (rank(a), rank(b));
@@ -157,7 +155,7 @@ impl Orbit {
             durations: closed.durations.clone(),
             speeds,
         };
-        let mut why_not = reasons(&survey, &closed.durations);
+        let mut why_not = survey.why_not(&closed.durations);
         let return_error = run_once(lap, closed, &timed, multipliers.largest(), &mut why_not);
         let slack = timed.sequence.held().iter().all(|held| held.is_empty());
         let snaps = timed.sequence.snaps() as i32;
@@ -193,6 +191,12 @@ impl Orbit {
     /// Whether a body has it.
     pub fn is_admissible(&self) -> bool {
         self.why_not.is_empty()
+    }
+
+    /// How far its section is from a start near which it was looked for, where it is so far that
+    /// another orbit may have been meant.
+    pub fn far_from(&self, start: &Point) -> Option<f64> {
+        Some(distance(&self.z, start)).filter(|far| *far >= BESIDE)
     }
 
     /// What its multipliers say.
@@ -359,54 +363,6 @@ pub fn words(sequence: &Sequence) -> String {
     } else {
         symbol.join(", ")
     }
-}
-
-/// Why a body can not have a lap.
-fn reasons(survey: &Survey, durations: &[f64]) -> Vec<String> {
-    let mut why = Vec::new();
-    let cable = |surface: usize| surface + 1;
-    if let Some(snap) = survey.least_speed.filter(|snap| snap.value < -ROUNDING) {
-        why.push(format!(
-            "the snap of cable {} at t = {:.6} would open it: v_n = {:.3e}",
-            cable(snap.surface),
-            snap.t,
-            snap.value
-        ));
-    }
-    for gap in [survey.largest_gap, survey.corner_gap]
-        .into_iter()
-        .flatten()
-    {
-        if gap.value > ROUNDING {
-            why.push(format!(
-                "cable {} would have to be {:.3e} longer at t = {:.6}",
-                cable(gap.surface),
-                gap.value,
-                gap.t
-            ));
-        }
-    }
-    if let Some(tension) = survey.least_tension.filter(|least| least.value < -ROUNDING) {
-        why.push(format!(
-            "the tension of cable {} is negative, {:.6} at t = {:.6}: it would have to push",
-            cable(tension.surface),
-            tension.value,
-            tension.t
-        ));
-    }
-    if durations.iter().any(|s| *s < -ROUNDING) {
-        why.push("two events would have to come in the other order".to_owned());
-    }
-    let names = [
-        "the rotation limit is exceeded",
-        "the upper bound is exceeded",
-    ];
-    for (beyond, name) in survey.limits.iter().zip(names) {
-        if *beyond > ROUNDING {
-            why.push(format!("{name} by {beyond:.3e}"));
-        }
-    }
-    why
 }
 
 /// The closing velocity of each event.

@@ -53,6 +53,56 @@ pub struct Survey {
     pub limits: Limits,
 }
 
+/// A gap, a tension or a velocity on the wrong side by less is rounding.
+const ROUNDING: f64 = 1e-9;
+
+impl Survey {
+    /// Why no body can have the lap, whose events are so long after each other.
+    pub fn why_not(&self, durations: &[f64]) -> Vec<String> {
+        let mut why = Vec::new();
+        let cable = |surface: usize| surface + 1;
+        if let Some(snap) = self.least_speed.filter(|snap| snap.value < -ROUNDING) {
+            why.push(format!(
+                "the snap of cable {} at t = {:.6} would open it: v_n = {:.3e}",
+                cable(snap.surface),
+                snap.t,
+                snap.value
+            ));
+        }
+        for gap in [self.largest_gap, self.corner_gap].into_iter().flatten() {
+            if gap.value > ROUNDING {
+                why.push(format!(
+                    "cable {} would have to be {:.3e} longer at t = {:.6}",
+                    cable(gap.surface),
+                    gap.value,
+                    gap.t
+                ));
+            }
+        }
+        if let Some(tension) = self.least_tension.filter(|least| least.value < -ROUNDING) {
+            why.push(format!(
+                "the tension of cable {} is negative, {:.6} at t = {:.6}: it would have to push",
+                cable(tension.surface),
+                tension.value,
+                tension.t
+            ));
+        }
+        if durations.iter().any(|s| *s < -ROUNDING) {
+            why.push("two events would have to come in the other order".to_owned());
+        }
+        let names = [
+            "the rotation limit is exceeded",
+            "the upper bound is exceeded",
+        ];
+        for (beyond, name) in self.limits.iter().zip(names) {
+            if *beyond > ROUNDING {
+                why.push(format!("{name} by {beyond:.3e}"));
+            }
+        }
+        why
+    }
+}
+
 /// Looks along a lap.
 pub fn survey<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Survey {
     let system = lap.family.plain(lap.at);

@@ -69,6 +69,26 @@ fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
 }
 
 #[test]
+fn an_orbit_far_from_its_start_says_so() {
+    for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {
+        let orbit = json("orbit", &["--start", start]);
+        let far = number(&orbit["start_distance"]);
+        assert_eq!(far >= 0.02, is_far, "{start}: {far}");
+        let d = directory();
+        let out = snapload(d.path())
+            .arg("orbit")
+            .args(&VOLLEY[..VOLLEY.len() - 1])
+            .args(["--start", start])
+            .assert()
+            .success();
+        let words = String::from_utf8_lossy(&out.get_output().stdout).into_owned();
+        let told = words.contains(&format!("by {far:.3} in one coordinate"));
+        assert_eq!(told, is_far, "{words}");
+    }
+    assert!(json("orbit", &[])["start_distance"].is_null());
+}
+
+#[test]
 fn a_branch_has_its_fold() {
     let branch = json(
         "branch",
