@@ -391,9 +391,9 @@ export class SweepMap {
     return { low: log ? least : low, high, log };
   }
 
-  /** What rounding may decide: the run is not known to its end. */
+  /** What rounding may decide: the run is not known to its end, or that was not asked, as of a long one. */
   #uncertain(k) {
-    return this.cells.certain[k] === false;
+    return this.cells.reason[k] !== null && this.cells.certain[k] !== true;
   }
 
   #legend(colours) {
@@ -417,7 +417,7 @@ export class SweepMap {
         `<span>${number(high, 3)}${log ? ", by decades" : ""}</span>`,
       );
     }
-    const unsure = cells.certain.filter((one) => one === false).length;
+    const unsure = cells.reason.filter((_, k) => this.#uncertain(k)).length;
     if (unsure) parts.push(`<span><i class="swatch hatched"></i>not certain, as rounding may decide (${unsure})</span>`);
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;

@@ -85,8 +85,13 @@ export class Stage {
       ["Hardest impulse", number(this.run.hardest, 5)],
       ["Time taut", `${number(timeTaut, 4)} T`],
     ];
+    // What sums up the whole run is no more certain than its end.
+    const unsure = this.run.horizon.t === null ? "" : " <small>not certain</small>";
     $("summary").innerHTML = rows
-      .map(([term, value, name = ""]) => `<div><dt>${term}</dt><dd data-norm="${name}">${value}</dd></div>`)
+      .map(([term, value, name = ""]) => {
+        const sum = `<span data-norm="${name}">${value}</span>`;
+        return `<div><dt>${term}</dt><dd>${sum}${name ? unsure : ""}</dd></div>`;
+      })
       .join("");
   }
 

@@ -1,11 +1,12 @@
 //! `/api/schema`: which keys there are, and the cases to start from.
 use crate::map::COLUMNS;
 use serde_json::{Map, Value as JsonValue, json};
-use snapload::analysis::Certainty;
+use snapload::analysis::{Certainty, Counter, Made, on_all_threads, unwatched};
 use snapload::{
-    Bounds, Case, DefaultValue, KEYS, Key, Kind, Outcome, Parameters, Stop, named_cases,
+    Bounds, Case, DefaultValue, KEYS, Key, Kind, Lanes, Outcome, Parameters, Stop, named_cases,
 };
 use snapload_report::ValueRow;
+use std::sync::LazyLock;
 
 /// The case that the page begins with.
 #[derive(Clone, Debug)]
@@ -18,10 +19,9 @@ pub struct Start {
 
 /// All there is to say.
 pub(crate) fn schema(start: &Start) -> JsonValue {
-    let cases = named_cases().map(|case| {
-        let values = differing(&case.parameters);
-        let happens = Case::new(case.parameters).map(|case| what_happens(&case));
-        json!({ "code": case.code, "title": case.origin(), "happens": happens.ok(), "values": values })
+    let cases = named_cases().enumerate().map(|(k, case)| {
+        let (values, happens) = (differing(&case.parameters), HAPPENS.get(k));
+        json!({ "code": case.code, "title": case.origin(), "happens": happens, "values": values })
     });
     json!({
         "version": env!("CARGO_PKG_VERSION"),
@@ -38,21 +38,36 @@ pub(crate) fn schema(start: &Start) -> JsonValue {
     })
 }
 
-/// What happens in the run of a case, in a few words; what rounding may decide is said with "about".
-fn what_happens(case: &Case) -> String {
-    let outcome = Outcome::of(case);
+/// What happens in the built-in cases, in their order; they are run when a page first asks.
+static HAPPENS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    // All of them are legal; were one not, none would have words.
+    let cases: Result<Vec<Case>, _> = named_cases()
+        .map(|case| Case::new(case.parameters))
+        .collect();
+    let cases = cases.unwrap_or_default();
+    let counter = Counter::new("the built-in cases", 0, cases.len() as u64, &unwatched);
+    let told = on_all_threads(cases.len(), |numbers| {
+        let cases = numbers.map(|k| cases[k].clone());
+        Certainty::with_outcomes(Lanes::best(), cases, &counter)
+    });
+    let told = told.map(Made::into_vec).unwrap_or_default();
+    told.iter().map(what_happens).collect()
+});
+
+/// What happens in a run, in a few words; what rounding may decide is said with "about".
+fn what_happens((outcome, certainty): &(Outcome, Certainty)) -> String {
     let (t, snaps) = (outcome.end.t, outcome.snaps());
-    let about = match Certainty::of(case).decides_the_end() {
-        true => "",
-        false => "about ",
+    let (about, past) = match certainty.decides_the_end() {
+        true => ("", ""),
+        false => ("about ", ", past the horizon"),
     };
     match outcome.end.reason {
         Stop::Settled => format!("settles after {about}{snaps} snaps"),
         Stop::RotationLimit => format!("turns over at t = {about}{t:.1}"),
-        Stop::UpperBound => format!("passes the anchors at t = {about}{t:.1}"),
+        Stop::UpperBound => format!("reaches the upper bound at t = {about}{t:.1}"),
         Stop::SlidingStart => format!("begins to slide at t = {about}{t:.1}"),
-        Stop::EndTime if outcome.rocking > 0.5 * t => "rocks on with both cables taut".to_owned(),
-        Stop::EndTime if outcome.sliding > 0.0 => "slides on one cable, time and again".to_owned(),
+        Stop::EndTime if outcome.rocking > 0.5 * t => format!("rocks on both cables{past}"),
+        Stop::EndTime if outcome.sliding > 0.0 => format!("slides on one cable, too{past}"),
         Stop::EndTime => format!("goes on snapping, {about}{snaps} times by t = {t:.0}"),
         Stop::ImpactLimit => format!("snaps more than {snaps} times by t = {about}{t:.1}"),
     }
