@@ -51,6 +51,7 @@ fn a_sea_has_the_warnings_of_a_wave() {
     let words = result.words();
     assert!(words.contains("snapload elastic decides"), "{words}");
     assert!(!words.contains("probability"), "{words}");
+    assert!(!words.contains("The largest tension"), "{words}");
     assert!(result.summary("case").contains("warning"));
     let json = result.to_json("case");
     assert_eq!(json["warnings"][0]["rule"], result.warnings[0].rule);
