@@ -1,15 +1,25 @@
 """The manual as a site: one for the command line, Rust and Python."""
 
+import importlib
 import os
+from pathlib import Path
+from typing import Any
 
 import snapload
+from sphinx.util.fileutil import copy_asset
 
 project = "snapload"
 author = "The snapload developers"
 copyright = author
 release = version = snapload.__version__
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.viewcode"]
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.napoleon",
+    "sphinx.ext.viewcode",
+]
 if "READTHEDOCS" in os.environ:
     # Types of other libraries lead to their manuals, where these can be asked for.
     extensions.append("sphinx.ext.intersphinx")
@@ -24,6 +34,14 @@ exclude_patterns = ["README.md", "_build"]
 # Everything that is wrong is told, and the tests make an error of it.
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"^(?!snapload\.(?!_engine)).*")]
+# A variable of types has no page.
+nitpick_ignore = [("py:class", "snapload._scales.Result")]
+
+# Mathematics is typeset in the browser by files of the site itself, so that it is there without a network.
+mathjax_path = "mathjax/tex-chtml.js"
+# A formula is a wide thing, and a phone is not.
+html_static_path = ["static"]
+html_css_files = ["manual.css"]
 
 myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
@@ -50,3 +68,18 @@ html_theme_options = {
     "light_css_variables": {"color-brand-primary": "#0072B2", "color-brand-content": "#0072B2"},
     "dark_css_variables": {"color-brand-primary": "#56B4E9", "color-brand-content": "#56B4E9"},
 }
+
+
+def setup(app: Any) -> None:
+    """Tells Sphinx what the site has beside its pages."""
+    app.connect("build-finished", _copy_mathjax)
+
+
+def _copy_mathjax(app: Any, error: Exception | None) -> None:
+    """Copies what the mathematics of the pages takes of MathJax: its program, its fonts, its parts for rare signs."""
+    if error is None and app.builder.format == "html":
+        source = Path(importlib.import_module("sphinx-mathjax-offline").__path__[0]) / "static" / "mathjax"
+        for part in ("tex-chtml.js", "output/chtml/fonts/woff-v2", "input/tex/extensions"):
+            target = Path(app.outdir) / "_static" / "mathjax" / part
+            target.parent.mkdir(parents=True, exist_ok=True)
+            copy_asset(source / part, target if (source / part).is_dir() else target.parent)
