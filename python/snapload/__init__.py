@@ -22,24 +22,34 @@ from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._neighbours import Ensemble, Share, ensemble
+from ._parts import Body, Cable, Forcing, Sinusoid
 from ._reproduce import reproduce
 from ._run import Run
+from ._scales import Scales
 from ._sensitivities import sensitivities
 from ._sweep import merge, open_study, sweep
+from ._system import System, SystemRun
 from ._table import Table
 from ._told import End, Norms, Outcome, Trust
 from ._verify import Verification, verify
 
 __all__ = [
+    "Body",
+    "Cable",
     "Case",
     "Certificate",
     "CriticalForce",
     "End",
     "Ensemble",
+    "Forcing",
     "Norms",
     "Outcome",
     "Run",
+    "Scales",
     "Share",
+    "Sinusoid",
+    "System",
+    "SystemRun",
     "Table",
     "Trust",
     "Verification",

@@ -15,7 +15,7 @@ from matplotlib import animation, pyplot
 from matplotlib.patches import Polygon
 
 from ._check import whole
-from ._plot import CABLES, geometry, times_of
+from ._plot import cables_of, named, times_of
 from ._progress import bar
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._run import Run
+    from ._base_run import BaseRun
 
 #: The longest animation, in pictures.
 _MOST_FRAMES = 5000
@@ -41,10 +41,10 @@ class Animation:
 
     See Also
     --------
-    snapload.Run.plot
+    snapload.Run.plot : Pictures that stand still.
     """
 
-    def __init__(self, run: Run, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
+    def __init__(self, run: BaseRun, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
         end = run.end.t
         stop = end if stop is None else float(stop)
         if not 0 <= start < stop <= end:
@@ -67,7 +67,7 @@ class Animation:
         words = {
             "scene": scene,
             "seconds": self._count / self._fps,
-            "colours": [colour for colour, _ in CABLES.values()],
+            "colours": scene["colours"],
         }
         return page.replace("{id}", f"snapload-{uuid4().hex}").replace("{data}", json.dumps(words))
 
@@ -75,7 +75,7 @@ class Animation:
         return self._html
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Writes the animation as GIF, MP4 (which takes ffmpeg) or HTML, by the ending of the file.
+        """Write the animation as GIF, MP4 (which takes ffmpeg) or HTML, by the ending of the file.
 
         Parameters
         ----------
@@ -120,29 +120,32 @@ class Animation:
         return figure, animation.FuncAnimation(figure, update, frames=self._count, interval=1000 / self._fps)
 
 
-def _scene_data(run: Run, start: float, stop: float, count: int) -> dict[str, Any]:
+def _scene_data(run: BaseRun, start: float, stop: float, count: int) -> dict[str, Any]:
     """What there is to see: what stands still, and at every time where the body is and which cables are taut."""
-    _, a, b, h = geometry(run)
-    angles = np.linspace(0, 2 * np.pi, 60)
-    size = max(a, b, 0.012)
-    ring = size * np.column_stack([np.cos(angles), np.sin(angles)])
-    outline = ring if b == 0 else np.array([[a, b], [-a, b], [-a, -b], [a, -b]])
+    geometry = run._geometry()
+    outline, size = geometry.outline(), geometry.size()
+    anchors = [list(anchor) for anchor, _, _ in geometry.cables]
     path, times = run.at(times_of(run, start, stop, 12)), np.linspace(start, stop, count)
     frames = run.at(times)
     t, cables, v_n = (run.impacts[name] for name in ("t", "cable", "v_n"))
     # A snap takes no time; it is shown for as long as an eye needs.
     flash = 0.03 * (stop - start)
     taut = []
-    for cable in (1, 2):
+    for cable in range(1, len(anchors) + 1):
         snaps = t[(cables == cable) & (v_n > 0)]
         struck = np.searchsorted(snaps, times, side="right") > np.searchsorted(snaps, times - flash, side="right")
         taut.append(((frames[f"T{cable}"] > 0) | struck).astype(int).tolist())
-    left, right = min(-1.0, path.x.min() - size), max(1.0, path.x.max() + size)
+    xs, ys = [x for x, _ in anchors], [y for _, y in anchors]
+    left, right = min(*xs, path.x.min() - size), max(*xs, path.x.max() + size)
+    low, high = min(*ys, path.y.min() - 1.3 * size), max(*ys, path.y.max() + 1.3 * size)
+    edge = 0.03 * max(right - left, high - low)
     return {
-        "anchors": [[1.0, h + b], [-1.0, h + b]],
-        "fairleads": [[a, b], [-a, b]],
+        "anchors": anchors,
+        "names": [named(run, "$x$", "L"), named(run, "$y$", "L")],
+        "colours": [colour for colour, _ in cables_of(run).values()],
+        "fairleads": [list(fairlead) for _, fairlead, _ in geometry.cables],
         "outline": outline.round(6).tolist(),
-        "box": [left - 0.06, right + 0.06, path.y.min() - 1.3 * size, h + b + 0.08],
+        "box": [left - edge, right + edge, low - edge, high + edge],
         "path": np.column_stack([path.t, path.x, path.y]).round(5).tolist(),
         "frames": np.column_stack([frames.t, frames.x, frames.y, frames.theta]).round(5).tolist(),
         "taut": taut,
@@ -158,11 +161,11 @@ def _scene(ax: Axes, scene: dict[str, Any]) -> Callable[[int], list[Artist]]:
     ax.set_xlim(left, right)
     ax.set_ylim(low, high)
     ax.set_aspect("equal")
-    ax.set_xlabel("$x$ [L]")
-    ax.set_ylabel("$y$ [L]")
+    ax.set_xlabel(scene["names"][0])
+    ax.set_ylabel(scene["names"][1])
     ax.plot(*anchors.T, "^", color="black", markersize=7)
     ax.plot(*path[:, 1:].T, color="black", linewidth=0.4, alpha=0.35)
-    lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour, _ in CABLES.values()]
+    lines = [ax.plot([], [], solid_capstyle="round", color=colour)[0] for colour in scene["colours"]]
     (trail,) = ax.plot([], [], color="black", linewidth=0.9, zorder=4)
     body = Polygon(outline, facecolor="white", edgecolor="black")
     ax.add_patch(body)

@@ -20,6 +20,10 @@ def engine_of(case: Case) -> _engine.Case:
 
     if isinstance(case, Case):
         return case._engine
+    from ._system import System
+
+    if isinstance(case, System):
+        raise TypeError("case = a snapload.System is not allowed; allowed: a snapload.Case; a System has its own sweep")
     raise TypeError(f"case = {case!r} is not allowed; allowed: a snapload.Case, such as snapload.Case(f_o=0.31)")
 
 

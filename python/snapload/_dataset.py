@@ -70,7 +70,7 @@ def dataset(
     ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
     columns = {name: _Column(path, name, sizes) for name in shown}
     variables = {name: (tuple(axes), column, attributes()[name]) for name, column in columns.items()}
-    variables["end_code"] = (tuple(axes), _Column(path, "end", sizes, ends), _flags(ends))
+    variables["end_code"] = (tuple(axes), _Column(path, "end", sizes, ends), flags(ends))
     _, places, words = _engine.read_column(path, "error", 0, count)
     del places
     if len(words) > 1:
@@ -145,7 +145,7 @@ class _Column(BackendArray):
         return rows[(first, *key[1:])]
 
 
-def _flags(words: list[str]) -> dict[str, Any]:
+def flags(words: list[str]) -> dict[str, Any]:
     """What the numbers of the ends mean after CF, for maps; -1 where there was no run."""
     return {
         "long_name": "why the run ended, as a number",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import cycle, islice, pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from ._run import Run
+    from ._base_run import BaseRun
 
 BLUE, VERMILION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
 
@@ -25,8 +25,8 @@ GREY = "#999999"
 #: What is drawn to compare with.
 REFERENCE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": ":", "zorder": 1}
 
-#: Of the cables, by number.
-CABLES = {1: (BLUE, "x"), 2: (VERMILION, "o")}
+#: Of the cables, in their order; a mooring of more begins anew.
+_CABLES = ((BLUE, "x"), (VERMILION, "o"), (GREEN, "^"), (ORANGE, "s"), ("#56B4E9", "d"), ("#CC79A7", "v"))
 
 #: Colour and width of the path in each mode.
 _MODES = {"slack": (BLUE, 0.9), "sliding": (ORANGE, 2.0), "rocking": (GREEN, 2.0)}
@@ -41,9 +41,9 @@ _SAMPLES, _OF_FLIGHT = 2000, 32
 _DOT = 1 / 4000
 
 
-def draw(run: Run, what: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
+def draw(run: BaseRun, what: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
     """Draws one picture."""
-    pictures: dict[str, Callable[[Run, Axes, dict[str, Any]], None]] = {
+    pictures: dict[str, Callable[[BaseRun, Axes, dict[str, Any]], None]] = {
         "trajectory": _trajectory,
         "rotation": _rotation,
         "velocities": _velocities,
@@ -57,7 +57,7 @@ def draw(run: Run, what: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
     return ax
 
 
-def overview(run: Run, figure: Figure | None) -> Figure:
+def overview(run: BaseRun, figure: Figure | None) -> Figure:
     """All four pictures."""
     if figure is None:
         figure = pyplot.figure(figsize=(_PAGE, 0.72 * _PAGE), layout="constrained")
@@ -67,14 +67,17 @@ def overview(run: Run, figure: Figure | None) -> Figure:
     return figure
 
 
-def geometry(run: Run) -> tuple[float, float, float, float]:
-    """Length of the cables, half-width and half-height of the body, height of the anchors above y = b."""
-    keys = run.case.keys()
-    r, a, b = keys["r"], keys["a"], keys["b"]
-    return r, a, b, float(np.sqrt(r**2 - (1 - a) ** 2))
+def cables_of(run: BaseRun) -> dict[int, tuple[str, str]]:
+    """Colour and marker of each cable, by number."""
+    return dict(enumerate(islice(cycle(_CABLES), len(run._geometry().cables)), 1))
 
 
-def times_of(run: Run, start: float, stop: float, of_flight: int = _OF_FLIGHT) -> NDArray[np.float64]:
+def named(run: BaseRun, name: str, scale: str) -> str:
+    """The name of an axis, with the scale that it is told in; units of one's own are not known here."""
+    return f"{name} [{scale}]" if run._in_scales else name
+
+
+def times_of(run: BaseRun, start: float, stop: float, of_flight: int = _OF_FLIGHT) -> NDArray[np.float64]:
     """Times at which a curve is drawn: at every event, where it may have a corner, and enough of them between."""
     modes = run.modes
     events = np.concatenate([run.impacts["t"], modes["t_start"], modes["t_end"]])
@@ -90,7 +93,7 @@ def times_of(run: Run, start: float, stop: float, of_flight: int = _OF_FLIGHT) -
     return np.union1d(times, corners)
 
 
-def _stretches(run: Run) -> list[tuple[str, float, float, bool]]:
+def _stretches(run: BaseRun) -> list[tuple[str, float, float, bool]]:
     """Mode intervals, cut where trust ends: mode, from, to, whether it is past the horizon."""
     horizon = run._horizon
     stretches = []
@@ -100,12 +103,13 @@ def _stretches(run: Run) -> list[tuple[str, float, float, bool]]:
     return stretches
 
 
-def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
-    r, a, _, h = geometry(run)
+def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
+    geometry = run._geometry()
     # A label that is given is that of the whole path.
     only = style.pop("label", None)
     seen: set[str] = set()
-    xs, ys = [0.0], [0.0]
+    first, last = run.at(0.0), run.at(run.end.t)
+    xs, ys = ([float(first[name]), *(place[k] for place in geometry.rest)] for k, name in enumerate(("x", "y")))
     for mode, start, stop, doubtful in _stretches(run):
         motion = run.at(times_of(run, start, stop))
         colour, width = _MODES[mode]
@@ -115,29 +119,29 @@ def _trajectory(run: Run, ax: Axes, style: dict[str, Any]) -> None:
         seen.add(label)
         xs += [motion.x.min(), motion.x.max()]
         ys += [motion.y.min(), motion.y.max()]
-    first, last = run.at(0.0), run.at(run.end.t)
     ax.plot(first.x, first.y, "o", color="black", markersize=4, zorder=4)
     ax.plot(last.x, last.y, "s", color="black", markersize=4, zorder=4)
     for place, name in ((first, "start"), (last, "end")):
         ax.annotate(name, (float(place.x), float(place.y)), (4, 3), textcoords="offset points", fontsize="small")
     # Where a cable is taut with the body upright.
-    half = 0.6 * max(max(xs) - min(xs), max(ys) - min(ys))
-    x = np.linspace(-half, half, 400)
-    for side in (-1.0, 1.0):
-        inside = r**2 - (x - side * (1 - a)) ** 2
-        y = h - np.sqrt(np.where(inside >= 0, inside, np.nan))
-        ax.plot(x, y, **REFERENCE)
+    half = 0.6 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-6)
+    middle = (max(xs) + min(xs)) / 2
+    x = np.linspace(middle - 1.1 * half, middle + 1.1 * half, 400)
+    for (across, up), (_, _, r) in zip(geometry.centres(), geometry.cables, strict=True):
+        inside = r**2 - (x - across) ** 2
+        reach = np.sqrt(np.where(inside >= 0, inside, np.nan))
+        ax.plot([*x, np.nan, *x], [*(up - reach), np.nan, *(up + reach)], **REFERENCE)
     margin = 0.06 * half
     ax.set_xlim(min(xs) - 3 * margin, max(xs) + 3 * margin)
     ax.set_ylim(min(ys) - margin, max(ys) + 2 * margin)
-    ax.set_xlabel("$x$ [L]")
-    ax.set_ylabel("$y$ [L]")
+    ax.set_xlabel(named(run, "$x$", "L"))
+    ax.set_ylabel(named(run, "$y$", "L"))
     ax.xaxis.set_major_locator(MaxNLocator(5))
     if len(seen) > 1:
         legend(ax)
 
 
-def _over_time(run: Run, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
+def _over_time(run: BaseRun, ax: Axes, of: str, label: str | None, look: dict[str, Any]) -> None:
     """A quantity over time, grey past the horizon. Breaks where a tension jumps are left open."""
     label = look.pop("label", label)
     for place, (_, start, stop, doubtful) in enumerate(_stretches(run)):
@@ -148,19 +152,20 @@ def _over_time(run: Run, ax: Axes, of: str, label: str | None, look: dict[str, A
         ax.plot(times, run.at(times)[of], **{"label": label if place == 0 else None, **look, **colour})
 
 
-def _rotation(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+def _rotation(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     _over_time(run, ax, "theta", None, {"color": BLUE, "linewidth": 1.0, **style})
     top = 1.05 * max(run.norms.theta_max, 1e-3)
     ax.set_ylim(-top, top)
-    for limit in (-np.pi / 2, np.pi / 2):
-        ax.axhline(limit, **REFERENCE)
+    limit = run._geometry().rotation_limit
+    for level in () if limit is None else (-limit, limit):
+        ax.axhline(level, **REFERENCE)
     _label_time(run, ax, "$\\theta$ [rad]")
 
 
-def _velocities(run: Run, ax: Axes, style: dict[str, Any]) -> None:
+def _velocities(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
     t, v, cable = (run.impacts[name] for name in ("t", "v_n", "cable"))
     horizon, only = run._horizon, style.pop("label", None)
-    for number, (colour, marker) in CABLES.items():
+    for number, (colour, marker) in cables_of(run).items():
         of_cable = (cable == number) & (v > 0)
         look = {"linestyle": "none", "marker": marker, "markersize": 4, "markerfacecolor": "none", **style}
         for doubtful in (True, False):
@@ -169,14 +174,14 @@ def _velocities(run: Run, ax: Axes, style: dict[str, Any]) -> None:
             label = name if not doubtful and of_cable.any() else None
             ax.plot(t[shown], v[shown], **{"label": label, "color": GREY if doubtful else colour, **look})
     ax.set_ylim(bottom=0)
-    _label_time(run, ax, "$v_n$ [L/T]")
+    _label_time(run, ax, named(run, "$v_n$", "L/T"))
     if (v > 0).any():
         legend(ax)
 
 
-def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
-    for number, (colour, _) in CABLES.items():
-        look = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number == 1 else "--", **style}
+def _tensions(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
+    for number, (colour, _) in cables_of(run).items():
+        look = {"color": colour, "linewidth": 1.2, "linestyle": "-" if number % 2 else "--", **style}
         _over_time(run, ax, f"T{number}", f"cable {number}", look)
     ax.set_ylim(bottom=0)
     if not any(run.modes["mode"] != "slack"):
@@ -185,7 +190,7 @@ def _tensions(run: Run, ax: Axes, style: dict[str, Any]) -> None:
         ax.text(0.5, 0.5, words, transform=ax.transAxes, ha="center", fontsize="small")
     else:
         legend(ax)
-    _label_time(run, ax, "tension [F]")
+    _label_time(run, ax, named(run, "tension", "F"))
 
 
 def legend(ax: Axes) -> None:
@@ -204,7 +209,7 @@ def legend(ax: Axes) -> None:
     )
 
 
-def _label_time(run: Run, ax: Axes, label: str) -> None:
+def _label_time(run: BaseRun, ax: Axes, label: str) -> None:
     ax.set_xlim(0, run.end.t or 1.0)
-    ax.set_xlabel("$t$ [T]")
+    ax.set_xlabel(named(run, "$t$", "T"))
     ax.set_ylabel(label)

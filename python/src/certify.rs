@@ -48,7 +48,7 @@ pub(crate) fn certify(
     run: &Run,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let parameters = *run.case().parameters();
+    let parameters = *run.case()?.parameters();
     let case = ExactCase::of(&parameters, |_| None).map_err(PyValueError::new_err)?;
     let proof = interruptible(py, progress, move |watch| {
         prove(&case, parameters.t_end, &|progress| watch.go_on(progress))

@@ -11,6 +11,7 @@ mod pool;
 mod run;
 mod schema;
 mod study;
+mod system;
 mod table;
 
 use pyo3::prelude::*;
@@ -35,11 +36,14 @@ mod _engine {
     #[pymodule_export]
     use super::study::{Store, Study, evenly, identity, merge, read_column, threads_for};
     #[pymodule_export]
+    use super::system::{System, run_system, sweep_systems};
+    #[pymodule_export]
     use super::table::Table;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        module.add("MAX_CABLES", snapload::MAX_CABLES)?;
         module.add("MOST_DIGITS", snapload::analysis::MOST_DIGITS)
     }
 }

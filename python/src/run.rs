@@ -20,17 +20,18 @@ use snapload::analysis::{
 use snapload::{CaseError, ModeInterval, Playback, Trajectory, Value};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, MOTION, MotionRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow,
-    TrustRow, Trusted, Verified, VerifiedRow, summary, summary_lines,
+    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow, TrustRow, Trusted,
+    Verified, VerifiedRow, summary, summary_lines, trust_in_words,
 };
 use std::collections::HashMap;
-use std::iter::repeat;
+use std::iter::{once, repeat};
 use std::sync::Arc;
 
 /// A finished run.
 #[pyclass(frozen, module = "snapload._engine")]
 pub(crate) struct Run {
-    case: Case,
+    /// None of a system of one's own.
+    case: Option<Case>,
     known: Arc<Known>,
 }
 
@@ -59,7 +60,7 @@ impl Known {
 /// What a run comes to, without its tables.
 #[derive(Serialize)]
 struct Head<'a> {
-    case: CaseEcho<'a>,
+    case: Option<CaseEcho<'a>>,
     end: EndRow,
     state: [f64; 6],
     outcome: Option<OutcomeRow>,
@@ -68,9 +69,22 @@ struct Head<'a> {
 }
 
 impl Run {
+    /// A run without a word on trust.
+    pub(crate) fn alone(case: Option<Case>, run: Trajectory) -> Self {
+        let known = Arc::new(Known::Alone(Box::new(run)));
+        Self { case, known }
+    }
+
+    /// A run with what is known of it.
+    pub(crate) fn trusted(case: Option<Case>, run: Trusted) -> Self {
+        let known = Arc::new(Known::Trusted(Box::new(run)));
+        Self { case, known }
+    }
+
     /// The case that was run.
-    pub(crate) fn case(&self) -> &Case {
-        &self.case
+    pub(crate) fn case(&self) -> PyResult<&Case> {
+        let no_case = || of_program("this is a run of no case");
+        self.case.as_ref().ok_or_else(no_case)
     }
 
     /// The run itself.
@@ -85,7 +99,7 @@ impl Run {
     fn head(&self) -> PyResult<String> {
         let (run, trusted) = (self.known.run(), self.known.trusted());
         to_json(&Head {
-            case: CaseEcho(self.case.parameters()),
+            case: self.case.as_ref().map(|case| CaseEcho(case.parameters())),
             end: EndRow::new(run.end()),
             state: run.end().state.components(),
             outcome: trusted.map(OutcomeRow::new),
@@ -99,31 +113,25 @@ impl Run {
     fn to_json(&self, dt: Option<f64>) -> PyResult<String> {
         let sampling = dt.map(|dt| self.sampling(dt)).transpose()?;
         let trusted = self.with_trust()?;
-        let report = Report::new(self.case.parameters(), trusted, sampling, &unwatched);
+        let report = Report::new(self.case()?.parameters(), trusted, sampling, &unwatched);
         to_json(&report)
     }
 
     /// What `snapload run` prints.
     fn summary(&self) -> PyResult<String> {
-        let trusted = self.with_trust()?;
-        Ok(summary(
-            &self.case.name,
-            self.case.parameters(),
-            trusted,
-            None,
-            &[],
-        ))
+        let (case, trusted) = (self.case()?, self.with_trust()?);
+        Ok(summary(&case.name, case.parameters(), trusted, None, &[]))
     }
 
     /// The same as labels and texts.
     fn summary_lines(&self) -> PyResult<Vec<(&'static str, String)>> {
-        let trusted = self.with_trust()?;
-        Ok(summary_lines(
-            &self.case.name,
-            self.case.parameters(),
-            trusted,
-            None,
-        ))
+        let (case, trusted) = (self.case()?, self.with_trust()?);
+        Ok(summary_lines(&case.name, case.parameters(), trusted, None))
+    }
+
+    /// Where trust ends, and why.
+    fn trust_in_words(&self) -> PyResult<String> {
+        Ok(trust_in_words(self.with_trust()?))
     }
 
     /// The impacts, a row an impact and cable; the digits that are known of them only where it is
@@ -166,7 +174,8 @@ impl Run {
         ])
     }
 
-    /// The motion at times, given as doubles: ten doubles a time, in the order of `MOTION`.
+    /// The motion at times, given as doubles: a row a time, of the time, the state, the tensions of
+    /// all cables, and the energy.
     fn motion_at<'py>(
         &self,
         py: Python<'py>,
@@ -205,10 +214,14 @@ impl Run {
         let bytes = on_this_thread(py, |on_progress| {
             let counter = Counter::new("playing", 0, times.len() as u64, on_progress);
             let mut playback = Playback::new(run);
-            let mut bytes = Vec::with_capacity(8 * MOTION.len() * times.len());
+            let cables = run.system().cables.len();
+            let mut bytes = Vec::with_capacity(8 * (8 + cables) * times.len());
             for t in times {
-                let MotionRow(row) = MotionRow::new(&playback.at(t));
-                bytes.extend(row.into_iter().flat_map(f64::to_ne_bytes));
+                let motion = playback.at(t);
+                let row = once(motion.t).chain(motion.state.components());
+                let tensions = &motion.tensions[..cables];
+                let row = row.chain(tensions.iter().copied()).chain([motion.energy]);
+                bytes.extend(row.flat_map(f64::to_ne_bytes));
                 counter.add(1)?;
             }
             Ok(bytes)
@@ -266,7 +279,7 @@ pub(crate) fn read_uncertainty(
     Ok(uncertain)
 }
 
-fn positive(key: &str, value: f64) -> PyResult<f64> {
+pub(crate) fn positive(key: &str, value: f64) -> PyResult<f64> {
     if value > 0.0 && value.is_finite() {
         return Ok(value);
     }
@@ -306,10 +319,7 @@ pub(crate) fn run(
             alone.completed(&begun, members, seed, &on_progress)
         })?
     };
-    Ok(Run {
-        case: case.clone(),
-        known: Arc::new(Known::Trusted(Box::new(trusted.map_err(of_work)?))),
-    })
+    Ok(Run::trusted(Some(case.clone()), trusted.map_err(of_work)?))
 }
 
 /// Runs a case without a word on how far the run can be trusted.
@@ -318,12 +328,8 @@ pub(crate) fn run_alone(py: Python<'_>, case: &Case) -> PyResult<Run> {
     let run = on_this_thread(py, |on_progress| {
         record(case.case.simulation(), on_progress, |_, _| {})
     })?;
-    Ok(Run {
-        case: case.clone(),
-        known: Arc::new(Known::Alone(Box::new(
-            run.map_err(|cancelled| of_work(cancelled.into()))?,
-        ))),
-    })
+    let run = run.map_err(|cancelled| of_work(cancelled.into()))?;
+    Ok(Run::alone(Some(case.clone()), run))
 }
 
 /// Number of an impact, key, and the derivatives by it of time, normal velocity and impulse.

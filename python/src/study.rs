@@ -207,7 +207,7 @@ pub(crate) fn threads_for(asked: usize) -> (usize, Option<String>) {
 }
 
 /// On so many threads, or on as many as the machine has.
-fn on_threads<T: Send>(
+pub(crate) fn on_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> Result<T, StudyError> + Send,
 ) -> Result<T, StudyError> {
@@ -253,43 +253,73 @@ pub(crate) fn read_column<'py>(
     start: u64,
     stop: u64,
 ) -> PyResult<(&'static str, Bound<'py, PyByteArray>, Vec<String>)> {
-    let mut bytes = Vec::new();
-    let mut kind = "";
-    let mut words = vec![String::new()];
-    let mut places = HashMap::from([(String::new(), 0_i32)]);
-    let read = py.detach(|| {
-        read_rows(&path, name, start..stop, |values| {
-            kind = match values {
-                Values::Numbers(list) => {
-                    let list = list.into_iter().map(|value| value.unwrap_or(f64::NAN));
-                    bytes.extend(list.flat_map(f64::to_ne_bytes));
-                    "float64"
-                }
-                Values::Counts(list) => {
-                    let list = list.into_iter().map(|n| n.map_or(f64::NAN, |n| n as f64));
-                    bytes.extend(list.flat_map(f64::to_ne_bytes));
-                    "float64"
-                }
-                Values::Flags(list) => {
-                    bytes.extend(list.into_iter().map(|flag| u8::from(flag == Some(true))));
-                    "bool"
-                }
-                Values::Words(list) => {
-                    for word in list {
-                        let word = word.unwrap_or_default().into_owned();
-                        let place = *places.entry(word).or_insert_with_key(|word| {
-                            words.push(word.clone());
-                            words.len() as i32 - 1
-                        });
-                        bytes.extend(place.to_ne_bytes());
-                    }
-                    "words"
-                }
-            };
-        })
-    });
+    let mut plain = Plain::none();
+    let read = py.detach(|| read_rows(&path, name, start..stop, |values| plain.take(values)));
     read.map_err(of_study)?;
-    Ok((kind, PyByteArray::new(py, &bytes), words))
+    Ok((plain.kind, PyByteArray::new(py, &plain.bytes), plain.words))
+}
+
+/// Values for NumPy: their type, their bytes, and the words that they are places in.
+pub(crate) struct Plain {
+    pub(crate) kind: &'static str,
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) words: Vec<String>,
+    places: HashMap<String, i32>,
+}
+
+impl Plain {
+    /// None yet; the first word is the empty one.
+    fn none() -> Self {
+        Self {
+            kind: "",
+            bytes: Vec::new(),
+            words: vec![String::new()],
+            places: HashMap::from([(String::new(), 0)]),
+        }
+    }
+
+    /// Of values.
+    pub(crate) fn of(values: Values) -> Self {
+        let mut plain = Self::none();
+        plain.take(values);
+        plain
+    }
+
+    /// Takes in more values of the same column.
+    fn take(&mut self, values: Values) {
+        self.kind = match values {
+            Values::Numbers(list) => {
+                let list = list.into_iter().map(|value| value.unwrap_or(f64::NAN));
+                self.bytes.extend(list.flat_map(f64::to_ne_bytes));
+                "float64"
+            }
+            Values::Counts(list) => {
+                let list = list.into_iter().map(|n| n.map_or(f64::NAN, |n| n as f64));
+                self.bytes.extend(list.flat_map(f64::to_ne_bytes));
+                "float64"
+            }
+            Values::Flags(list) => {
+                let flags = list.into_iter().map(|flag| u8::from(flag == Some(true)));
+                self.bytes.extend(flags);
+                "bool"
+            }
+            Values::Words(list) => {
+                for word in list {
+                    let place = self.place(word.unwrap_or_default().into_owned());
+                    self.bytes.extend(place.to_ne_bytes());
+                }
+                "words"
+            }
+        };
+    }
+
+    fn place(&mut self, word: String) -> i32 {
+        let words = &mut self.words;
+        *self.places.entry(word).or_insert_with_key(|word| {
+            words.push(word.clone());
+            words.len() as i32 - 1
+        })
+    }
 }
 
 /// Joins the parts of a study into one file.

@@ -22,3 +22,9 @@ if critical is not None:
 print(snapload.verify(case).differences.max(), snapload.ensemble(case).ends["settled"].part)
 proof: snapload.Certificate = run.certify()
 confirmed: NDArray[np.float64] = proof.digits
+swing = snapload.System(snapload.Body(), [snapload.Cable((0, 0), 1)], snapload.Forcing((0, -1)), 0.5, y=-1, vx=1.8)
+swung: snapload.SystemRun = swing.run(uncertainty={"x": 1e-6})
+speeds: NDArray[np.float64] = swung.impacts["v_n"]
+snaps = swing.sweep(vx=[1.0, 1.8], restitution="0:1:3").impacts_1.sum()
+scales = snapload.Scales(length=5.0, mass=800.0, force=1000.0)
+metres: snapload.Table = scales.si(scales.case(r=7.5, f_o=310.0).run().impacts)

@@ -21,7 +21,7 @@ const fn number(
 #[rustfmt::skip] // one row a column
 pub static IMPACTS: [Column<ImpactRow>; 18] = [
     Column::quantity("t", Take::Number(|i| Some(i.0.t))),
-    Column::new("cable", "cable", "", Take::Count(|i| Some(i.0.cable as u64 + 1)), "cable, 1 or 2"),
+    Column::new("cable", "cable", "", Take::Count(|i| Some(i.0.cable as u64 + 1)), "number of the cable"),
     number("v_n", "L/T", |i| Some(i.0.v_n), "normal velocity just before; 0 where an impulse was passed on"),
     Column::quantity("impulse", Take::Number(|i| Some(i.0.impulse))),
     Column::quantity("energy_lost", Take::Number(|i| Some(i.0.energy_lost))),

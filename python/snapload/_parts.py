@@ -1,0 +1,229 @@
+"""The parts of a system of one's own: body, cables, forces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, SupportsFloat, TypeAlias
+
+from ._check import number
+
+#: A point or vector of the plane.
+Pair: TypeAlias = tuple[float, float]
+
+#: No number of a system is larger. Far from 1 rounding is judged too well.
+LARGEST = 1e6
+
+
+def within(name: str, value: SupportsFloat, low: float = -LARGEST, high: float = LARGEST, above: bool = False) -> float:
+    """A number within bounds, of which the lower one is open where it has to be above."""
+    plain = number(name, value)
+    if (low < plain if above else low <= plain) and plain <= high:
+        return plain
+    sign = "<" if above else "<="
+    raise ValueError(f"{name} = {value!r} is not allowed; allowed: a number, {low:g} {sign} {name} <= {high:g}")
+
+
+def pair(name: str, value: Any) -> Pair:
+    """Two numbers, x and y."""
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        allowed = "its x and its y, such as (0.0, -1.0)"
+        raise ValueError(f"{name} = {value!r} is not allowed; allowed: {allowed}") from None
+    return within(f"{name}: x", x), within(f"{name}: y", y)
+
+
+def several(name: str, values: Any, kind: type, most: int | None = None) -> tuple[Any, ...]:
+    """A tuple of parts of one kind."""
+    one = f"snapload.{kind.__name__}"
+    given = tuple(values) if isinstance(values, Iterable) else (values,)
+    for place, value in enumerate(given, 1):
+        if not isinstance(value, kind):
+            raise TypeError(f"{name}: number {place}, {value!r}, is not allowed; allowed: a {one}")
+    if most is not None and not 1 <= len(given) <= most:
+        raise ValueError(f"{name}: {len(given)} of them are not allowed; allowed: 1 to {most}")
+    return given
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body in the plane, or a point mass.
+
+    Parameters
+    ----------
+    mass : float
+        Its mass, what moves along of the water included. With a mass of 1 slack flight is computed in closed form,
+        which is several times as fast.
+    inertia : float, optional
+        Moment of inertia about the centre. A point mass, which does not turn, if left out.
+    radius : float, optional
+        Of a circle about the centre.
+    half_size : (float, float), optional
+        Half width and half height of a rectangle about the centre, in place of the radius.
+
+    Raises
+    ------
+    ValueError
+        If a value is not allowed.
+
+    See Also
+    --------
+    snapload.System : What it is a part of.
+
+    Notes
+    -----
+    The outline is drawn, and the upper bound asks for its highest point; the motion does not depend on it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.Body(inertia=0.02, radius=0.2)
+    Body(mass=1.0, inertia=0.02, radius=0.2, half_size=None)
+    >>> snapload.Body(mass=0)
+    Traceback (most recent call last):
+        ...
+    ValueError: mass = 0 is not allowed; allowed: a number, 0 < mass <= 1e+06
+    """
+
+    mass: float = 1.0
+    inertia: float | None = None
+    radius: float | None = None
+    half_size: Pair | None = None
+
+    def __post_init__(self) -> None:
+        put(self, mass=within("mass", self.mass, 0.0, above=True))
+        if self.inertia is not None:
+            put(self, inertia=within("inertia", self.inertia, 0.0, above=True))
+        if self.radius is not None:
+            put(self, radius=within("radius", self.radius, 0.0))
+        if self.half_size is not None:
+            half_size = pair("half_size", self.half_size)
+            if min(half_size) <= 0 or self.radius is not None:
+                allowed = "two numbers above 0, and no radius beside them"
+                raise ValueError(f"half_size = {self.half_size!r} is not allowed; allowed: {allowed}")
+            put(self, half_size=half_size)
+        if self.inertia is None and (self.radius or self.half_size):
+            raise ValueError(
+                "inertia = None is not allowed of a body with a size: None is a point mass; give its moment of inertia"
+            )
+
+
+@dataclass(frozen=True)
+class Cable:
+    """An inextensible cable from a fixed anchor to a point of the body.
+
+    Parameters
+    ----------
+    anchor : (float, float)
+        Where it is fixed, x and y.
+    length : float
+        How long it is.
+    fairlead : (float, float)
+        Where it is made fast to the body: x and y from the centre, with the body upright.
+
+    Raises
+    ------
+    ValueError
+        If a value is not allowed.
+
+    See Also
+    --------
+    snapload.System : What it is a part of.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.Cable(anchor=(-1, 1.2), length=1.5, fairlead=(-0.2, 0))
+    Cable(anchor=(-1.0, 1.2), length=1.5, fairlead=(-0.2, 0.0))
+    """
+
+    anchor: Pair
+    length: float
+    fairlead: Pair = (0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        length = within("length", self.length, 0.0, above=True)
+        put(self, anchor=pair("anchor", self.anchor), length=length, fairlead=pair("fairlead", self.fairlead))
+
+
+@dataclass(frozen=True)
+class Sinusoid:
+    """A force that swings at one frequency: amplitude times cos(omega t + phase), along x and along y.
+
+    Parameters
+    ----------
+    amplitude : (float, float)
+        Largest force along x and along y.
+    omega : float
+        Angular frequency.
+    phase : float or (float, float)
+        Phase at t = 0 [rad], of both or along x and along y.
+
+    Raises
+    ------
+    ValueError
+        If a value is not allowed.
+
+    See Also
+    --------
+    snapload.Forcing : What it is a part of.
+
+    Examples
+    --------
+    The waves of the standard case, 0.3 cos 0.9 t along x and 0.15 sin 0.9 t along y:
+
+    >>> import math, snapload
+    >>> snapload.Sinusoid((0.3, 0.15), 0.9, phase=(0, -math.pi / 2))
+    Sinusoid(amplitude=(0.3, 0.15), omega=0.9, phase=(0.0, -1.5707963267948966))
+    """
+
+    amplitude: Pair
+    omega: float
+    phase: Pair | float = 0.0
+
+    def __post_init__(self) -> None:
+        phase = self.phase if isinstance(self.phase, Iterable) else (self.phase, self.phase)
+        put(self, amplitude=pair("amplitude", self.amplitude), omega=within("omega", self.omega))
+        put(self, phase=pair("phase", phase))
+
+
+@dataclass(frozen=True)
+class Forcing:
+    """The forces on the centre of the body but for those of the cables: a constant one, and sinusoids.
+
+    Parameters
+    ----------
+    constant : (float, float)
+        The constant force, x and y; weight or buoyancy are a part of it.
+    sinusoids : iterable of Sinusoid
+        Any number of them.
+
+    Raises
+    ------
+    ValueError
+        If a value is not allowed.
+
+    See Also
+    --------
+    snapload.System : What it is a part of.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.Forcing((0, -1), [snapload.Sinusoid((0.4, 0.1), 1.7)]).constant
+    (0.0, -1.0)
+    """
+
+    constant: Pair
+    sinusoids: tuple[Sinusoid, ...] | list[Sinusoid] = ()
+
+    def __post_init__(self) -> None:
+        put(self, constant=pair("constant", self.constant))
+        put(self, sinusoids=several("sinusoids", self.sinusoids, Sinusoid))
+
+
+def put(part: object, **values: object) -> None:
+    """Sets what was checked, of a part that can not be changed later."""
+    for name, value in values.items():
+        object.__setattr__(part, name, value)

@@ -1,0 +1,272 @@
+"""Between metres, kilograms, newtons and seconds and the scales of a case."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeVar, Unpack
+
+import numpy as np
+
+from . import _engine
+from ._case import Case
+from ._keys import Keys
+from ._later import Later
+from ._parts import put
+from ._signature import with_keys
+from ._table import Table
+
+if TYPE_CHECKING:
+    import xarray
+else:
+    xarray = Later("xarray")
+
+#: What can be brought to SI.
+Result = TypeVar("Result", Table, "xarray.Dataset", "xarray.DataArray", "np.recarray[Any, Any]")
+
+#: The scales that products are made of, and the unit of SI that each becomes.
+_UNITS = {"L": "m", "m": "kg", "F": "N", "T": "s", "rad": "rad"}
+
+#: What a motion holds beside tensions.
+_MOTION = {"t": "T", "x": "L", "y": "L", "theta": "rad", "vx": "L/T", "vy": "L/T", "vtheta": "rad/T", "energy": "F L"}
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The length, the mass and the force that a case is told in, in SI units.
+
+    Parameters
+    ----------
+    length : float
+        Half the distance of the anchors, L [m].
+    mass : float
+        The mass of the body, m, with its added mass [kg].
+    force : float
+        The net buoyancy of the body, F [N].
+
+    Raises
+    ------
+    ValueError
+        If one of them is not above 0.
+
+    See Also
+    --------
+    snapload.Case : What is told in them.
+
+    Notes
+    -----
+    Structures that are given by their depth, waves and lines are for the command ``snapload assess``.
+
+    Examples
+    --------
+    A ring of 1 m across between anchors 10 m apart, in waves of 0.4 rad/s that push with 310 N:
+
+    >>> import snapload
+    >>> scales = snapload.Scales(length=5.0, mass=800.0, force=1000.0)
+    >>> scales.time
+    2.0
+    >>> case = scales.case(r=7.5, a=0.5, f_o=310.0, omega=0.45, y=0.5)
+    >>> case.r, case.f_o, case.omega
+    (1.5, 0.31, 0.9)
+    >>> run = case.run()
+    >>> round(float(scales.si(run.impacts)["v_n"].max()), 4), round(run.end.t * scales.time, 3)
+    (1.2302, 6.904)
+    """
+
+    length: float
+    mass: float
+    force: float
+
+    def __post_init__(self) -> None:
+        from ._check import number
+
+        for name in ("length", "mass", "force"):
+            value = number(name, given := getattr(self, name))
+            if not 0 < value < np.inf:
+                raise ValueError(f"{name} = {given!r} is not allowed; allowed: a number above 0")
+            put(self, **{name: value})
+
+    @property
+    def time(self) -> float:
+        """The time scale T = sqrt(m L / F) [s].
+
+        See Also
+        --------
+        factor : The value of any product of scales.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Scales(length=5.0, mass=800.0, force=1000.0).time
+        2.0
+        """
+        return float(np.sqrt(self.mass * self.length / self.force))
+
+    def factor(self, scale: str) -> float:
+        """Give the SI value of a product of scales, as metadata of results have it.
+
+        Parameters
+        ----------
+        scale : str
+            Such as ``"L/T"`` or ``"m L^2"``.
+
+        Returns
+        -------
+        float
+            By what to multiply a number in these scales.
+
+        Raises
+        ------
+        ValueError
+            If it is no such product.
+
+        See Also
+        --------
+        si : Multiplies whole results.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Scales(length=5.0, mass=800.0, force=1000.0).factor("L/T")
+        2.5
+        """
+        sizes = {"L": self.length, "m": self.mass, "F": self.force, "T": self.time}
+        value = 1.0
+        for name, power in _powers(scale):
+            value *= sizes.get(name, 1.0) ** power
+        return float(value)
+
+    def case(self, base: Case | None = None, /, **keys: Unpack[Keys]) -> Case:
+        """Make a case of keys in SI units.
+
+        Parameters
+        ----------
+        base : Case, optional
+            What all other keys are taken from, in scales as any case; the standard case if left out.
+        **keys
+            Those to change, as for :class:`snapload.Case`, but in m, kg, N, s, and products of them. What has no unit,
+            such as ``e``, stays.
+
+        Returns
+        -------
+        Case
+            In the scales.
+
+        Raises
+        ------
+        ValueError
+            As for :class:`snapload.Case`; the error tells values in scales.
+
+        See Also
+        --------
+        si : The way back.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Scales(length=5.0, mass=800.0, force=1000.0).case(t_end=60.0, e=0.7).t_end
+        30.0
+        """
+        units = {key["name"]: key["unit"] for key in _engine.keys()}
+        plain: dict[str, Any] = {}
+        for key, value in keys.items():
+            unit = units.get(key, "")
+            has_unit = unit not in ("", "1", "rad") and value is not None
+            plain[key] = float(value) / self.factor(unit) if has_unit else value  # type: ignore[arg-type]
+        return (Case() if base is None else base).replace(**plain)
+
+    def si(self, result: Result) -> Result:
+        """Bring a result from scales to SI units.
+
+        Parameters
+        ----------
+        result : Table, xarray.Dataset, xarray.DataArray, or numpy.recarray
+            A table of a run, a study or one variable of it, or a motion.
+
+        Returns
+        -------
+        Table, xarray.Dataset, xarray.DataArray, or numpy.recarray
+            The same with the values in m, kg, N, s, rad, and their units in the metadata after CF.
+
+        Raises
+        ------
+        TypeError
+            If it is something else.
+        ValueError
+            If a column has no one unit, as those of :func:`snapload.sensitivities`.
+
+        See Also
+        --------
+        factor : For single numbers.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> scales = snapload.Scales(length=5.0, mass=800.0, force=1000.0)
+        >>> study = scales.si(snapload.sweep(snapload.Case(), f_o=[0.3, 0.31]))
+        >>> study.f_o.values.tolist(), study.rho1.attrs["units"]
+        ([300.0, 310.0], 'm s-1')
+        """
+        brought: Result = self._brought(result)
+        return brought
+
+    def _brought(self, result: Any) -> Any:
+        if isinstance(result, Table):
+            return self._table(result)
+        if isinstance(result, np.recarray):
+            return self._motion(result)
+        if type(result).__module__.startswith("xarray."):
+            if not hasattr(result, "data_vars"):
+                return result._from_temp_dataset(self._brought(result._to_temp_dataset()))
+            return result.assign({name: self._variable(variable) for name, variable in result.variables.items()})
+        allowed = "a Table, a Dataset or DataArray of xarray, or a motion"
+        raise TypeError(f"result, a {type(result).__name__}, is not allowed; allowed: {allowed}")
+
+    def _table(self, table: Table) -> Table:
+        parts = []
+        for name, kind, words, values in table._table.parts():
+            if scale := words.get("scale"):
+                factor = self.factor(scale)
+                values = bytearray((np.frombuffer(values) * factor).tobytes())
+                words = {key: word for key, word in words.items() if key != "scale"} | {"units": unit_of(scale)}
+            parts.append((name, kind, words, values))
+        return Table(_engine.Table.of(parts))
+
+    def _motion(self, motion: np.recarray[Any, Any]) -> np.recarray[Any, Any]:
+        brought = motion.copy()
+        for name in motion.dtype.names or ():
+            brought[name] *= self.factor(_MOTION.get(name, "F"))
+        return brought
+
+    def _variable(self, variable: Any) -> Any:
+        scale = variable.attrs.get("scale")
+        if not scale:
+            return variable
+        brought = variable.copy(data=variable.data * self.factor(scale))
+        brought.attrs = {key: word for key, word in variable.attrs.items() if key != "scale"}
+        # Long names end in the scale that the number is in.
+        name = str(brought.attrs.get("long_name", "")).removesuffix(f", in {scale}")
+        brought.attrs |= {"units": unit_of(scale), "long_name": name}
+        return brought
+
+
+with_keys(Scales.case, defaults=False)
+
+
+def unit_of(scale: str) -> str:
+    """The unit of SI of a product of scales, after CF: ``m s-1``."""
+    return " ".join(f"{_UNITS[name]}{power if power != 1 else ''}" for name, power in _powers(scale)) or "1"
+
+
+def _powers(scale: str) -> list[tuple[str, int]]:
+    """The scales in a product, each with its power."""
+    over, _, under = scale.partition("/")
+    powers = []
+    for words, sign in ((over, 1), (under, -1)):
+        for word in words.split():
+            known = re.fullmatch(r"(L|m|F|T|rad|1)(?:\^(\d+))?", word)
+            if known is None:
+                raise ValueError(f"scale = {scale!r} is not allowed; allowed: a product such as 'L/T' or 'm L^2'")
+            if known[1] != "1":
+                powers.append((known[1], sign * int(known[2] or 1)))
+    return powers

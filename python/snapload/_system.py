@@ -1,0 +1,391 @@
+"""Systems of one's own: any body, cables and forces."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from . import _engine
+from ._base_run import BaseRun
+from ._check import Uncertainty, number, whole
+from ._geometry import Geometry
+from ._later import Later
+from ._parts import Body, Cable, Forcing, put, several, within
+from ._system_keys import changed
+
+if TYPE_CHECKING:
+    import xarray
+else:
+    xarray = Later("xarray")
+
+#: The start, in the order of the engine.
+START = ("x", "y", "theta", "vx", "vy", "vtheta")
+
+#: The rules that may be left out.
+_LIMITS = ("rotation_limit", "upper_bound", "settled_below", "sliding_above")
+
+
+@dataclass(frozen=True, repr=False)
+class System:
+    """A body on any cables under any sinusoids, from a start to a stop.
+
+    Parameters
+    ----------
+    body : Body
+        What moves.
+    cables : iterable of Cable
+        One to sixteen of them. They count from 1.
+    forcing : Forcing
+        All forces but those of the cables, the weight among them.
+    restitution : float
+        Coefficient of restitution of every snap, from 0 to 1.
+    x, y, theta, vx, vy, vtheta : float
+        The start: centre, rotation, and their velocities. No cable may be shorter than it has to be there.
+    t_end : float
+        The run ends here at the latest.
+    rotation_limit : float, optional
+        The run ends where the body has turned so far, either way [rad].
+    upper_bound : float, optional
+        The run ends where the highest point of the body is so high.
+    settled_below : float, optional
+        The run ends where a cable sticks, or two are taut, while y is below this.
+    sliding_above : float, optional
+        The run ends where a cable sticks while y is at this or above.
+    max_impacts : int
+        The run ends at more impacts than this.
+    v_stick : float
+        A slower snap makes the cable stay taut if its tension would be positive.
+
+    Raises
+    ------
+    ValueError
+        If a value is not allowed, or the start is beyond the reach of a cable.
+    TypeError
+        If a part is something else.
+
+    See Also
+    --------
+    snapload.Case : The breakwater on two cables, by its keys.
+    snapload.Body : A part of it.
+    snapload.Cable : A part of it.
+    snapload.Forcing : A part of it.
+
+    Notes
+    -----
+    Units are your own, as long as they belong together, such as metres, kilograms, newtons and seconds. Best are those
+    in which lengths, masses and forces are near 1: rounding is judged so.
+
+    Examples
+    --------
+    A disc that hangs on three cables a tenth longer than they have to be, and is shaken sideways:
+
+    >>> import math, snapload
+    >>> places = [(-1.0, -0.2), (0.0, 0.0), (1.0, 0.2)]
+    >>> cables = [snapload.Cable((x, 1.2), 1.1 * math.dist((x, 1.2), (p, 0)), (p, 0)) for x, p in places]
+    >>> waves = snapload.Sinusoid((0.4, 0.0), 1.7)
+    >>> body = snapload.Body(inertia=0.02, radius=0.2)
+    >>> system = snapload.System(body, cables, snapload.Forcing((0, -1), [waves]), 0.6, t_end=5)
+    >>> run = system.run()
+    >>> run.end.reason, run.impacts["cable"][:3].tolist()
+    ('end_time', [2, 1, 2])
+    >>> system.replace(length_2=1.25).cables[1].length
+    1.25
+    """
+
+    body: Body
+    cables: tuple[Cable, ...] | list[Cable]
+    forcing: Forcing
+    restitution: float
+    _: KW_ONLY
+    x: float = 0.0
+    y: float = 0.0
+    theta: float = 0.0
+    vx: float = 0.0
+    vy: float = 0.0
+    vtheta: float = 0.0
+    t_end: float = 100.0
+    rotation_limit: float | None = None
+    upper_bound: float | None = None
+    settled_below: float | None = None
+    sliding_above: float | None = None
+    max_impacts: int = 1_000_000
+    v_stick: float = 1e-6
+
+    def __post_init__(self) -> None:
+        for name, kind in (("body", Body), ("forcing", Forcing)):
+            if not isinstance(part := getattr(self, name), kind):
+                raise TypeError(f"{name} = {part!r} is not allowed; allowed: a snapload.{kind.__name__}")
+        put(self, cables=several("cables", self.cables, Cable, _engine.MAX_CABLES))
+        put(self, restitution=within("restitution", self.restitution, 0.0, 1.0))
+        put(self, **{name: within(name, getattr(self, name)) for name in START})
+        put(self, t_end=within("t_end", self.t_end, 0.0, above=True))
+        for name in _LIMITS:
+            if getattr(self, name) is not None:
+                put(self, **{name: within(name, getattr(self, name))})
+        put(self, max_impacts=whole("max_impacts", self.max_impacts, 1, 10**7))
+        put(self, v_stick=within("v_stick", self.v_stick, 0.0))
+        if self.body.inertia is None:
+            self._check_point()
+        # That tells whether the start is legal.
+        _ = self._begun
+
+    def _check_point(self) -> None:
+        """A point mass has no rotation, and nothing on it stands apart from its centre."""
+        for cable, tether in enumerate(self.cables, 1):
+            if tether.fairlead != (0.0, 0.0):
+                raise ValueError(
+                    f"fairlead = {tether.fairlead} of cable {cable} is not allowed; allowed: (0, 0) of a point mass; "
+                    "give the body an inertia"
+                )
+        for name in ("theta", "vtheta"):
+            if getattr(self, name) != 0.0:
+                raise ValueError(f"{name} = {getattr(self, name)} is not allowed; allowed: 0 of a point mass")
+
+    @cached_property
+    def _begun(self) -> _engine.System:
+        """The system at its start."""
+        start = [getattr(self, name) for name in START]
+        return _engine.System(self.body, list(self.cables), self.forcing, self.restitution, start, self)
+
+    def replace(self, **keys: Any) -> System:
+        """Change some keys.
+
+        Parameters
+        ----------
+        **keys
+            Any of the parameters; ``mass``, ``inertia`` and ``radius`` of the body; ``force_x`` and ``force_y``, the
+            constant force; ``length``, ``anchor_x``, ``anchor_y``, ``fairlead_x`` and ``fairlead_y`` of every cable;
+            ``amplitude_x``, ``amplitude_y``, ``omega``, ``phase_x`` and ``phase_y`` of every sinusoid. With a number
+            behind it, as in ``length_2``, a key is that of the second one alone.
+
+        Returns
+        -------
+        System
+            Another system; this one stays as it is.
+
+        Raises
+        ------
+        ValueError
+            If a key is unknown or can not take its value.
+
+        See Also
+        --------
+        sweep : Runs all combinations of the values of some keys.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> swing = snapload.System(snapload.Body(), [snapload.Cable((0, 0), 1)], snapload.Forcing((0, -1)), 0.5)
+        >>> swing.replace(y=-1, vx=1.9).vx, swing.replace(length=2).cables[0].length
+        (1.9, 2.0)
+        """
+        system = self
+        parts: dict[str, Any] = {}
+        for key, value in keys.items():
+            parts |= changed(system, parts, key, value)
+        return dataclasses.replace(system, **parts)
+
+    def run(self, *, trust: bool = True, uncertainty: Uncertainty = None, tolerance: float = 1e-3) -> SystemRun:
+        """Run the system to its end, and say how far the run can be trusted.
+
+        Parameters
+        ----------
+        trust : bool
+            Whether to say how far the run can be trusted. The motion is the same to the bit.
+        uncertainty : float or dict of str to float, optional
+            How far the start may be off, either way: one size for every start value, or a size for each. If left
+            out, nothing but rounding.
+        tolerance : float
+            Error of state and time above which a result counts as not known.
+
+        Returns
+        -------
+        SystemRun
+            The finished run: how it ended, impacts, modes, norms, trust, motion.
+
+        Raises
+        ------
+        ValueError
+            If an option is out of its range.
+
+        See Also
+        --------
+        sweep : Runs many systems.
+        snapload.Case.run : Runs the breakwater, its neighbours too.
+
+        Examples
+        --------
+        A pendulum that is thrown from its lowest place, goes slack at 120 degrees and snaps taut:
+
+        >>> import snapload
+        >>> rope, weight = snapload.Cable(anchor=(0, 0), length=1), snapload.Forcing((0, -1))
+        >>> swing = snapload.System(snapload.Body(), [rope], weight, 0.5, y=-1, vx=3.5**0.5, t_end=5)
+        >>> run = swing.run()
+        >>> run.modes["mode"][:2].tolist(), len(run.impacts) > 0
+        (['sliding', 'slack'], True)
+        """
+        if not trust:
+            if uncertainty is not None:
+                raise ValueError("trust=False carries no deviations along; leave out uncertainty, or trust=False")
+            return SystemRun(self, None, _engine.run_system(self._begun, None, 0.0))
+        options = self._doubts(uncertainty), number("tolerance", tolerance)
+        return SystemRun(self, options, _engine.run_system(self._begun, *options))
+
+    def _doubts(self, uncertainty: Uncertainty) -> list[float]:
+        """How far each value of the start may be off."""
+        rigid = self.body.inertia is not None
+        moves = [name for name in START if rigid or name not in ("theta", "vtheta")]
+        if uncertainty is None:
+            sizes: Mapping[str, Any] = {}
+        elif isinstance(uncertainty, Mapping):
+            sizes = uncertainty
+        else:
+            size = within("uncertainty", uncertainty, 0.0)
+            sizes = dict.fromkeys(moves, size)
+        for key in sizes:
+            if key not in moves:
+                allowed = f"start values, {', '.join(moves)}"
+                raise ValueError(f"uncertainty: {key} is not allowed; allowed: {allowed}")
+        return [within(f"uncertainty: {name}", sizes.get(name, 0.0), 0.0) for name in START]
+
+    def sweep(
+        self, *, trust: bool = True, threads: int | None = None, progress: bool = True, **axes: ArrayLike | str
+    ) -> xarray.Dataset:
+        """Run every combination of the values of some keys.
+
+        Parameters
+        ----------
+        trust : bool
+            Whether to say how far each run can be trusted, which takes about twice as long.
+        threads : int, optional
+            Threads to use; as many as the machine has if left out.
+        progress : bool
+            Whether to show a bar if it takes long.
+        **axes
+            The values of each key that varies, by the names that :meth:`replace` knows, or ``"first:last:n"`` for
+            evenly spaced ones. The first key is the slowest.
+
+        Returns
+        -------
+        xarray.Dataset
+            The results over the keys that vary, with the names and meanings of :func:`snapload.sweep`. What is no
+            legal system has NaN, is not ``certain``, and has words in ``error``.
+
+        Raises
+        ------
+        ValueError
+            If a key is unknown, or no system of all is legal.
+
+        See Also
+        --------
+        snapload.sweep : Studies of the breakwater, as files, on several machines.
+
+        Notes
+        -----
+        Python's lock is released meanwhile, and Ctrl-C ends it. All results are kept in memory;
+        ``to_netcdf`` writes them.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> rope, weight = snapload.Cable(anchor=(0, 0), length=1), snapload.Forcing((0, -1))
+        >>> swing = snapload.System(snapload.Body(), [rope], weight, 0.5, y=-1, vx=1.8, t_end=5)
+        >>> study = swing.sweep(vx=[1.0, 1.8], restitution=[0.0, 0.5, 0.9])
+        >>> study.impacts_1.dims, study.impacts_1.sel(vx=1.0).values.tolist()
+        (('vx', 'restitution'), [0.0, 0.0, 0.0])
+        """
+        from ._system_sweep import sweep_systems
+
+        return sweep_systems(self, axes, trust, threads, progress)
+
+    def __repr__(self) -> str:
+        told = ((field, getattr(self, field.name)) for field in dataclasses.fields(self))
+        words = (f"{field.name}={value!r}" for field, value in told if value != field.default)
+        return f"System({', '.join(words)})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _system, ({field.name: getattr(self, field.name) for field in dataclasses.fields(self)},)
+
+    def _geometry(self) -> Geometry:
+        cables = tuple((cable.anchor, cable.fairlead, cable.length) for cable in self.cables)
+        return Geometry(cables, self.body.half_size or self.body.radius or 0.0, self.rotation_limit)
+
+
+class SystemRun(BaseRun):
+    """A finished run of a system of one's own: how it ended, its impacts and modes, and how far it can be trusted.
+
+    Made by :meth:`snapload.System.run`.
+
+    Attributes
+    ----------
+    system : System
+        The system that was run.
+
+    See Also
+    --------
+    snapload.System.run : Makes it.
+    snapload.Run : The same of a case.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> rope, weight = snapload.Cable(anchor=(0, 0), length=1), snapload.Forcing((0, -1))
+    >>> run = snapload.System(snapload.Body(), [rope], weight, 0.5, y=-1, vx=1.0, t_end=5).run()
+    >>> run.modes["mode"].tolist(), round(float(run.at(0.0)["T1"]), 6)
+    (['sliding'], 2.0)
+    """
+
+    _in_scales = False
+
+    def __init__(self, system: System, options: tuple[list[float], float] | None, engine: _engine.Run | None) -> None:
+        self.system = system
+        self._options = options
+        self._trusted = options is not None
+        self._made = engine
+
+    def _again(self) -> _engine.Run:
+        return _engine.run_system(self.system._begun, *(self._options or (None, 0.0)))
+
+    def _geometry(self) -> Geometry:
+        return self.system._geometry()
+
+    @cached_property
+    def _words(self) -> tuple[str, list[tuple[str, str]]]:
+        lines = [("End", f"{self.end.reason.replace('_', ' ')} at t = {self.end.t:.4f}")]
+        if self._trusted:
+            lines += [("Trust", self._engine.trust_in_words())]
+        counts = [f"{(self.impacts['cable'] == k + 1).sum()} of cable {k + 1}" for k in range(len(self.system.cables))]
+        lines += [("Impacts", f"{len(self.impacts)}: {', '.join(counts)}")]
+        # As the command writes it: labels of ten letters, and what goes on below stands under it.
+        told = ["\n".join(f"{a if i == 0 else '':<10}{line}" for i, line in enumerate(b.split("\n"))) for a, b in lines]
+        return "\n".join(told), lines
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, SystemRun):
+            return NotImplemented
+        return self.system == other.system and self._head == other._head and self.impacts == other.impacts
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        told = {name: getattr(self, name) for name in ("_head", "_words", "impacts", "modes")}
+        return _restore, (self.system, self._options, told)
+
+    def __repr__(self) -> str:
+        cables = len(self.system.cables)
+        return self._in_short(f"a body on {cables} cable{'s' if cables > 1 else ''}")
+
+
+def _system(fields: dict[str, Any]) -> System:
+    return System(**fields)
+
+
+def _restore(system: System, options: tuple[list[float], float] | None, told: dict[str, Any]) -> SystemRun:
+    run = SystemRun(system, options, None)
+    run.__dict__.update(told)
+    return run

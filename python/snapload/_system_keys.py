@@ -1,0 +1,66 @@
+"""The keys of a system by name: its own, and those of its parts."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._system import System
+
+_OF_BODY = ("mass", "inertia", "radius")
+_OF_FORCES = {"force_x": "constant_x", "force_y": "constant_y"}
+_OF_CABLES = ("length", "anchor_x", "anchor_y", "fairlead_x", "fairlead_y")
+_OF_SINUSOIDS = ("amplitude_x", "amplitude_y", "omega", "phase_x", "phase_y")
+
+
+def names(system: System) -> list[str]:
+    """Every name that `changed` knows, those with numbers apart."""
+    own = [field.name for field in dataclasses.fields(system)]
+    return [*own, *_OF_BODY, *_OF_FORCES, *_OF_CABLES, *_OF_SINUSOIDS]
+
+
+def changed(system: System, parts: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
+    """The part that a key belongs to, with it changed; `parts` are those that were changed before."""
+
+    def part(name: str) -> Any:
+        return parts.get(name, getattr(system, name))
+
+    if key in {field.name for field in dataclasses.fields(system)}:
+        return {key: value}
+    if key in _OF_BODY:
+        return {"body": dataclasses.replace(part("body"), **{key: value})}
+    if key in _OF_FORCES:
+        return {"forcing": _with(part("forcing"), _OF_FORCES[key], value)}
+    known = re.fullmatch(r"(\w+?)(?:_([1-9][0-9]*))?", key)
+    name, place = (known[1], known[2]) if known else (key, None)
+    if name in _OF_CABLES:
+        return {"cables": _one_or_all(key, part("cables"), name, place, value)}
+    if name in _OF_SINUSOIDS:
+        forcing = part("forcing")
+        sinusoids = _one_or_all(key, forcing.sinusoids, name, place, value)
+        return {"forcing": dataclasses.replace(forcing, sinusoids=sinusoids)}
+    raise ValueError(
+        f"there is no key {key!r}; there are {', '.join(names(system))}, and length_2 or omega_1 of one part"
+    )
+
+
+def _one_or_all(key: str, parts: tuple[Any, ...], name: str, place: str | None, value: Any) -> tuple[Any, ...]:
+    """The parts with one changed, or all of them."""
+    if place is not None and int(place) > len(parts):
+        raise ValueError(f"there is no key {key!r}: there are {len(parts)} of them")
+    return tuple(
+        _with(part, name, value) if place is None or int(place) == number else part
+        for number, part in enumerate(parts, 1)
+    )
+
+
+def _with(part: Any, name: str, value: Any) -> Any:
+    """A part with one number changed; ``name_x`` is the first of the pair ``name``."""
+    pair = {"x": 0, "y": 1}.get(name[-1]) if name[-2:] in ("_x", "_y") else None
+    if pair is None:
+        return dataclasses.replace(part, **{name: value})
+    numbers = list(getattr(part, name[:-2]))
+    numbers[pair] = value
+    return dataclasses.replace(part, **{name[:-2]: tuple(numbers)})

@@ -1,0 +1,305 @@
+//! Systems of one's own: body, cables and forces, from the objects of Python.
+
+use crate::errors::{of_case, of_program, of_study, of_work};
+use crate::interrupt::{interruptible, on_this_thread};
+use crate::run::{Run, positive};
+use crate::study::{Plain, on_threads};
+use pyo3::prelude::*;
+use pyo3::types::PyByteArray;
+use snapload::analysis::{
+    Cancelled, Certainty, Counter, Progress, TrustMonitor, Uncertainty, in_parallel, record,
+};
+use snapload::{
+    CaseError, Forcing, Harmonic, Outcome, Rules, Shape, Simulation, StartError, State, Stop, Value,
+};
+use snapload_report::Trusted;
+use snapload_study::{Column, StudyError, Values, columns};
+use std::sync::Arc;
+
+/// `snapload.Body`.
+#[derive(FromPyObject)]
+struct Body {
+    mass: f64,
+    inertia: Option<f64>,
+    radius: Option<f64>,
+    half_size: Option<[f64; 2]>,
+}
+
+/// `snapload.Cable`.
+#[derive(FromPyObject)]
+struct Cable {
+    anchor: [f64; 2],
+    length: f64,
+    fairlead: [f64; 2],
+}
+
+/// `snapload.Sinusoid`.
+#[derive(FromPyObject)]
+struct Sinusoid {
+    amplitude: [f64; 2],
+    omega: f64,
+    phase: [f64; 2],
+}
+
+/// `snapload.Forcing`.
+#[derive(FromPyObject)]
+struct Forces {
+    constant: [f64; 2],
+    sinusoids: Vec<Sinusoid>,
+}
+
+/// What ends a run, from the keys of `snapload.System`.
+#[derive(FromPyObject)]
+struct Stops {
+    t_end: f64,
+    rotation_limit: Option<f64>,
+    upper_bound: Option<f64>,
+    settled_below: Option<f64>,
+    sliding_above: Option<f64>,
+    max_impacts: u64,
+    v_stick: f64,
+}
+
+impl Body {
+    fn shape(&self) -> Shape {
+        match (self.half_size, self.radius) {
+            (Some([half_width, half_height]), _) => Shape::Rectangle {
+                half_width,
+                half_height,
+            },
+            (None, Some(radius)) if radius > 0.0 => Shape::Circle { radius },
+            _ => Shape::Point,
+        }
+    }
+
+    /// A body of unit mass flies in closed form. What is told as the inertia of a point of another
+    /// mass does nothing, as its cables have no lever arm.
+    fn in_engine(&self) -> PyResult<snapload::Body> {
+        match (self.mass == 1.0, self.inertia) {
+            (true, Some(inertia)) => Ok(snapload::Body::rigid(self.shape(), inertia)),
+            (true, None) => Ok(snapload::Body::point()),
+            (false, inertia) => {
+                let m = self.mass;
+                let turning = inertia.unwrap_or(m);
+                let matrix = [[m, 0.0, 0.0], [0.0, m, 0.0], [0.0, 0.0, turning]];
+                let body = snapload::Body::with_mass_matrix(self.shape(), matrix);
+                body.ok_or_else(|| of_program("mass and inertia are above 0"))
+            }
+        }
+    }
+}
+
+impl Forces {
+    fn in_engine(&self) -> Forcing {
+        let wave = |s: &Sinusoid| Harmonic::with_phases(s.omega, s.amplitude, s.phase);
+        Forcing {
+            constant: self.constant.into(),
+            harmonics: self.sinusoids.iter().map(wave).collect(),
+        }
+    }
+}
+
+impl Stops {
+    fn in_engine(&self) -> Rules {
+        Rules {
+            rotation_limit: self.rotation_limit,
+            upper_bound: self.upper_bound,
+            settled_below: self.settled_below,
+            sliding_above: self.sliding_above,
+            t_end: self.t_end,
+            max_impacts: self.max_impacts,
+            v_stick: self.v_stick,
+        }
+    }
+}
+
+/// A system at its start.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct System {
+    begun: Arc<Simulation>,
+}
+
+#[pymethods]
+impl System {
+    /// Of the parts of a `snapload.System`, which has checked their numbers, and its keys.
+    #[new]
+    fn new(
+        body: Body,
+        cables: Vec<Cable>,
+        forces: Forces,
+        restitution: f64,
+        start: [f64; 6],
+        stops: Stops,
+    ) -> PyResult<Self> {
+        let lengths: Vec<f64> = cables.iter().map(|cable| cable.length).collect();
+        let cables = cables.into_iter();
+        let system = snapload::System {
+            body: body.in_engine()?,
+            cables: cables
+                .map(|cable| snapload::Cable::new(cable.anchor, cable.fairlead, cable.length))
+                .collect(),
+            forcing: forces.in_engine(),
+            drag: None,
+            floating: None,
+            restitution,
+        };
+        let start = State::from_components(start);
+        let begun = Simulation::new(system, stops.in_engine(), 0.0, start);
+        let begun = begun.map_err(|error| of_case(explain(error, &start, &lengths)))?;
+        Ok(Self {
+            begun: Arc::new(begun),
+        })
+    }
+}
+
+/// An illegal start in the words of the keys.
+fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
+    let place = format!("{}, {}, {}", start.x, start.y, start.theta);
+    match error {
+        StartError::CableTooShort { cable, gap } => {
+            let length = lengths[cable];
+            let over = length * ((1.0 + gap / (length * length)).sqrt() - 1.0);
+            let cable = cable + 1;
+            let allowed = format!(
+                "a start within reach of all cables; cable {cable} would have to be {over:.3e} \
+                 longer"
+            );
+            let hint = format!("move the start, or raise length_{cable}");
+            CaseError::value("x, y, theta", place, allowed).with_hint(hint)
+        }
+        StartError::BeyondLimit { stop, value, bound } => {
+            let (key, what) = match stop {
+                Stop::RotationLimit => ("rotation_limit", "rotation"),
+                _ => ("upper_bound", "highest point"),
+            };
+            let allowed = format!("a bound beyond the start, whose {what} is {value}");
+            CaseError::value(key, Value::Number(bound), allowed)
+        }
+        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
+            CaseError::value("x, y, theta", place, error.to_string())
+        }
+    }
+}
+
+/// Runs a system; says how far the run can be trusted where it is told how far each value of the
+/// start may be off.
+#[pyfunction]
+pub(crate) fn run_system(
+    py: Python<'_>,
+    system: &System,
+    doubts: Option<[f64; 6]>,
+    tolerance: f64,
+) -> PyResult<Run> {
+    let begun = Simulation::clone(&system.begun);
+    let unfinished = |cancelled: Cancelled| of_work(cancelled.into());
+    let Some(start) = doubts else {
+        let run = on_this_thread(py, |on_progress| record(begun, on_progress, |_, _| {}))?;
+        return Ok(Run::alone(None, run.map_err(unfinished)?));
+    };
+    let tolerance = positive("tolerance", tolerance)?;
+    let mut monitor = TrustMonitor::new(&begun, &start, tolerance);
+    let run = on_this_thread(py, |on_progress| {
+        record(begun, on_progress, |simulation, step| {
+            monitor.follow(simulation, step);
+        })
+    })?;
+    let trusted = Trusted {
+        run: run.map_err(unfinished)?,
+        trust: monitor.verdict(),
+        uncertainty: Uncertainty {
+            start,
+            keys: Vec::new(),
+            tolerance,
+        },
+        seed: 0,
+        tally: None,
+        sensitivity: Vec::new(),
+    };
+    Ok(Run::trusted(None, trusted))
+}
+
+/// Name of a column, its type, its bytes, and its words.
+type Filled<'py> = (String, &'static str, Bound<'py, PyByteArray>, Vec<String>);
+
+/// What the runs of many systems with so many cables come to, column by column.
+#[pyfunction]
+pub(crate) fn sweep_systems<'py>(
+    py: Python<'py>,
+    systems: Vec<Bound<'py, System>>,
+    cables: usize,
+    trust: bool,
+    threads: Option<usize>,
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Vec<Filled<'py>>> {
+    let begun: Vec<Arc<Simulation>> = systems
+        .iter()
+        .map(|system| Arc::clone(&system.get().begun))
+        .collect();
+    let runs = interruptible(py, progress, move |watch| {
+        let go_on = |progress: Progress| watch.go_on(progress);
+        let counter = Counter::new("running", 0, begun.len() as u64, &go_on);
+        on_threads(threads, || {
+            let made = in_parallel(begun.len(), |k| {
+                counter.add(1)?;
+                Ok(run_of(&begun[k], trust))
+            });
+            made.map_err(StudyError::Cancelled)
+        })
+    })?;
+    let runs = runs.map_err(of_study)?;
+    let mut filled = Vec::new();
+    let mut fill = |name: String, values: Values| {
+        let plain = Plain::of(values);
+        filled.push((
+            name,
+            plain.kind,
+            PyByteArray::new(py, &plain.bytes),
+            plain.words,
+        ));
+    };
+    for column in shown(trust) {
+        match column.name {
+            // There may be more of them than columns.
+            "impacts_1" => (0..cables).for_each(|cable| {
+                let counts = runs
+                    .iter()
+                    .map(|run| Some(run.outcome.impacts[cable] as i64));
+                fill(
+                    format!("impacts_{}", cable + 1),
+                    Values::Counts(counts.collect()),
+                );
+            }),
+            "impacts_2" => {}
+            name => fill(name.to_owned(), column.values(runs.iter().map(Some))),
+        }
+    }
+    Ok(filled)
+}
+
+/// The columns of a study; those on trust only where that was asked for.
+fn shown(trust: bool) -> impl Iterator<Item = &'static Column> {
+    let of_trust = ["horizon_t", "horizon_impact", "certain"];
+    let all = columns().iter();
+    all.filter(move |column| trust || !of_trust.contains(&column.name))
+}
+
+/// What one run comes to, and, if that is asked for, how far rounding alone leaves it to be trusted.
+fn run_of(begun: &Simulation, trust: bool) -> snapload_study::Run {
+    let certainty = trust.then(|| {
+        let mut simulation = begun.clone();
+        let tolerance = Uncertainty::default().tolerance;
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], tolerance);
+        while monitor.horizon().is_none()
+            && let Some(step) = simulation.step()
+        {
+            monitor.follow(&simulation, &step);
+        }
+        Certainty {
+            horizon: monitor.horizon(),
+        }
+    });
+    snapload_study::Run {
+        outcome: Outcome::after(begun.clone()),
+        certainty,
+    }
+}
