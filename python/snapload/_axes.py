@@ -80,7 +80,7 @@ def _cell(value: Any, count: bool) -> str:
 
 
 def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.float64]:
-    """Evenly spaced values, each the double nearest to the decimal that one would write.
+    """Make evenly spaced values, each the double nearest to the decimal that one would write.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.floa
 
     See Also
     --------
-    snapload.sweep
+    snapload.sweep : Runs a case at such values.
 
     Examples
     --------

@@ -35,8 +35,9 @@ class Case(KeyValues):
 
     See Also
     --------
-    snapload.cases : the built-in cases.
-    snapload.sweep : many cases at once.
+    snapload.cases : The built-in cases.
+    snapload.sweep : Many cases at once.
+    snapload.System : Other bodies, cables and forces.
 
     Notes
     -----
@@ -77,7 +78,7 @@ class Case(KeyValues):
 
     @classmethod
     def from_file(cls, path: str | PathLike[str]) -> Self:
-        """A case from a TOML file, one ``key = value`` a line, as the command line reads it.
+        """Read a case from a TOML file, one ``key = value`` a line, as the command line reads it.
 
         Parameters
         ----------
@@ -98,7 +99,17 @@ class Case(KeyValues):
 
         See Also
         --------
-        to_file
+        to_file : Writes such a file.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> from pathlib import Path
+        >>> from tempfile import mkdtemp
+        >>> path = Path(mkdtemp()) / "mooring.toml"
+        >>> _ = path.write_text("f_o = 0.31")
+        >>> snapload.Case.from_file(path)
+        Case(f_o=0.31)
         """
         import tomllib
 
@@ -113,7 +124,7 @@ class Case(KeyValues):
             raise ValueError(f"{fspath(path)}: {error}") from None
 
     def to_file(self, path: str | PathLike[str]) -> None:
-        """Writes the keys that were given as a TOML file, which :meth:`from_file` and the command line read.
+        """Write the keys that were given as a TOML file, which :meth:`from_file` and the command line read.
 
         Parameters
         ----------
@@ -127,7 +138,7 @@ class Case(KeyValues):
 
         See Also
         --------
-        from_file
+        from_file : Reads such a file.
 
         Examples
         --------
@@ -148,7 +159,7 @@ class Case(KeyValues):
             file.writelines(lines)
 
     def replace(self, **keys: Unpack[Keys]) -> Self:
-        """The same case with some keys changed; what follows from them, such as the inertia, follows anew.
+        """Change some keys; what follows from them, such as the inertia, follows anew.
 
         Parameters
         ----------
@@ -164,6 +175,10 @@ class Case(KeyValues):
         ------
         ValueError
             As for :class:`Case`.
+
+        See Also
+        --------
+        snapload.sweep : Runs all combinations of the values of some keys.
 
         Examples
         --------
@@ -181,16 +196,31 @@ class Case(KeyValues):
 
     @property
     def name(self) -> str:
-        """Code of a built-in case, name of a file, or ``standard case``."""
+        """Code of a built-in case, name of a file, or ``standard case``.
+
+        See Also
+        --------
+        snapload.cases : The built-in cases by code.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case(f_o=0.31).name
+        'standard case'
+        """
         return self._engine.name
 
     def keys(self) -> dict[str, Any]:
-        """Every key in effect with its value.
+        """Give every key in effect with its value.
 
         Returns
         -------
         dict
             In the order of the schema; ``inertia`` is None for a point mass.
+
+        See Also
+        --------
+        replace : Changes some of them.
 
         Examples
         --------
@@ -218,7 +248,7 @@ class Case(KeyValues):
         members: int | None = None,
         seed: int = 1,
     ) -> Run:
-        """Runs the case to its end, and says how far the run can be trusted.
+        """Run the case to its end, and say how far the run can be trusted.
 
         Parameters
         ----------
@@ -248,8 +278,8 @@ class Case(KeyValues):
 
         See Also
         --------
-        snapload.ensemble : neighbours of a case, wherever its horizon is.
-        snapload.sweep : many cases.
+        snapload.ensemble : Neighbours of a case, wherever its horizon is.
+        snapload.sweep : Many cases.
 
         Notes
         -----
@@ -334,7 +364,7 @@ class Cases(Mapping[str, Case]):
 
     See Also
     --------
-    snapload.Case
+    snapload.Case : Begins with one of them, as ``Case("sliding-example", e=0.7)``.
 
     Examples
     --------

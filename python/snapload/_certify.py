@@ -50,7 +50,7 @@ class Certificate(Result):
 
     See Also
     --------
-    snapload.Run.certify
+    snapload.Run.certify : Proves a run.
 
     Examples
     --------
@@ -72,12 +72,16 @@ class Certificate(Result):
     _told: str
 
     def to_file(self, path: str | PathLike[str]) -> None:
-        """Writes the certificate.
+        """Write the certificate.
 
         Parameters
         ----------
         path : str or path
             Where to.
+
+        See Also
+        --------
+        snapload.Run.certify : Makes the certificate.
 
         Examples
         --------

@@ -49,7 +49,14 @@ class CriticalForce(Result):
 
     See Also
     --------
-    snapload.critical_force
+    snapload.critical_force : Finds it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> found = snapload.critical_force(snapload.Case(), largest=0.4)
+    >>> found.f_cr, found.reason, found.exceeding.tolist()
+    (0.31, 'rotation_limit', [[0.31, 0.39]])
     """
 
     f_cr: float | None
@@ -63,7 +70,7 @@ class CriticalForce(Result):
     _shown = ("f_cr", "reason", "t", "exceeding")
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-        """Draws which amplitudes exceed, or how probably.
+        """Draw which amplitudes exceed, or how probably.
 
         Parameters
         ----------
@@ -74,6 +81,10 @@ class CriticalForce(Result):
         -------
         matplotlib.axes.Axes
             The axes, to compose further.
+
+        See Also
+        --------
+        snapload.Run.plot : Draws a run.
 
         Examples
         --------
@@ -158,7 +169,7 @@ def critical_force(
     seed: int = 1,
     progress: bool = True,
 ) -> CriticalForce | xarray.Dataset:
-    """Runs a case at the force amplitudes step, 2 step, ... up to the largest, and finds which exceed the limits.
+    """Run a case at the force amplitudes step, 2 step, ... up to the largest, and find which exceed the limits.
 
     Parameters
     ----------
@@ -195,7 +206,7 @@ def critical_force(
 
     See Also
     --------
-    snapload.ensemble : how neighbours end at one amplitude.
+    snapload.ensemble : How neighbours end at one amplitude.
 
     Notes
     -----

@@ -29,6 +29,17 @@ class Share:
         The part, from 0 to 1.
     low, high : float
         The interval that holds the probability with 95 % confidence (Wilson 1927).
+
+    See Also
+    --------
+    snapload.Ensemble : The whole that it is a part of.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> share = snapload.ensemble(snapload.Case(f_o=0.31), 50).ends["rotation_limit"]
+    >>> share.count, share.part, round(share.low, 2), share.high
+    (50, 1.0, 0.93, 1.0)
     """
 
     count: int
@@ -52,7 +63,14 @@ class Ensemble:
 
     See Also
     --------
-    snapload.ensemble
+    snapload.ensemble : Runs the neighbours.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> found = snapload.ensemble(snapload.Case(f_o=0.31), 50)
+    >>> found.members, found.seed, list(found.ends)
+    (50, 1, ['rotation_limit'])
     """
 
     members: int
@@ -77,7 +95,7 @@ def ensemble(
     seed: int = 1,
     progress: bool = True,
 ) -> Ensemble:
-    """Runs neighbours of a case, drawn evenly from what its uncertainty allows, and counts how they end.
+    """Run neighbours of a case, drawn evenly from what its uncertainty allows, and counts how they end.
 
     Parameters
     ----------
@@ -105,8 +123,8 @@ def ensemble(
 
     See Also
     --------
-    snapload.Case.run : runs neighbours only where one run can not tell.
-    snapload.critical_force : the same at many force amplitudes.
+    snapload.Case.run : Runs neighbours only where one run can not tell.
+    snapload.critical_force : The same at many force amplitudes.
 
     Examples
     --------

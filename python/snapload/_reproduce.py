@@ -10,7 +10,7 @@ from ._progress import bar
 
 
 def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = True) -> Path:
-    """Computes the tables, figures and claims of the chapter as one report, as ``snapload reproduce`` does.
+    """Compute the tables, figures and claims of the chapter as one report, as ``snapload reproduce`` does.
 
     Parameters
     ----------
@@ -31,7 +31,13 @@ def reproduce(out: str | PathLike[str] = "reproduction", *, progress: bool = Tru
 
     See Also
     --------
-    snapload.cases : the cases that it runs.
+    snapload.cases : The cases that it runs.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> snapload.reproduce("chapter-6")  # doctest: +SKIP
+    PosixPath('chapter-6/report.html')
     """
     target = Path(fspath(out))
     (target / "figures").mkdir(parents=True, exist_ok=True)

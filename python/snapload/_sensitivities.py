@@ -11,7 +11,7 @@ from ._table import Table
 
 
 def sensitivities(case: Case, impacts: int = 3) -> Table:
-    """The derivatives of the first impacts of a case by every key that its motion depends on.
+    """Derive the first impacts of a case by every key that its motion depends on.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
 
     See Also
     --------
-    snapload.Run.exponents : how fast deviations grow in the long run.
+    snapload.Run.exponents : How fast deviations grow in the long run.
 
     Notes
     -----

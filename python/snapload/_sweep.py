@@ -40,7 +40,7 @@ def sweep(
     progress: bool = True,
     **axes: Unpack[Axes],
 ) -> xarray.Dataset:
-    """Runs every combination of the values of some keys, a row a case, as ``snapload sweep`` does.
+    """Run every combination of the values of some keys, a row a case, as ``snapload sweep`` does.
 
     Parameters
     ----------
@@ -94,9 +94,10 @@ def sweep(
 
     See Also
     --------
-    snapload.open_study : opens such a file.
-    snapload.merge : joins the parts that several machines swept.
-    snapload.evenly : values for an axis.
+    snapload.open_study : Opens such a file.
+    snapload.merge : Joins the parts that several machines swept.
+    snapload.evenly : Values for an axis.
+    snapload.System.sweep : The same of a system of one's own.
 
     Notes
     -----
@@ -148,7 +149,7 @@ with_keys(sweep, defaults=False)
 
 
 def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Dataset:
-    """A Parquet file of ``snapload sweep``, of the command line or of :func:`snapload.sweep`, as a dataset.
+    """Open a Parquet file of ``snapload sweep``, of the command line or of :func:`snapload.sweep`, as a dataset.
 
     Parameters
     ----------
@@ -173,7 +174,8 @@ def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Datas
 
     See Also
     --------
-    snapload.sweep, snapload.merge
+    snapload.sweep : Makes such a file.
+    snapload.merge : Makes one of the parts of several machines.
 
     Examples
     --------
@@ -194,7 +196,7 @@ def open_study(path: str | PathLike[str], *, chunks: Any = None) -> xarray.Datas
 
 
 def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xarray.Dataset:
-    """Joins the parts of a study that several machines swept, as ``snapload merge`` does.
+    """Join the parts of a study that several machines swept, as ``snapload merge`` does.
 
     Parameters
     ----------
@@ -217,7 +219,22 @@ def merge(parts: Iterable[str | PathLike[str]], out: str | PathLike[str]) -> xar
 
     See Also
     --------
-    snapload.sweep, snapload.open_study
+    snapload.sweep : Makes a file on one machine.
+    snapload.open_study : Opens a file.
+
+    Examples
+    --------
+    Two machines sweep a half each, by the command that comes with the package:
+
+    >>> import subprocess, sys, tempfile
+    >>> import snapload
+    >>> room = tempfile.mkdtemp()
+    >>> half = f"sweep --vary e=0.5,0.9 --shard {{k}}/2 --out {room}/part-{{k}}.parquet"
+    >>> for k in (1, 2):
+    ...     words = [sys.executable, "-m", "snapload", *half.format(k=k).split()]
+    ...     _ = subprocess.run(words, check=True, capture_output=True)
+    >>> snapload.merge([f"{room}/part-1.parquet", f"{room}/part-2.parquet"], f"{room}/whole.parquet").e.values.tolist()
+    [0.5, 0.9]
     """
     if isinstance(parts, (str, PathLike)):
         raise TypeError(f"parts = {fspath(parts)!r} is not allowed; allowed: a list of files")

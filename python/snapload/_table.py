@@ -33,7 +33,10 @@ class Table:
 
     See Also
     --------
-    snapload.Run.impacts, snapload.Run.modes, snapload.Run.exponents, snapload.sensitivities
+    snapload.Run.impacts : The impacts of a run.
+    snapload.Run.modes : Its modes.
+    snapload.Run.exponents : Its Lyapunov exponents.
+    snapload.sensitivities : Derivatives of the first impacts.
 
     Examples
     --------
@@ -68,6 +71,10 @@ class Table:
     def columns(self) -> tuple[str, ...]:
         """Names of the columns.
 
+        See Also
+        --------
+        keys : The same, for ``dict(table)``.
+
         Examples
         --------
         >>> import snapload
@@ -77,12 +84,16 @@ class Table:
         return self._names
 
     def keys(self) -> tuple[str, ...]:
-        """Names of the columns, as :attr:`columns`; ``dict(table)`` asks for them.
+        """Give the names of the columns; ``dict(table)`` asks for them.
 
         Returns
         -------
         tuple of str
             The names, in their order.
+
+        See Also
+        --------
+        columns : The same as a property.
 
         Examples
         --------
@@ -108,7 +119,7 @@ class Table:
     @overload
     def __getitem__(self, place: int) -> dict[str, Any]: ...
     def __getitem__(self, place: str | int) -> NDArray[Any] | dict[str, Any]:
-        """One column as an array of NumPy, shape ``(len(table),)``, or one row as a dict.
+        """Take one column as an array of NumPy, shape ``(len(table),)``, or one row as a dict.
 
         Raises
         ------
@@ -133,12 +144,16 @@ class Table:
         return array
 
     def to_pandas(self) -> pandas.DataFrame:
-        """The table as a DataFrame of pandas (a copy; needs no PyArrow).
+        """Copy the table into a DataFrame of pandas, which needs no PyArrow.
 
         Returns
         -------
         pandas.DataFrame
             With the columns of the table.
+
+        See Also
+        --------
+        columns : Names of the columns.
 
         Examples
         --------

@@ -26,6 +26,17 @@ class End:
         Where the impacts that end the run converge, if they do [T].
     state : tuple of float
         The last x, y, theta, vx, vy, vtheta [L, rad, L/T, rad/T].
+
+    See Also
+    --------
+    snapload.Run.end : The end of a run.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> end = snapload.Case(f_o=0.31).run().end
+    >>> end.reason, round(end.t, 4), round(end.state[2], 4)
+    ('rotation_limit', 3.4522, 1.5708)
     """
 
     reason: Reason
@@ -35,7 +46,18 @@ class End:
 
     @property
     def exceeds(self) -> bool:
-        """Whether the run left the range of the mooring: it reached the rotation limit or the upper bound."""
+        """Whether the run left the range of the mooring: it reached the rotation limit or the upper bound.
+
+        See Also
+        --------
+        snapload.critical_force : The smallest force that does so.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Case(f_o=0.31).run().end.exceeds
+        True
+        """
         return self.reason in ("rotation_limit", "upper_bound")
 
 
@@ -55,6 +77,17 @@ class Norms:
         Highest y of the centre [L].
     theta_max : float
         Largest rotation, either way [rad].
+
+    See Also
+    --------
+    snapload.Trust : Has the errors of the first three.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> norms = snapload.Case(f_o=0.31).run().norms
+    >>> round(norms.rho1, 4), round(norms.theta_max, 4)
+    (0.4921, 1.5708)
     """
 
     rho1: float
@@ -91,6 +124,18 @@ class Trust(Result):
         Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
     sensitivity : tuple of dict
         Derivatives of ``t``, ``v_n`` and ``impulse`` of the first impacts by every key.
+
+    See Also
+    --------
+    snapload.Outcome : Whether the end is certain.
+    snapload.verify : The same run with many digits.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> trust = snapload.Case().run().trust
+    >>> trust.impact, trust.because, round(trust.t, 3)
+    (191, 'near_miss', 7.244)
     """
 
     t: float | None
@@ -120,7 +165,7 @@ class Outcome:
 
     See Also
     --------
-    snapload.ensemble
+    snapload.ensemble : Neighbours of a case, wherever its horizon is.
 
     Examples
     --------

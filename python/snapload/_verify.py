@@ -54,7 +54,14 @@ class Verification(Result):
 
     See Also
     --------
-    snapload.verify
+    snapload.verify : Makes it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> proof = snapload.verify(snapload.Case(f_o=0.31))
+    >>> proof.end, proof.exact[0]["t"][:12], bool(proof.differences.max() < 1e-12)
+    ('rotation_limit', '0.4055014592', True)
     """
 
     digits: int
@@ -71,7 +78,7 @@ class Verification(Result):
     _told: str
 
     def plot(self, ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-        """Draws the difference at each impact.
+        """Draw the difference at each impact.
 
         Parameters
         ----------
@@ -82,6 +89,10 @@ class Verification(Result):
         -------
         matplotlib.axes.Axes
             The axes, to compose further.
+
+        See Also
+        --------
+        snapload.Run.plot : Draws a run.
 
         Examples
         --------
@@ -119,7 +130,7 @@ class Verification(Result):
 
 
 def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verification:
-    """Runs a case again with many digits, and says from which impact on the ordinary run is wrong.
+    """Run a case again with many digits, and say from which impact on the ordinary run is wrong.
 
     The proof covers slack flight, impacts and the stop rules; where a cable stays taut it ends. Numbers count as
     written: 0.1 is a tenth.
@@ -145,7 +156,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
 
     See Also
     --------
-    snapload.Case.run : says where trust in a run ends.
+    snapload.Case.run : Says where trust in a run ends.
 
     Examples
     --------
