@@ -55,6 +55,23 @@ def test_a_pool_of_joblib_returns_runs():
     assert [run.motion(0.5).tolist() for run in runs] == [run.motion(0.5).tolist() for run in here]
 
 
+IN_TESTS = """
+import pytest, snapload
+snapload.sweep(snapload.Case(), f_o=[0.1, 0.2])
+@pytest.mark.parametrize("e", [0.5, 0.7, 0.8, 0.9])
+def test_runs(e):
+    case = snapload.Case(e=e)
+    assert float(snapload.sweep(case, f_o=[0.2, 0.3]).rho1.sum()) > 0 and case.run(members=20).end.t > 0
+"""
+
+
+def test_tests_run_side_by_side(tmp_path: Path):
+    (tmp_path / "test_work.py").write_text(IN_TESTS)
+    command = [sys.executable, "-m", "pytest", "-q", "-n", "2", "-p", "no:cacheprovider", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=90, cwd=tmp_path)
+    assert "4 passed" in done.stdout, done.stdout + done.stderr
+
+
 def results():
     case = snapload.Case(f_o=0.31)
     yield CHAOTIC.run(members=20)
