@@ -22,6 +22,9 @@ ABOUT = {
     "scales": "L half the distance of the anchors, m the mass of the body, F its net buoyancy, T = sqrt(m L / F)",
 }
 
+#: So many rows make a chunk where nothing is said of its size.
+_CHUNK = 1 << 18
+
 #: Pictures of xarray are labelled by long name and unit, in lines of so many letters. A second line lies outside the
 #: picture, so that a longer name gives way to that of the column.
 LABEL = 30
@@ -81,7 +84,12 @@ def dataset(
     }
     title = {"title": "A study of a body on cables that go slack and snap taut", **ABOUT}
     opened = xarray.Dataset(lazy, coords, {**title, **attrs})
-    return opened.load() if chunks is None else opened.chunk(chunks)
+    if chunks is None:
+        return opened.load()
+    if chunks == "auto" and sizes:
+        # Dask itself can not tell how much words take. Whole rows along the first dimension are read at once.
+        chunks = {next(iter(axes)): max(1, _CHUNK // math.prod(sizes[1:]))}
+    return opened.chunk(chunks)
 
 
 def _along(path: str, axes: dict[str, Any]) -> dict[str, Any]:

@@ -248,6 +248,8 @@ def test_a_study_opens_lazily(tmp_path: Path):
         lazy.rho1.isel(f_o=slice(6, 1, -2), e=3).values.tolist() == whole.rho1.isel(f_o=[6, 4, 2], e=3).values.tolist()
     )
     assert lazy.end.sel(f_o=0.3).values.tolist() == whole.end.sel(f_o=0.3).values.tolist()
+    for chunks in ("auto", {}, 3):
+        assert snapload.open_study(out, chunks=chunks).compute().identical(whole)
 
 
 def test_a_study_is_kept_once(tmp_path: Path):
