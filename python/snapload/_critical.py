@@ -169,7 +169,7 @@ def critical_force(
     seed: int = 1,
     progress: bool = True,
 ) -> CriticalForce | xarray.Dataset:
-    """Run a case at the force amplitudes step, 2 step, ... up to the largest, and find which exceed the limits.
+    """Run a case at evenly spaced force amplitudes, and find which exceed the limits.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ def critical_force(
     over : dict of str to array_like or str, optional
         Values of other keys, as :func:`snapload.sweep` takes them: the answer is given for all their combinations.
     step, largest : float
-        The amplitudes [F].
+        The amplitudes are step, 2 step, ... up to the largest [F].
     members : int
         With a number above 0, so many neighbours are run at each amplitude where one run can not tell, for the
         probability of exceeding.

@@ -95,7 +95,7 @@ def ensemble(
     seed: int = 1,
     progress: bool = True,
 ) -> Ensemble:
-    """Run neighbours of a case, drawn evenly from what its uncertainty allows, and counts how they end.
+    """Run neighbours of a case, drawn evenly from what its uncertainty allows, and count how they end.
 
     Parameters
     ----------
