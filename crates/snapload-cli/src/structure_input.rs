@@ -33,7 +33,8 @@ impl StructureArgs {
         let name = path.display().to_string();
         let mut entries = Entries::parse(&STRUCTURE, &name, &read_text(path)?)?;
         self.set.iter().try_for_each(|text| entries.set(text))?;
-        let structure = Structure::from_entries(&entries).map_err(|error| {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let structure = Structure::from_entries_beside(&entries, folder).map_err(|error| {
             let located = entries.locate(error);
             // A key that is left out has no line; the file it is missing from is known.
             match located.place {

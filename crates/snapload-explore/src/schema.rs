@@ -91,7 +91,7 @@ fn key(key: &Key) -> JsonValue {
         Kind::Count(low, high) => json!({ "type": "count", "low": low, "high": high }),
         Kind::Flag => json!({ "type": "flag" }),
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
-        Kind::Pair(_) | Kind::Text => json!({ "type": "text" }),
+        Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => json!({ "type": "text" }),
     };
     json!({
         "name": key.name,

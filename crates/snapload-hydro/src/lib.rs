@@ -33,6 +33,6 @@ pub use read::{
     Dataset, FirstColumn, Format, Given, Reading, Values, Variable, WamitText, from_dataset,
     from_nemoh, from_wamit, read,
 };
-pub use report::{Floating, GivenMemory, Json, Report, Request, page};
+pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_in_words};
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use spline::Spline;

@@ -18,6 +18,7 @@ mod structure;
 mod words;
 
 pub use catalogue::{Section, section};
+pub use physics::afloat::HeldMotion;
 pub use physics::elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_elastic, springs};
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
@@ -26,6 +27,7 @@ pub use physics::prepared::Prepared;
 pub use physics::sea::{Component, Spectrum, components};
 pub use physics::snap::{SLOWEST_M_S, Snap, snaps};
 pub use physics::warnings::{Warning, warnings};
+pub use physics::waterline::Waterline;
 pub use physics::wave::{LinearWave, wave_number};
 pub use report::{Standing, Verdict, end_words};
 pub use runs::assess::{Assessment, NEIGHBOUR, assess, quantile};
@@ -34,7 +36,7 @@ pub use runs::outcome::{LineOutcome, Outcome};
 pub use runs::seas::{SeaOutcome, Seas, seas};
 pub use schema::{STRUCTURE, is_structure};
 pub use structure::{
-    BodySi, IrregularSea, LineSi, Outline, Site, SpectrumShape, Structure, THREE_HOURS_S, Water,
-    Wave,
+    AddedMass, Afloat, BodySi, ByDefault, IrregularSea, LineSi, Outline, Site, SpectrumShape,
+    Structure, THREE_HOURS_S, Water, Wave,
 };
 pub use words::told;

@@ -1,7 +1,7 @@
 //! The keys of a structure's case: tables, names, units, ranges, defaults and help texts.
 
 use crate::catalogue::{GRADES, TYPES};
-use snapload::DefaultValue::{Count, Derived, Number, Required, Word};
+use snapload::DefaultValue::{Count, Derived, Flag, Number, Required, Word};
 use snapload::{Heading, Key, Kind, Schema, Table};
 
 /// Lengths are at most this \[m\].
@@ -18,19 +18,21 @@ const DIRECTION: Kind = Kind::Choice(&["+x", "-x"]);
 const BODY: &[Key] = &[
     Key::new("mass", "kg", MASS, Required, "mass, ballast included"),
     Key::new("displaced_volume", "m^3", Kind::positive(1e9), Required, "volume of water it displaces when submerged"),
-    Key::new("added_mass", "kg", Kind::number(0.0, HEAVIEST),
-        Derived("circle: water_density displaced_volume (C_a = 1); a rectangle needs it"),
-        "mass of water that moves with it, the same in x and z"),
+    Key::new("added_mass", "kg", Kind::PerFreedom(1e18),
+        Derived("of the outline in two-dimensional flow (DNV-RP-C205, table D-1)"),
+        "water that moves with it: [surge, heave, pitch], pitch in kg m^2 about the centre, or one number for x and z"),
     Key::new("shape", "", Kind::Choice(&["circle", "rectangle"]), Word("circle"), "its outline in the x-z plane"),
     Key::new("width", "m", LENGTH, Required, "size in x; the diameter of a circle"),
     Key::new("height", "m", LENGTH, Derived("the width; a rectangle needs it"), "size in z; leave it out for a circle"),
     Key::new("moment_of_inertia", "kg m^2", Kind::positive(1e18),
         Derived("of a uniform body: mass width^2/8 (circle), mass (width^2 + height^2)/12 (rectangle)"),
-        "about the centre, the part of the added mass included; a hollow cylinder has nearly mass width^2/4"),
+        "about the centre; with the water's where it is given beside one number for added_mass; a hollow cylinder has nearly mass width^2/4"),
     Key::new("drag_area", "m^2", Kind::number(0.0, 1e6), Number(0.0),
         "C_d A of the quadratic drag, water_density C_d A |u| u / 2 with the velocity u of the water past the centre"),
     Key::new("linear_damping", "N s/m", Kind::number(0.0, HEAVIEST), Number(0.0), "force on the body per velocity of the water past it"),
     Key::new("turning_damping", "N m s", Kind::number(0.0, 1e18), Number(0.0), "moment on the body per angular velocity"),
+    Key::new("constant_force", "N", Kind::Pair(HEAVIEST), Derived("none"),
+        "[x, z] of a load that does not change: mean drift of the waves, wind"),
     Key::new("position", "m", PLACE, Required, "[x, z] of its centre to which the fairleads are drawn; z is up from the still water"),
 ];
 
@@ -53,7 +55,27 @@ const LINE: &[Key] = &[
 const SITE: &[Key] = &[
     Key::new("depth", "m", Kind::positive(12_000.0), Required, "depth of still water; the floor is at z = -depth"),
     Key::new("water_density", "kg/m^3", Kind::number(900.0, 1300.0), Number(1025.0), "density of the water"),
+    Key::new("current", "m/s", Kind::number(-10.0, 10.0), Number(0.0),
+        "velocity of the water to +x beside that of the waves, the same at all depths and times; needs drag"),
     Key::new("gravity", "m/s^2", Kind::number(1.0, 30.0), Number(9.806_65), "acceleration of gravity"),
+];
+
+#[rustfmt::skip] // one row a key
+const FLOAT: &[Key] = &[
+    Key::new("file", "", Kind::Text, Required,
+        "coefficients of a panel code, beside this file: Capytaine's .nc, WAMIT's .1, Nemoh's folder"),
+    Key::new("deep_water", "", Kind::Flag, Flag(false), "take coefficients of deep water, though the site is not"),
+    Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
+    Key::new("damping", "N s/m", Kind::PerFreedom(1e18), Derived("none"),
+        "[surge, heave, pitch], pitch in N m s: linear damping beside that of waves"),
+    Key::new("pairs", "1", Kind::Count(1, 20), Derived("as many as 1 % takes"), "pairs of poles of the memory"),
+    Key::new("memory", "", Kind::Text, Derived("fitted"), "a memory that snapload hydro --json wrote, in place of a fit"),
+    Key::new("reference", "m", PLACE, Derived("the file's"), "[x, z] that the file's pitch is about, where it does not say"),
+    Key::new("file_centre_of_gravity", "m", PLACE, Derived("the file's"),
+        "[x, z] of the centre of gravity that the file's stiffness was made with, where it does not say"),
+    Key::new("unit_length", "m", LENGTH, Derived("none"), "WAMIT's unit of length ULEN"),
+    Key::new("first_column", "", Kind::Choice(&["period", "frequency", "wavenumber"]), Word("period"), "what the first column of WAMIT's files holds"),
+    Key::new("name", "", Kind::Text, Derived("the only one"), "which body, where the file has several"),
 ];
 
 #[rustfmt::skip] // one row a key
@@ -89,9 +111,10 @@ const RUN: &[Key] = &[
 #[rustfmt::skip] // one row a table
 pub static STRUCTURE: Schema = Schema {
     tables: &[
-        Table::new("body", Heading::One, "the moored body: buoyant, submerged, seen from its side", BODY),
+        Table::new("body", Heading::One, "the moored body, seen from its side: buoyant and submerged, or afloat with [float]", BODY),
         Table::new("line", Heading::Many, "a mooring line; write [[line]] once for each, 1 to 16 of them", LINE),
         Table::new("site", Heading::One, "the place", SITE),
+        Table::new("float", Heading::Optional, "a body that floats: what the water does to it, by a panel code", FLOAT),
         Table::new("wave", Heading::Optional, "a regular wave; one of wave and sea may be given", WAVE),
         Table::new("sea", Heading::Optional, "an irregular, long-crested sea", SEA),
         Table::new("run", Heading::One, "what is computed", RUN),

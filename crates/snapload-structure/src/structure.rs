@@ -1,8 +1,14 @@
 //! A moored structure in SI units, checked once at the border.
 
+mod added_mass;
+mod afloat;
 mod read;
 
+pub use added_mass::{AddedMass, ByDefault};
+pub use afloat::Afloat;
+
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// The outline of the body in the x-z plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,13 +19,23 @@ pub enum Outline {
     Rectangle,
 }
 
+impl Outline {
+    /// Its area \[m²\].
+    fn area_m2(self, [width_m, height_m]: [f64; 2]) -> f64 {
+        match self {
+            Self::Circle => PI * width_m * width_m / 4.0,
+            Self::Rectangle => width_m * height_m,
+        }
+    }
+}
+
 /// The body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySi {
     /// Mass m \[kg\].
     pub mass_kg: f64,
-    /// Added mass m_a, the same in x and z \[kg\].
-    pub added_mass_kg: f64,
+    /// The water that moves with it.
+    pub added_mass: AddedMass,
     /// Outline.
     pub outline: Outline,
     /// Size in x \[m\].
@@ -28,7 +44,7 @@ pub struct BodySi {
     pub height_m: f64,
     /// Displaced volume V \[m³\].
     pub displaced_volume_m3: f64,
-    /// Moment of inertia about the centre \[kg m²\].
+    /// Moment of inertia about the centre, beside that of `added_mass` \[kg m²\].
     pub moment_of_inertia_kg_m2: f64,
     /// C_d A of the quadratic drag \[m²\].
     pub drag_area_m2: f64,
@@ -36,6 +52,8 @@ pub struct BodySi {
     pub linear_damping_n_s_m: f64,
     /// Moment per angular velocity \[N m s\].
     pub turning_damping_n_m_s: f64,
+    /// A load `[x, z]` that does not change \[N\].
+    pub constant_force_n: [f64; 2],
     /// Centre `[x, z]` to which the fairleads are drawn \[m\].
     pub position_m: [f64; 2],
 }
@@ -62,11 +80,25 @@ pub struct LineSi {
 impl BodySi {
     /// How long it is across the plane, of which the case says nothing but the volume \[m\].
     pub fn length_m(&self) -> f64 {
-        let outline = match self.outline {
-            Outline::Circle => PI * self.width_m * self.width_m / 4.0,
-            Outline::Rectangle => self.width_m * self.height_m,
-        };
-        self.displaced_volume_m3 / outline
+        self.displaced_volume_m3 / self.outline.area_m2([self.width_m, self.height_m])
+    }
+
+    /// Takes mass and inertia from the coefficients of a floating body, at infinite frequency.
+    fn weigh(&mut self, afloat: &Afloat) {
+        let added = &afloat.report.fit.added_mass_inf;
+        self.added_mass = AddedMass::given([0, 1, 2].map(|i| added[(i, i)]));
+        self.moment_of_inertia_kg_m2 = afloat.body.mass[(2, 2)];
+    }
+
+    /// Mass that has to be moved along x and along z, with the water's \[kg\].
+    pub fn moving_mass_kg(&self) -> [f64; 2] {
+        let added = &self.added_mass;
+        [added.surge_kg, added.heave_kg].map(|added| self.mass_kg + added)
+    }
+
+    /// Moment of inertia about the centre, with the water's \[kg m²\].
+    pub fn turning_inertia_kg_m2(&self) -> f64 {
+        self.moment_of_inertia_kg_m2 + self.added_mass.pitch_kg_m2
     }
 
     /// Whether a point of the plane is on the body at its position or within it, to a thousandth.
@@ -105,6 +137,8 @@ pub struct Site {
     pub depth_m: f64,
     /// Density of the water ρ \[kg/m³\].
     pub water_density_kg_m3: f64,
+    /// Velocity of the water to +x beside that of waves \[m/s\].
+    pub current_m_s: f64,
     /// Gravity g \[m/s²\].
     pub gravity_m_s2: f64,
 }
@@ -162,6 +196,8 @@ pub struct Structure {
     pub lines: Vec<LineSi>,
     /// The place.
     pub site: Site,
+    /// What the water does to it, if it floats.
+    pub afloat: Option<Arc<Afloat>>,
     /// The waves.
     pub water: Water,
     /// Where they go: 1 to +x, −1 to −x.
@@ -181,8 +217,11 @@ pub struct Structure {
 /// Three hours, the time for which a sea is taken to be stationary \[s\].
 pub const THREE_HOURS_S: f64 = 10_800.0;
 impl Structure {
-    /// Net buoyancy F = (ρV − m) g \[N\]; positive in every checked structure.
+    /// Net buoyancy F = (ρV − m) g \[N\]; positive in every checked structure that does not float.
     pub fn net_buoyancy_n(&self) -> f64 {
+        if let Some(afloat) = &self.afloat {
+            return afloat.body.constant_force[1];
+        }
         self.site.gravity_m_s2 * (self.displaced_mass_kg() - self.body.mass_kg)
     }
 
@@ -191,19 +230,62 @@ impl Structure {
         self.site.water_density_kg_m3 * self.body.displaced_volume_m3
     }
 
-    /// Coefficient of added mass C_a = m_a/(ρV).
-    pub fn added_mass_coefficient(&self) -> f64 {
-        self.body.added_mass_kg / self.displaced_mass_kg()
+    /// Coefficients of added mass in x and z, C_a = m_a/(ρV).
+    pub fn added_mass_coefficients(&self) -> [f64; 2] {
+        let added = &self.body.added_mass;
+        [added.surge_kg, added.heave_kg].map(|added| added / self.displaced_mass_kg())
+    }
+
+    /// Where the added mass is from that the case does not give; none where it gives all of it.
+    pub fn added_mass_source(&self) -> Option<&'static str> {
+        self.body.added_mass.source(self.body.outline)
+    }
+
+    /// The added mass in words, where the case leaves some of it to the textbook.
+    pub fn default_words(&self) -> Option<String> {
+        let (body, added) = (&self.body, &self.body.added_mass);
+        let source = self.added_mass_source()?;
+        let tonnes = |kilograms: f64| kilograms / 1e3;
+        Some(format!(
+            "{:.1} t, and {:.1} t of water move with it in x, {:.1} t in z; it turns {:.1} t m^2, and \
+             {:.1} t m^2 of water with it: {source}",
+            tonnes(body.mass_kg),
+            tonnes(added.surge_kg),
+            tonnes(added.heave_kg),
+            tonnes(body.moment_of_inertia_kg_m2),
+            tonnes(added.pitch_kg_m2),
+        ))
+    }
+
+    /// What the current drags with, ½ ρ C_d A |U| U + b U \[N\].
+    pub fn drag_of_current_n(&self) -> f64 {
+        let (body, current) = (&self.body, self.site.current_m_s);
+        let quadratic = 0.5 * self.site.water_density_kg_m3 * body.drag_area_m2;
+        (quadratic * current.abs() + body.linear_damping_n_s_m) * current
+    }
+
+    /// The loads that do not change, beside weight and buoyancy, in words; none where there are none.
+    pub fn steady_words(&self) -> Option<String> {
+        let (current, [x, z]) = (self.site.current_m_s, self.body.constant_force_n);
+        let mut parts = Vec::new();
+        if current != 0.0 {
+            let drag = self.drag_of_current_n() / 1e3;
+            parts.push(format!(
+                "a current of {current} m/s drags with {drag:.1} kN"
+            ));
+        }
+        if [x, z] != [0.0; 2] {
+            let [x, z] = [x, z].map(|newtons| newtons / 1e3);
+            parts.push(format!(
+                "a constant force of {x:.1} kN in x and {z:.1} kN in z"
+            ));
+        }
+        (!parts.is_empty()).then(|| parts.join("; "))
     }
 
     /// Whether every line has a stiffness, without which the tension in a snap is not known.
     pub fn tensions_known(&self) -> bool {
         self.lines.iter().all(|line| line.stiffness_n.is_some())
-    }
-
-    /// Mass that a snap has to stop, m + m_a \[kg\].
-    pub fn moving_mass_kg(&self) -> f64 {
-        self.body.mass_kg + self.body.added_mass_kg
     }
 }
 

@@ -113,6 +113,27 @@ fn the_printed_hydrodynamics_are_the_programs() {
     );
 }
 
+/// And of the pontoon that floats.
+#[test]
+fn the_printed_pontoon_is_the_programs() {
+    for command in [
+        "hydro docs/examples/pontoon-10m.nc --mass 80000 --centre 0,-0.2 --inertia 133000 \
+         --damping 0,0,50000",
+        "assess docs/examples/pontoon.toml --set run.duration=600 --neighbours 10",
+    ] {
+        let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+        let program = program.current_dir(root()).args(command.split_whitespace());
+        let output = program.output().expect("a run").stdout;
+        let output = String::from_utf8(output).expect("text");
+        assert!(
+            read("docs/pontoon.md").contains(&output),
+            "docs/pontoon.md prints something else than\n{output}"
+        );
+    }
+    let case = read("docs/examples/pontoon.toml");
+    assert!(read("docs/pontoon.md").contains(case.trim_end()));
+}
+
 /// And of the structure that the manual works through.
 #[test]
 fn the_printed_assessment_is_the_programs() {

@@ -194,7 +194,11 @@ fn chosen_body(words: &[String], given: &Given) -> Result<Option<String>, HydroE
         .collect();
     bodies.dedup();
     match (bodies.as_slice(), &given.body) {
-        ([], _) => Ok(None),
+        ([], None) => Ok(None),
+        ([], Some(body)) => {
+            let advice = "the file has one body, without a name; leave the name out";
+            Err(HydroError::missing(format!("the body {body}"), advice))
+        }
         (bodies, Some(wanted)) if bodies.contains(&wanted.as_str()) => Ok(Some(wanted.clone())),
         ([one], None) => Ok(Some((*one).to_owned())),
         (bodies, wanted) => {

@@ -7,6 +7,7 @@ mod words;
 
 pub use json::Json;
 pub use page::page;
+pub use words::periods_in_words;
 
 use crate::error::{HydroError, Warning};
 use crate::linear::{

@@ -40,7 +40,8 @@ impl Report {
         rows
     }
 
-    fn memory_words(&self) -> String {
+    /// How the memory was made and how well it fits.
+    pub fn memory_words(&self) -> String {
         let fit = &self.fit;
         let worst = |of: fn(&crate::memory::EntryQuality) -> f64| {
             100.0 * fit.entries.iter().map(of).fold(0.0, f64::max)
@@ -85,7 +86,7 @@ impl Floating {
                 body.stiffness[(2, 2)] / 1e3,
             ),
         );
-        say("periods", periods(&self.natural, &self.modes));
+        say("periods", periods_in_words(&self.natural, &self.modes));
         // A body that is its own mirror image answers alike to waves from either side.
         let mut told: Vec<(String, Vec<&str>)> = Vec::new();
         for [response, _] in &self.responses {
@@ -115,7 +116,7 @@ impl Floating {
             );
             say("rest", words);
             if !natural.is_empty() {
-                say("held", periods(natural, modes));
+                say("held", periods_in_words(natural, modes));
             }
         }
     }
@@ -144,7 +145,8 @@ fn largest(response: &Response) -> String {
     (0..3).map(peak).collect::<Vec<_>>().join(", ")
 }
 
-fn periods(natural: &[Natural], modes: &[Mode]) -> String {
+/// Natural periods with their damping, in words.
+pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
     let one = |(natural, mode): (&Natural, &Mode)| {
         format!(
             "{} {:.3} s undamped, {:.3} s with {:.2} % of critical damping",

@@ -165,24 +165,23 @@ impl Reader {
                  is linear."
             ));
         }
-        let added = match row.numbers(13, "Ca")?[..] {
-            [every] => every,
-            [x, _, z] if x == z => z,
-            _ => {
-                let allowed = "one number, or three of which those for x and z are equal";
-                return Err(row.refuse("Ca", row.words[13], allowed, ""));
-            }
+        let displaced = volume * self.water_density;
+        let added: Value = match row.numbers(13, "Ca")?[..] {
+            [every] => (every * displaced).into(),
+            [x, _, z] if x == z => (z * displaced).into(),
+            // Of the rotation MoorDyn is told nothing then.
+            [x, _, z] => [x * displaced, z * displaced, 0.0].into(),
+            _ => return Err(row.refuse("Ca", row.words[13], "one number or Cax|Cay|Caz", "")),
         };
         for (key, value) in [
             ("mass", mass),
             ("displaced_volume", volume),
             ("moment_of_inertia", inertia),
             ("drag_area", drag),
-            ("added_mass", added * volume * self.water_density),
         ] {
             self.give(row, ("body", 0), key, value)?;
         }
-        Ok(())
+        self.give(row, ("body", 0), "added_mass", added)
     }
 
     fn line<'a>(

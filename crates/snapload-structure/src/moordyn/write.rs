@@ -23,6 +23,10 @@ struct File<'a> {
     direction: &'static str,
     start_m: [f64; 2],
     segments: u32,
+    /// Ca, by axis where it differs.
+    added_mass: String,
+    /// Whether there is more of the added mass than a Ca.
+    own_added_mass: bool,
     /// Diameter, mass per length, stiffness and damping of each line.
     types: Vec<[f64; 4]>,
     step_s: f64,
@@ -40,6 +44,10 @@ struct File<'a> {
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness or mass, or the structure rests nowhere.
 pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String, CaseError> {
+    if structure.afloat.is_some() {
+        let allowed = "nothing: MoorDyn has no body that floats by coefficients of its own";
+        return Err(CaseError::value("[float]", "(given)", allowed));
+    }
     let prepared = Prepared::new(structure.clone())?;
     let types = types(&prepared, segments)?;
     let length_s = |(line, [_, mass, stiffness, _]): (&crate::LineSi, &[f64; 4])| {
@@ -47,7 +55,14 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
     };
     let steps_s = structure.lines.iter().zip(&types).map(length_s);
     let name: String = name.chars().filter(|c| !c.is_control()).collect();
+    let [along, up] = structure.added_mass_coefficients();
+    let same = along == up;
     let file = File {
+        added_mass: match same {
+            true => along.to_string(),
+            false => format!("{along}|{along}|{up}"),
+        },
+        own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
         name: name.replace("---", "-"),
         structure,
         body: &structure.body,

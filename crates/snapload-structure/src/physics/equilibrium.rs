@@ -1,12 +1,12 @@
 //! Where the body rests in still water.
 //!
-//! Lines pull only where they are taut, so the place of rest is the least potential energy −F z
-//! within reach of all lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J.
+//! Lines pull only where they are taut, so the place of rest is the least potential energy −F·(x, z),
+//! F the buoyancy and whatever else does not change, within reach of all lines, g_i ≤ 0. There the conditions of Karush, Kuhn and Tucker hold (J.
 //! Nocedal and S. Wright, *Numerical Optimization* (2006), theorems 12.1, 12.5 and 12.6): tensions
 //! T_i ≥ 0, zero where a line is slack, that balance buoyancy, and curvature Σ T_i ∇(n_i, s_i) that
 //! is not negative along the motions that keep the taut lines taut. Each set of one to three lines
 //! is tried, as three hold a body in the plane, from several places and rotations; of all that
-//! pass, the highest place is the answer.
+//! pass, that of the least energy is the answer, which is the highest where buoyancy is all there is.
 
 use super::model::Model;
 use crate::structure::Structure;
@@ -46,14 +46,17 @@ pub struct Equilibrium {
 /// A [`CaseError`] if there is no such place below the surface.
 pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
     let model = Model::about(structure, structure.body.position_m, &[]);
-    let system = &model.system;
+    let system = &model.still();
     let starts = starts(structure, model.scales.length_m);
     let places = sets(system.cables.len()).into_iter().flat_map(|set| {
         let at = |start: &State| rest(system, &set, *start);
         starts.iter().filter_map(at).collect::<Vec<_>>()
     });
     let best = places
-        .min_by(|a, b| a.y.total_cmp(&b.y))
+        .min_by(|a, b| {
+            let [a, b] = [a, b].map(|place| -system.forcing.constant.dot(place.centre()));
+            a.total_cmp(&b)
+        })
         .ok_or_else(|| nowhere(structure))?;
     let taut: Vec<usize> = (0..system.cables.len())
         .filter(|&line| system.cables[line].gap(&best) >= -TOUCHING)
@@ -158,7 +161,7 @@ fn row_gradient(system: &System, line: usize, at: &State) -> Matrix3<f64> {
 /// on
 ///
 /// ```text
-/// Σ T_i (n_i, s_i) = (0, −1, 0),    g_i/(2r) = 0
+/// Σ T_i (n_i, s_i) = (F, 0),    g_i/(2r) = 0
 /// ```
 fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
     let m = set.len();
@@ -166,7 +169,8 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
     for _ in 0..STEPS {
         let mut residual = DVector::zeros(3 + m);
         let mut matrix = DMatrix::zeros(3 + m, 3 + m);
-        residual[1] = 1.0;
+        let load = system.forcing.constant;
+        (residual[0], residual[1]) = (-load.x, -load.y);
         for (i, &line) in set.iter().enumerate() {
             let normal = row(system, line, &at);
             let gradient = row_gradient(system, line, &at) * tension[i];
@@ -230,15 +234,16 @@ fn stable(system: &System, set: &[usize], at: &State, tension: &DVector<f64>) ->
     free.is_empty() || curvatures().iter().all(|value| *value > -1e-6)
 }
 
-/// The tensions ≥ 0 of least sum of squares that balance the buoyancy, and what is left unbalanced.
+/// The tensions ≥ 0 of least sum of squares that balance the constant forces, and what is left unbalanced.
 fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
     let rows: Vec<Vector3<f64>> = taut.iter().map(|&line| row(system, line, at)).collect();
-    let load = Vector3::new(0.0, -1.0, 0.0);
+    let load = system.forcing.constant;
+    let load = Vector3::new(load.x, load.y, 0.0);
     // Least squares, and again without the lines that would push.
     let mut kept: Vec<usize> = (0..taut.len()).collect();
     loop {
         if kept.is_empty() {
-            return (vec![0.0; taut.len()], 1.0);
+            return (vec![0.0; taut.len()], load.amax());
         }
         let matrix = DMatrix::from_fn(3, kept.len(), |k, i| rows[kept[i]][k]);
         let right = DVector::from_fn(3, |k, _| load[k]);

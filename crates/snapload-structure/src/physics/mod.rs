@@ -1,5 +1,6 @@
 //! The physics of a moored structure: waves, forces, rest, and the two models of a line.
 
+pub(crate) mod afloat;
 pub(crate) mod elastic;
 pub(crate) mod equilibrium;
 pub(crate) mod gumbel;
@@ -8,4 +9,5 @@ pub(crate) mod prepared;
 pub(crate) mod sea;
 pub(crate) mod snap;
 pub(crate) mod warnings;
+pub(crate) mod waterline;
 pub(crate) mod wave;

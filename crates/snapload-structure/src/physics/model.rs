@@ -15,6 +15,9 @@ use std::f64::consts::FRAC_PI_2;
 /// (docs/model.md section 6).
 const V_STICK: f64 = 1e-6;
 
+/// The frequency of the part of the water's velocity that does not change.
+pub(super) const CURRENT: f64 = 0.0;
+
 /// Anchors that stand closer together than this part of the longest line do not make a scale.
 const LEAST_SPREAD: f64 = 0.02;
 
@@ -24,7 +27,7 @@ pub struct Scales {
     /// L: half the horizontal distance between the outermost anchors; the longest line where they
     /// have none \[m\].
     pub length_m: f64,
-    /// M: mass with added mass \[kg\].
+    /// M: mass with the added mass of heave \[kg\].
     pub mass_kg: f64,
     /// F: net buoyancy \[N\].
     pub force_n: f64,
@@ -45,7 +48,8 @@ impl Scales {
         let longest = lengths.fold(0.0, f64::max);
         let has_scale = wide > LEAST_SPREAD * longest;
         let length_m = if has_scale { wide / 2.0 } else { longest };
-        let (mass_kg, force_n) = (structure.moving_mass_kg(), structure.net_buoyancy_n());
+        let [_, mass_kg] = structure.body.moving_mass_kg();
+        let force_n = structure.net_buoyancy_n();
         Self {
             length_m,
             mass_kg,
@@ -124,38 +128,27 @@ impl Model {
         let scales = Scales::new(structure, origin_m);
         let waves = waves(structure, origin_m[1]);
         let groups = groups(structure, &scales, &waves);
-        let shape = match structure.body.outline {
-            Outline::Circle => Shape::Circle { radius: groups.a },
-            Outline::Rectangle => Shape::Rectangle {
-                half_width: groups.a,
-                half_height: groups.b,
-            },
-        };
-        let froude_krylov = force_per_acceleration(structure) / scales.force_n;
+        let shape = shape(structure, &groups);
+        let froude_krylov = force_per_acceleration(structure).map(|per| per / scales.force_n);
         let lines = 0..structure.lines.len();
         let cables = lines.map(|line| cable(structure, &scales, line, taut.contains(&line)));
         let force = |wave: &LinearWave| {
             let (sine, cosine) = wave.phase_rad.sin_cos();
             sinusoid(structure, &scales, wave, froude_krylov, [sine, cosine])
         };
+        let [pushed, lifted] = structure.body.constant_force_n;
         let system = System {
-            body: Body::rigid(shape, groups.inertia),
+            body: body(structure, shape, groups.inertia),
             cables: cables.collect(),
             forcing: Forcing {
-                constant: [0.0, -1.0].into(),
+                constant: [pushed / scales.force_n, -(1.0 + lifted / scales.force_n)].into(),
                 harmonics: waves.iter().map(force).collect(),
             },
             drag: drag(structure, &scales, &waves, groups.inertia),
             floating: None,
             restitution: structure.restitution,
         };
-        let rules = Rules {
-            rotation_limit: Some(FRAC_PI_2),
-            upper_bound: Some((origin_m[1] + structure.site.depth_m) / scales.length_m),
-            max_impacts: structure.max_snaps,
-            v_stick: V_STICK,
-            ..Rules::until(structure.duration_s / scales.time_s)
-        };
+        let rules = rules(structure, &scales);
         Self {
             scales,
             system,
@@ -177,6 +170,20 @@ impl Model {
         }
     }
 
+    /// The system in still water, with what the current drags with among the constant forces, so that
+    /// the body rests where they and the cables are in balance.
+    pub(super) fn still(&self) -> System {
+        let mut still = self.system.clone();
+        still.forcing.harmonics.clear();
+        if let Some(mut drag) = still.drag.take() {
+            drag.water.retain(|water| water.omega == CURRENT);
+            let [x, y, _] = drag.at(0.0, &State::default());
+            let constant = still.forcing.constant;
+            still.forcing.constant = [constant.x + x, constant.y + y].into();
+        }
+        still
+    }
+
     /// The wave and its groups f_o, ν and Ω, where it is regular.
     pub(crate) fn regular_wave(&self) -> Option<(&LinearWave, [f64; 3])> {
         self.waves.first().zip(self.groups.wave)
@@ -191,36 +198,88 @@ impl Model {
     }
 }
 
-fn groups(structure: &Structure, scales: &Scales, waves: &[LinearWave]) -> Groups {
-    let (body, l) = (&structure.body, scales.length_m);
-    let lines = structure.lines.iter();
-    let above_floor = scales.origin_m[1] + structure.site.depth_m;
-    Groups {
-        r: lines.map(|line| line.length_m / l).collect(),
-        a: body.width_m / (2.0 * l),
-        b: match body.outline {
-            Outline::Circle => 0.0,
-            Outline::Rectangle => body.height_m / (2.0 * l),
-        },
-        inertia: body.moment_of_inertia_kg_m2 / (scales.mass_kg * l * l),
-        wave: match (structure.water, waves.first()) {
-            (Water::Wave(_), Some(wave)) => Some([
-                force_per_acceleration(structure) * wave.a_x_m_s2 / scales.force_n,
-                (wave.wave_number_1_m * above_floor).tanh(),
-                wave.omega_rad_s * scales.time_s,
-            ]),
-            _ => None,
+/// The outline in the engine's units.
+pub(super) fn shape(structure: &Structure, groups: &Groups) -> Shape {
+    match structure.body.outline {
+        Outline::Circle => Shape::Circle { radius: groups.a },
+        Outline::Rectangle => Shape::Rectangle {
+            half_width: groups.a,
+            half_height: groups.b,
         },
     }
 }
 
-/// Froude-Krylov force with added mass over the water's acceleration, ρV(1 + C_a) \[kg\].
-pub fn force_per_acceleration(structure: &Structure) -> f64 {
-    structure.displaced_mass_kg() + structure.body.added_mass_kg
+/// When a run ends.
+pub(super) fn rules(structure: &Structure, scales: &Scales) -> Rules {
+    Rules {
+        rotation_limit: Some(FRAC_PI_2),
+        upper_bound: Some((scales.origin_m[1] + structure.site.depth_m) / scales.length_m),
+        max_impacts: structure.max_snaps,
+        v_stick: V_STICK,
+        ..Rules::until(structure.duration_s / scales.time_s)
+    }
+}
+
+impl Groups {
+    /// Those of body and lines.
+    pub(super) fn of_body(structure: &Structure, scales: &Scales, inertia: f64) -> Self {
+        let (body, l) = (&structure.body, scales.length_m);
+        let lines = structure.lines.iter();
+        Self {
+            r: lines.map(|line| line.length_m / l).collect(),
+            a: body.width_m / (2.0 * l),
+            b: match body.outline {
+                Outline::Circle => 0.0,
+                Outline::Rectangle => body.height_m / (2.0 * l),
+            },
+            inertia,
+            wave: None,
+        }
+    }
+}
+
+fn groups(structure: &Structure, scales: &Scales, waves: &[LinearWave]) -> Groups {
+    let l = scales.length_m;
+    let above_floor = scales.origin_m[1] + structure.site.depth_m;
+    let inertia = structure.body.turning_inertia_kg_m2() / (scales.mass_kg * l * l);
+    Groups {
+        wave: match (structure.water, waves.first()) {
+            (Water::Wave(_), Some(wave)) => {
+                let [along, up] = force_per_acceleration(structure);
+                Some([
+                    along * wave.a_x_m_s2 / scales.force_n,
+                    up / along * (wave.wave_number_1_m * above_floor).tanh(),
+                    wave.omega_rad_s * scales.time_s,
+                ])
+            }
+            _ => None,
+        },
+        ..Groups::of_body(structure, scales, inertia)
+    }
+}
+
+/// The body with its mass matrix, diag(m + A11, m + A33, I + A55) in units of m + A33; it does not
+/// turn with the body. The same in x and z it is the unit mass, for which flight has a closed form.
+fn body(structure: &Structure, shape: Shape, inertia: f64) -> Body {
+    let [surge, heave] = structure.body.moving_mass_kg();
+    let matrix = [
+        [surge / heave, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, inertia],
+    ];
+    let of_matrix = || Body::with_mass_matrix(shape, matrix);
+    let unlike = (surge != heave).then(of_matrix).flatten();
+    unlike.unwrap_or_else(|| Body::rigid(shape, inertia))
+}
+
+/// Froude-Krylov force with added mass over the water's acceleration in x and in z, ρV + m_a \[kg\].
+pub fn force_per_acceleration(structure: &Structure) -> [f64; 2] {
+    let added = &structure.body.added_mass;
+    [added.surge_kg, added.heave_kg].map(|added| structure.displaced_mass_kg() + added)
 }
 
 /// The waves of a structure as they are at the body's level.
-fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
+pub(super) fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
     let of = |amplitude_m: f64, omega_rad_s: f64, phase_rad: f64| LinearWave {
         phase_rad,
         ..LinearWave::new(&structure.site, amplitude_m, omega_rad_s, z_m)
@@ -237,7 +296,8 @@ fn waves(structure: &Structure, z_m: f64) -> Vec<LinearWave> {
     }
 }
 
-/// A vector that is `per` times the water's acceleration in a wave, in the engine's picture.
+/// A vector that is `per` times the water's acceleration in a wave, along x and along z, in the
+/// engine's picture.
 ///
 /// With the surface η = A sin(ωt + ε) above the body, of a wave that goes to +x, linear theory
 /// gives
@@ -253,10 +313,11 @@ fn sinusoid(
     structure: &Structure,
     scales: &Scales,
     wave: &LinearWave,
-    per: f64,
+    [along, up]: [f64; 2],
     [sine, cosine]: [f64; 2],
 ) -> Harmonic {
-    let (x, y) = (structure.heading * per * wave.a_x_m_s2, per * wave.a_z_m_s2);
+    let x = structure.heading * along * wave.a_x_m_s2;
+    let y = up * wave.a_z_m_s2;
     Harmonic {
         omega: wave.omega_rad_s * scales.time_s,
         cosine: [x * cosine, y * sine].into(),
@@ -266,7 +327,7 @@ fn sinusoid(
 
 /// Drag and damping of the body in the engine's units, per unit mass and inertia; none where all
 /// are zero. The water's velocity is its acceleration over ω, a quarter of a period later.
-fn drag(
+pub(super) fn drag(
     structure: &Structure,
     scales: &Scales,
     waves: &[LinearWave],
@@ -277,7 +338,7 @@ fn drag(
     let velocity = |wave: &LinearWave| {
         let per = 1.0 / (wave.omega_rad_s * scales.speed_m_s());
         let (sine, cosine) = wave.phase_rad.sin_cos();
-        sinusoid(structure, scales, wave, per, [-cosine, sine])
+        sinusoid(structure, scales, wave, [per; 2], [-cosine, sine])
     };
     let quadratic = 0.5 * structure.site.water_density_kg_m3 * body.drag_area_m2;
     let mut drag = Drag {
@@ -289,11 +350,18 @@ fn drag(
     let resists = drag.linear + drag.quadratic + drag.turning > 0.0;
     resists.then(|| {
         drag.water = waves.iter().map(velocity).collect();
+        if structure.site.current_m_s != 0.0 {
+            drag.water.push(Harmonic {
+                omega: CURRENT,
+                cosine: [structure.site.current_m_s / scales.speed_m_s(), 0.0].into(),
+                ..Harmonic::default()
+            });
+        }
         drag
     })
 }
 
-fn cable(structure: &Structure, scales: &Scales, line: usize, taut: bool) -> Cable {
+pub(super) fn cable(structure: &Structure, scales: &Scales, line: usize, taut: bool) -> Cable {
     let line = &structure.lines[line];
     let l = scales.length_m;
     let position = structure.body.position_m;

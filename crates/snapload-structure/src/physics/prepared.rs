@@ -1,9 +1,11 @@
 //! A structure with its place of rest and its model, ready to run.
 
+use super::afloat::{HeldMotion, model, rest_afloat};
 use super::equilibrium::{Equilibrium, equilibrium};
-use super::model::Model;
+use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
+use snapload_hydro::periods_in_words;
 
 /// A body that is turned by less than this at rest is upright: its gaps are then off by rounding
 /// only \[rad\].
@@ -18,6 +20,8 @@ pub struct Prepared {
     pub rest: Equilibrium,
     /// The same in the engine's units.
     pub model: Model,
+    /// The small motions that the taut lines leave a floating body where it rests.
+    pub held: Vec<HeldMotion>,
     start: State,
 }
 
@@ -27,9 +31,15 @@ impl Prepared {
     /// # Errors
     /// A [`CaseError`] if it rests nowhere or can not start where it should.
     pub fn new(structure: Structure) -> Result<Self, CaseError> {
-        let rest = equilibrium(&structure)?;
-        let model = model_at_rest(&structure, &rest);
-        let prepared = Self::starting(structure, rest, model);
+        let (rest, held) = match &structure.afloat {
+            Some(afloat) => rest_afloat(&structure, afloat)?,
+            None => (equilibrium(&structure)?, Vec::new()),
+        };
+        let model = model_at_rest(&structure, &rest)?;
+        let prepared = Self {
+            held,
+            ..Self::starting(structure, rest, model)
+        };
         prepared.begin(1.0)?;
         Ok(prepared)
     }
@@ -44,22 +54,25 @@ impl Prepared {
             structure,
             rest,
             model,
+            held: Vec::new(),
             start,
         }
     }
 
     /// The same structure in another sea; where it rests stays.
-    #[must_use]
-    pub fn in_sea(&self, sea: IrregularSea) -> Self {
+    ///
+    /// # Errors
+    /// A [`CaseError`] if a floating body has no coefficients for it.
+    pub fn in_sea(&self, sea: IrregularSea) -> Result<Self, CaseError> {
         let structure = Structure {
             water: Water::Sea(sea),
             ..self.structure.clone()
         };
-        Self {
-            model: model_at_rest(&structure, &self.rest),
+        Ok(Self {
+            model: model_at_rest(&structure, &self.rest)?,
             structure,
             ..self.clone()
-        }
+        })
     }
 
     /// The motion at its start, in waves that are so many times as high.
@@ -69,12 +82,44 @@ impl Prepared {
     pub fn begin(&self, height: f64) -> Result<Simulation, CaseError> {
         let mut system = self.model.system.clone();
         let water = system.drag.iter_mut().flat_map(|drag| &mut drag.water);
+        let water = water.filter(|water| water.omega != CURRENT);
         for harmonic in system.forcing.harmonics.iter_mut().chain(water) {
             harmonic.cosine = harmonic.cosine.map(|force| force * height);
             harmonic.sine = harmonic.sine.map(|force| force * height);
         }
+        for wave in system
+            .floating
+            .iter_mut()
+            .flat_map(|water| &mut water.excitation)
+        {
+            wave.cosine = wave.cosine.map(|force| force * height);
+            wave.sine = wave.sine.map(|force| force * height);
+        }
         Simulation::new(system, self.model.rules, 0.0, self.start)
             .map_err(|error| self.explain(error))
+    }
+
+    /// What is to be known of a floating body beside its motion, a label and its words; nothing of a
+    /// submerged one.
+    pub fn words_afloat(&self) -> Vec<(&'static str, String)> {
+        let Some(afloat) = &self.structure.afloat else {
+            return Vec::new();
+        };
+        let report = &afloat.report;
+        let mut rows = vec![(
+            "afloat",
+            format!("{}; memory: {}", report.name, report.memory_words()),
+        )];
+        if let Ok(floating) = &report.floating {
+            let free = periods_in_words(&floating.natural, &floating.modes);
+            rows.push(("periods", format!("without lines: {free}")));
+        }
+        if !self.held.is_empty() {
+            let (natural, modes): (Vec<_>, Vec<_>) = self.held.iter().cloned().unzip();
+            let held = periods_in_words(&natural, &modes);
+            rows.push(("held", format!("as long as the lines stay taut: {held}")));
+        }
+        rows
     }
 
     /// The state in which it begins, in the engine's units.
@@ -102,8 +147,11 @@ impl Prepared {
 
 /// The model about the place of rest. The lines of a turned body are as long as their gaps say;
 /// those that hold an upright one are exactly taut there.
-fn model_at_rest(structure: &Structure, rest: &Equilibrium) -> Model {
+fn model_at_rest(structure: &Structure, rest: &Equilibrium) -> Result<Model, CaseError> {
+    if let Some(afloat) = &structure.afloat {
+        return model(structure, afloat);
+    }
     let upright = rest.theta_rad.abs() < UPRIGHT;
     let taut: &[usize] = if upright { &rest.taut } else { &[] };
-    Model::about(structure, rest.place_m, taut)
+    Ok(Model::about(structure, rest.place_m, taut))
 }

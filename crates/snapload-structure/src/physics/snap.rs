@@ -12,8 +12,9 @@
 //! peak:    T = T_0 + u ( sqrt(EA μ) + sqrt(k (m + μ length)) ),   m = J²/2E
 //! ```
 //!
-//! with v_i the closing speed, M/w_i the effective mass of the body along the line (w = 1 + s²/I of
-//! docs/model.md section 5, in the engine's units), T_0 the tension at rest, or of a line that was
+//! with v_i the closing speed, M/w_i the effective mass of the body along the line (w = G M⁻¹ Gᵀ in
+//! the engine's units, which is 1 + s²/I of docs/model.md section 5 where all directions weigh the
+//! same), T_0 the tension at rest, or of a line that was
 //! taut the one it had. A line that closes by itself takes up all of the closing energy, J v/2 = M
 //! v²/2w, and stops m = M/w at u = v. Lines that close together share it as they share the impulse.
 //! A line that was taut, v_i = 0, and has a jolt passed on to it takes up the energy that J_i alone
@@ -130,7 +131,7 @@ fn snap(
 ) -> Snap {
     let (system, scales) = (&prepared.model.system, &prepared.model.scales);
     let normal = system.cables[impact.cable].normal(&impact.before);
-    let inverse_mass = normal.coupling(&normal, system.body.inverse_inertia());
+    let inverse_mass = system.body.inverse_effective_mass(&normal);
     let passed_on = (0.5 * stopping * stopping * inverse_mass).min(closing);
     let taken = (0.5 * stopping * impact.v_n).max(passed_on);
     let energy_j = taken * scales.energy_j();

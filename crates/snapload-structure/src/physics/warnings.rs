@@ -1,9 +1,11 @@
 //! What is outside the range in which the theory holds: rules of thumb, each with its numbers. The
 //! words stand in `templates/warnings.txt`.
 
+use super::afloat::left_out;
 use super::equilibrium::Equilibrium;
+use super::waterline::Waterline;
 use super::wave::LinearWave;
-use crate::structure::{LineSi, Structure, Water};
+use crate::structure::{Afloat, LineSi, Structure, Water};
 use crate::words::paragraph;
 use askama::Template;
 use serde::Serialize;
@@ -24,6 +26,10 @@ const LIGHT: f64 = 0.1;
 const PROPORTION: f64 = 100.0;
 /// A line may be so many times as long as its ends are apart where the case has the body.
 const LONG: f64 = 3.0;
+/// Linear hydrostatics hold for less pitch than this \[degrees\].
+const LARGE_PITCH: f64 = 15.0;
+/// A body that turns further than this is held back by the water round it \[degrees\].
+const FREE_TURN: f64 = 60.0;
 /// A phase of the wave that is off by this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
@@ -73,6 +79,9 @@ fn above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warn
 
 /// The rules that a structure breaks, as it rests.
 pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
+    if let Some(afloat) = &structure.afloat {
+        return warnings_afloat(structure, afloat, rest);
+    }
     let body = &structure.body;
     let (z, half) = (rest.place_m[1], body.half_height_m(rest.theta_rad));
     let (top, above_floor) = (z + half, z - half + structure.site.depth_m);
@@ -86,11 +95,84 @@ pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
     if let Some((highest, wave)) = governing_wave(structure, z) {
         found.extend(in_waves(structure, top, highest, &wave));
     }
+    found.push(heavy_lines(structure));
+    found.extend(implausible(structure));
+    found.into_iter().flatten().collect()
+}
+
+/// Lines that weigh something beside what moves.
+fn heavy_lines(structure: &Structure) -> Option<Warning> {
     let lines = structure.lines.iter();
     let masses = lines.filter_map(|line| Some(line.mass_per_length_kg_m? * line.length_m));
-    let part = masses.sum::<f64>() / structure.moving_mass_kg();
-    found.push(above(LIGHT, part, "light lines", ""));
+    let [along, up] = structure.body.moving_mass_kg();
+    let part = masses.sum::<f64>() / along.min(up);
+    above(LIGHT, part, "light lines", "")
+}
+
+/// The rules of a floating body: those of its coefficients, of the place where it rests, of the waves
+/// and of the lines. That it is in the surface and makes waves is what the coefficients are for.
+fn warnings_afloat(structure: &Structure, afloat: &Afloat, rest: &Equilibrium) -> Vec<Warning> {
+    let report = &afloat.report;
+    let of_file = report.warnings.iter().map(|warning| Warning {
+        rule: warning.what,
+        message: warning.words.clone(),
+        decided_by: None,
+    });
+    let body = &structure.body;
+    let heave = rest.place_m[1] - body.position_m[1];
+    let draft = 0.5 * body.height_m - body.position_m[1];
+    let degrees = rest.theta_rad.to_degrees();
+    let elsewhere = heave.abs() > 0.1 * draft || rest.theta_rad.abs() > 0.05;
+    let deep =
+        report.reading.hydro.water.depth_m.is_infinite() && structure.site.depth_m.is_finite();
+    let lost = 100.0 * left_out(structure, afloat);
+    let mut found = vec![
+        broken(elsewhere, "place of rest", [heave, degrees], ""),
+        broken(deep, "deep water", [structure.site.depth_m, 0.0], ""),
+        broken(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
+    ];
+    if let Some((highest, wave)) = governing_wave(structure, body.position_m[1].min(0.0)) {
+        let all = in_waves(structure, f64::INFINITY, highest, &wave).into_iter();
+        found.extend(
+            all.filter(|warning| warning.as_ref().is_some_and(|w| w.rule != "diffraction")),
+        );
+    }
+    found.push(heavy_lines(structure));
     found.extend(implausible(structure));
+    of_file.chain(found.into_iter().flatten()).collect()
+}
+
+/// Where the motion of a floating body left what linear theory covers.
+pub(crate) fn limits_afloat(
+    structure: &Structure,
+    seen: Option<&Waterline>,
+    turned_rad: f64,
+) -> Vec<Warning> {
+    let Some(seen) = seen else {
+        return Vec::new();
+    };
+    let body = &structure.body;
+    let z = body.position_m[1];
+    let (draft, freeboard) = (0.5 * body.height_m - z, 0.5 * body.height_m + z);
+    let [low, high] = seen.heave_m;
+    let (heave, least) = (high.max(-low), 0.5 * draft.min(freeboard));
+    let pitch = turned_rad.to_degrees();
+    let found = [
+        broken(heave > least, "small heave", [heave, least], ""),
+        broken(pitch > LARGE_PITCH, "small pitch", [pitch, LARGE_PITCH], ""),
+        broken(
+            seen.deck_m < 0.0,
+            "deck under water",
+            [-seen.deck_m, 0.0],
+            "",
+        ),
+        broken(
+            seen.bilge_m > 0.0,
+            "out of the water",
+            [seen.bilge_m, 0.0],
+            "",
+        ),
+    ];
     found.into_iter().flatten().collect()
 }
 
@@ -161,7 +243,11 @@ fn in_waves(
 fn soft_lines(structure: &Structure, period_s: f64) -> String {
     let lines = structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {
-        let lasts = PI * (structure.moving_mass_kg() / line.spring_rate_n_m()?).sqrt();
+        let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
+        let [along, up] = structure.body.moving_mass_kg();
+        // What the line has to stop if the body comes along it without turning.
+        let stopped = (x * x + z * z) / (x * x / along + z * z / up);
+        let lasts = PI * (stopped / line.spring_rate_n_m()?).sqrt();
         (lasts > 0.1 * period_s).then(|| format!("{lasts:.2} s in line {}", index + 1))
     });
     soft.collect::<Vec<_>>().join(", ")
@@ -174,6 +260,13 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
     let phase = wave.wave_number_1_m * excursion_m;
     let numbers = [excursion_m, phase.to_degrees()];
     broken(phase > MOST_PHASE, "phase", numbers, "")
+}
+
+/// The warning that a body turns so far that what resists its rotation counts, and nothing does.
+pub(crate) fn turning_warning(structure: &Structure, turned_rad: f64) -> Option<Warning> {
+    let free = structure.body.turning_damping_n_m_s == 0.0;
+    let numbers = [turned_rad.to_degrees(), FREE_TURN];
+    broken(free && numbers[0] > FREE_TURN, "turning", numbers, "")
 }
 
 /// The wave by which a structure is judged: the regular one, or the highest of a sea at its peak

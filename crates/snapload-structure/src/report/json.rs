@@ -3,11 +3,53 @@
 use super::verdict::end_words;
 use crate::physics::elastic::damping_ratio;
 use crate::physics::gumbel::Gumbel;
+use crate::physics::prepared::Prepared;
+use crate::physics::waterline::Waterline;
 use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
 use crate::runs::seas::Seas;
+use crate::structure::Structure;
 use serde_json::{Value, json};
+use snapload_hydro::{FREEDOMS, Mode, Natural};
+
+/// What moves, and where what the case does not give is from.
+fn body(structure: &Structure) -> Value {
+    let (body, added) = (&structure.body, &structure.body.added_mass);
+    json!({
+        "mass_kg": body.mass_kg,
+        "moment_of_inertia_kg_m2": body.moment_of_inertia_kg_m2,
+        "added_mass_kg": [added.surge_kg, added.heave_kg],
+        "added_inertia_kg_m2": added.pitch_kg_m2,
+        "added_mass_by_default": structure.added_mass_source(),
+    })
+}
+
+/// Natural periods of a floating body, and how it lay in the water; none of a submerged one.
+fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
+    let afloat = prepared.structure.afloat.as_ref()?;
+    let motion = |(natural, mode): (&Natural, &Mode)| {
+        json!({
+            "freedom": FREEDOMS[natural.freedom],
+            "undamped_period_s": natural.period_s,
+            "period_s": mode.period_s,
+            "damping_ratio": mode.damping_ratio,
+        })
+    };
+    let free = afloat.report.floating.as_ref().ok()?;
+    let free = free.natural.iter().zip(&free.modes).map(motion);
+    let held = prepared
+        .held
+        .iter()
+        .map(|(natural, mode)| motion((natural, mode)));
+    Some(json!({
+        "file": afloat.report.name,
+        "memory_states": afloat.report.fit.memory.states(),
+        "without_lines": free.collect::<Vec<_>>(),
+        "held": held.collect::<Vec<_>>(),
+        "waterline": seen,
+    }))
+}
 
 impl Assessment {
     /// All of it; `name` is that of the case.
@@ -43,6 +85,8 @@ impl Assessment {
                 "x_m": rest.place_m[0], "z_m": rest.place_m[1], "theta_rad": rest.theta_rad,
                 "indeterminate": rest.indeterminate,
             },
+            "body": body(structure),
+            "afloat": afloat(&self.prepared, self.outcome.waterline.as_ref()),
             "units": self.prepared.model.scales,
             "groups": {
                 "r": groups.r, "a": groups.a, "b": groups.b, "inertia": groups.inertia,
@@ -68,6 +112,8 @@ impl Seas {
         };
         json!({
             "case": name,
+            "body": body(&self.prepared.structure),
+            "afloat": afloat(&self.prepared, None),
             "records": self.records.len(),
             "words": self.words(),
             "peak_tension_in_three_hours_n": self.peak_in_three_hours().map(gumbel),
@@ -110,6 +156,7 @@ impl BothModels {
         });
         json!({
             "case": name,
+            "body": body(structure),
             "stiffer": self.stiffer,
             "restitution": structure.restitution,
             "damping_ratio": damping_ratio(structure.restitution),

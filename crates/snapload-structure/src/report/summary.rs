@@ -4,6 +4,7 @@ use super::verdict::end_words;
 use crate::physics::elastic::{Pull, Spring, damping_ratio};
 use crate::physics::equilibrium::Equilibrium;
 use crate::physics::model::Scales;
+use crate::physics::prepared::Prepared;
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
@@ -22,6 +23,7 @@ const LISTED: usize = 12;
 #[template(path = "assess.txt")]
 struct AssessText<'a> {
     name: &'a str,
+    prepared: &'a Prepared,
     structure: &'a Structure,
     rest: &'a Equilibrium,
     scales: &'a Scales,
@@ -62,6 +64,7 @@ impl Assessment {
         let prepared = &self.prepared;
         laid_out(&AssessText {
             name,
+            prepared,
             structure: &prepared.structure,
             rest: &prepared.rest,
             scales: &prepared.model.scales,

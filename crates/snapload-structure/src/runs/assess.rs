@@ -5,7 +5,7 @@ use super::outcome::{Outcome, Tally};
 use crate::physics::prepared::Prepared;
 use crate::physics::sea::uniform;
 use crate::physics::snap::Snap;
-use crate::physics::warnings::{Warning, phase_warning, warnings};
+use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
 use crate::structure::{Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -80,7 +80,12 @@ pub fn assess(
     let ([x, z], [sides, _]) = (assessment.prepared.rest.place_m, assessment.reach_m());
     let excursion = (sides[1] - x).max(x - sides[0]);
     let phase = phase_warning(&assessment.prepared.structure, z, excursion);
-    assessment.warnings.extend(phase);
+    let turned = assessment.outcome.turned_rad;
+    let turning = turning_warning(&assessment.prepared.structure, turned);
+    let seen = assessment.outcome.waterline.as_ref();
+    let limits = limits_afloat(&assessment.prepared.structure, seen, turned);
+    let found = phase.into_iter().chain(turning).chain(limits);
+    assessment.warnings.extend(found);
     Ok(assessment)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
+use crate::physics::waterline::Waterline;
 use crate::structure::Structure;
 use serde::Serialize;
 use snapload::{CaseError, Simulation, Step, Stop};
@@ -36,6 +37,10 @@ pub struct Outcome {
     pub stop: Stop,
     /// When it ended \[s\].
     pub end_s: f64,
+    /// The largest rotation on either side \[rad\].
+    pub turned_rad: f64,
+    /// How a floating body lay in the still water; none of a submerged one.
+    pub waterline: Option<Waterline>,
     /// Peak tensions of all snaps that count \[N\].
     pub peaks_n: Vec<f64>,
     /// Their speeds \[m/s\].
@@ -97,6 +102,8 @@ pub(super) struct Tally<'a> {
     lines: Vec<LineOutcome>,
     /// Time without tension, in the engine's units.
     slack: Vec<f64>,
+    turned_rad: f64,
+    waterline: Option<Waterline>,
     peaks_n: Vec<f64>,
     speeds_m_s: Vec<f64>,
 }
@@ -108,6 +115,12 @@ impl<'a> Tally<'a> {
             prepared,
             lines: vec![LineOutcome::default(); count],
             slack: vec![0.0; count],
+            turned_rad: 0.0,
+            waterline: prepared
+                .structure
+                .afloat
+                .is_some()
+                .then_some(Waterline::NONE),
             peaks_n: Vec::new(),
             speeds_m_s: Vec::new(),
         }
@@ -116,6 +129,12 @@ impl<'a> Tally<'a> {
     /// Takes note of a step; returns the snaps at its end.
     pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
         add_slack(&mut self.slack, step);
+        self.turned_rad = simulation.theta_max();
+        if let Some(seen) = &mut self.waterline {
+            let state = simulation.state();
+            let [_, z] = self.prepared.model.scales.to_si([state.x, state.y]);
+            *seen = seen.with(&Waterline::at(&self.prepared.structure, z, state.theta));
+        }
         let scales = &self.prepared.model.scales;
         let transient_s = self.prepared.structure.transient_s;
         if step.t_end * scales.time_s >= transient_s {
@@ -163,6 +182,8 @@ impl<'a> Tally<'a> {
                 Stop::EndTime => structure.duration_s,
                 _ => end * model.scales.time_s,
             },
+            turned_rad: self.turned_rad,
+            waterline: self.waterline,
             peaks_n: self.peaks_n,
             speeds_m_s: self.speeds_m_s,
         }

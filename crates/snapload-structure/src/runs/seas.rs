@@ -4,7 +4,7 @@ use super::assess::sorted;
 use super::outcome::Outcome;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
-use crate::physics::warnings::{Warning, warnings};
+use crate::physics::warnings::{Warning, limits_afloat, turning_warning, warnings};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use snapload::analysis::{Counter, OnProgress, Share, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
@@ -47,13 +47,22 @@ pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
-        let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea }), 1.0)?;
+        let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea })?, 1.0)?;
         counter.add(1)?;
         Ok::<_, Unfinished>(SeaOutcome { seed, outcome })
     })?;
+    let outcomes = || records.iter().map(|record| &record.outcome);
+    let turned = outcomes()
+        .map(|outcome| outcome.turned_rad)
+        .fold(0.0, f64::max);
+    let seen = outcomes().filter_map(|outcome| outcome.waterline);
+    let seen = seen.reduce(|all, one| all.with(&one));
+    let mut warnings = warnings(&prepared.structure, &prepared.rest);
+    warnings.extend(turning_warning(&prepared.structure, turned));
+    warnings.extend(limits_afloat(&prepared.structure, seen.as_ref(), turned));
     Ok(Seas {
         records,
-        warnings: warnings(&prepared.structure, &prepared.rest),
+        warnings,
         prepared,
     })
 }

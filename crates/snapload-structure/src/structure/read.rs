@@ -3,10 +3,12 @@
 use crate::catalogue::{GRADES, Section, is_chain, section};
 use crate::schema::STRUCTURE;
 use crate::structure::{
-    BodySi, IrregularSea, LineSi, Outline, Site, SpectrumShape, Structure, THREE_HOURS_S, Water,
-    Wave,
+    AddedMass, Afloat, BodySi, ByDefault, IrregularSea, LineSi, Outline, Site, SpectrumShape,
+    Structure, THREE_HOURS_S, Water, Wave,
 };
 use snapload::{CaseError, Entries, Fields, MAX_CABLES};
+use std::path::Path;
+use std::sync::Arc;
 
 /// So many periods of a regular wave are computed by default.
 const PERIODS: f64 = 100.0;
@@ -29,14 +31,30 @@ impl Structure {
     /// # Errors
     /// A [`CaseError`] that names the key, its value and what is allowed.
     pub fn from_entries(entries: &Entries) -> Result<Self, CaseError> {
-        read(entries).map_err(|error| entries.locate(error))
+        Self::from_entries_beside(entries, Path::new(""))
+    }
+
+    /// The same, where files that the case names are beside one in this folder.
+    ///
+    /// # Errors
+    /// As above, and if a file can not be read or used.
+    pub fn from_entries_beside(entries: &Entries, folder: &Path) -> Result<Self, CaseError> {
+        read(entries, folder).map_err(|error| entries.locate(error))
     }
 }
 
 /// Reads and checks a structure.
-fn read(entries: &Entries) -> Result<Structure, CaseError> {
+fn read(entries: &Entries, folder: &Path) -> Result<Structure, CaseError> {
     let site = read_site(entries.table("site", 0))?;
-    let body = read_body(entries.table("body", 0), &site)?;
+    let floats = entries.count("float") > 0;
+    let mut body = read_body(entries.table("body", 0), &site, floats)?;
+    let afloat = match floats {
+        true => Some(Afloat::read(entries, folder, &site, &body)?),
+        false => None,
+    };
+    if let Some(afloat) = &afloat {
+        body.weigh(afloat);
+    }
     let count = entries.count("line");
     if !(1..=MAX_CABLES).contains(&count) {
         let allowed = format!("1 to {MAX_CABLES} of them");
@@ -67,6 +85,7 @@ fn read(entries: &Entries) -> Result<Structure, CaseError> {
         body,
         lines,
         site,
+        afloat: afloat.map(Arc::new),
         water,
         heading,
         restitution: run.need("restitution")?,
@@ -83,11 +102,12 @@ fn read_site(fields: Fields<'_>) -> Result<Site, CaseError> {
     Ok(Site {
         depth_m: fields.need("depth")?,
         water_density_kg_m3: fields.need("water_density")?,
+        current_m_s: fields.need("current")?,
         gravity_m_s2: fields.need("gravity")?,
     })
 }
 
-fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
+fn read_body(fields: Fields<'_>, site: &Site, floats: bool) -> Result<BodySi, CaseError> {
     let mass: f64 = fields.need("mass")?;
     let volume: f64 = fields.need("displaced_volume")?;
     let width: f64 = fields.need("width")?;
@@ -96,12 +116,7 @@ fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
         _ => Outline::Circle,
     };
     let given_height: Option<f64> = fields.get("height")?;
-    let needed = |key: &str, found: Option<f64>| {
-        let allowed = "a value, which a rectangle needs";
-        found.ok_or_else(|| fields.refuse(key, "(left out)", allowed))
-    };
-    let added = fields.get("added_mass")?;
-    let (height, added, inertia) = match outline {
+    let (height, inertia) = match outline {
         Outline::Circle => {
             if let Some(height) = given_height.filter(|height| *height != width) {
                 let allowed = format!("the width, {width}, for a circle");
@@ -109,31 +124,68 @@ fn read_body(fields: Fields<'_>, site: &Site) -> Result<BodySi, CaseError> {
                     .refuse("height", height, allowed)
                     .with_hint("leave height out, or set shape = \"rectangle\""));
             }
-            let displaced = site.water_density_kg_m3 * volume;
-            (
-                width,
-                added.unwrap_or(displaced),
-                mass * width * width / 8.0,
-            )
+            (width, mass * width * width / 8.0)
         }
         Outline::Rectangle => {
-            let height = needed("height", given_height)?;
-            let inertia = mass * (width * width + height * height) / 12.0;
-            (height, needed("added_mass", added)?, inertia)
+            let allowed = "a value, which a rectangle needs";
+            let left_out = || fields.refuse("height", "(left out)", allowed);
+            let height: f64 = given_height.ok_or_else(left_out)?;
+            (height, mass * (width * width + height * height) / 12.0)
         }
+    };
+    let given_inertia: Option<f64> = fields.get("moment_of_inertia")?;
+    let size = [width, height];
+    let added_mass = match floats {
+        true => AddedMass::given([0.0; 3]),
+        false => read_added_mass(fields, site, outline, (size, volume), given_inertia)?,
     };
     Ok(BodySi {
         mass_kg: mass,
-        added_mass_kg: added,
+        added_mass,
         outline,
         width_m: width,
         height_m: height,
         displaced_volume_m3: volume,
-        moment_of_inertia_kg_m2: fields.get("moment_of_inertia")?.unwrap_or(inertia),
+        moment_of_inertia_kg_m2: given_inertia.unwrap_or(inertia),
         drag_area_m2: fields.need("drag_area")?,
         linear_damping_n_s_m: fields.need("linear_damping")?,
         turning_damping_n_m_s: fields.need("turning_damping")?,
+        constant_force_n: fields.get("constant_force")?.unwrap_or_default(),
         position_m: fields.need("position")?,
+    })
+}
+
+/// The water that moves with a body: three numbers are given as they are, one is that of either
+/// axis. Then a moment of inertia that is given holds the water's, and one that is not has it from
+/// the textbook, as has a body whose added mass is left out.
+fn read_added_mass(
+    fields: Fields<'_>,
+    site: &Site,
+    outline: Outline,
+    (size, volume): ([f64; 2], f64),
+    inertia: Option<f64>,
+) -> Result<AddedMass, CaseError> {
+    if let Some(numbers) = fields.get::<[f64; 3]>("added_mass")? {
+        return Ok(AddedMass::given(numbers));
+    }
+    let one: Option<f64> = fields.get("added_mass")?;
+    if let (Some(one), Some(_)) = (one, inertia) {
+        return Ok(AddedMass::given([one, one, 0.0]));
+    }
+    let density = site.water_density_kg_m3;
+    let length = volume / outline.area_m2(size);
+    let textbook = AddedMass::of_textbook(outline, size, length, [density, density * volume]);
+    let textbook = textbook.map_err(|error| {
+        let allowed = format!("[surge, heave, pitch], as the textbook has none: {error}");
+        let shown = one.map_or("(left out)".to_owned(), |one| one.to_string());
+        fields.refuse("added_mass", shown, allowed)
+    })?;
+    Ok(match one {
+        Some(one) => AddedMass {
+            by_default: ByDefault::Rotation,
+            ..AddedMass::given([one, one, textbook.pitch_kg_m2])
+        },
+        None => textbook,
     })
 }
 
@@ -238,12 +290,82 @@ fn read_water(entries: &Entries) -> Result<(Water, f64), CaseError> {
 /// A line may fall short of the drawn fairlead by this part of its length, as drawings are rounded;
 /// the body then rests a little lower.
 const ROUNDED: f64 = 0.02;
+/// A body that is so much harder to move along one axis than along the other is a slip.
+const UNLIKE: f64 = 1e6;
+
+/// Refuses a current that would do nothing.
+fn check_current(structure: &Structure) -> Result<(), CaseError> {
+    let (body, current) = (&structure.body, structure.site.current_m_s);
+    if current == 0.0 || body.drag_area_m2 + body.linear_damping_n_s_m > 0.0 {
+        return Ok(());
+    }
+    let allowed = "0 for a body without drag_area or linear_damping, which a current does not move";
+    Err(CaseError::value("site.current", current, allowed)
+        .with_hint("give body.drag_area, C_d times the area that the current meets"))
+}
+
+/// Refuses what can not be of a floating body.
+fn check_afloat(structure: &Structure) -> Result<(), CaseError> {
+    let body = &structure.body;
+    let ([x, z], half) = (body.position_m, body.height_m / 2.0);
+    let refuse = |allowed: String| {
+        let shown = format!("[{x}, {z}]");
+        Err(CaseError::value("body.position", shown, allowed))
+    };
+    if z.abs() >= half {
+        return refuse(format!(
+            "a centre within {half} m of the still water, half the body's height; one that is all \
+             under water has no [float]"
+        ));
+    }
+    if z - half <= -structure.site.depth_m {
+        return refuse("a body above the floor".to_owned());
+    }
+    check_anchors(structure)
+}
+
+/// Refuses anchors below the floor.
+fn check_anchors(structure: &Structure) -> Result<(), CaseError> {
+    let depth = structure.site.depth_m;
+    let mut numbered = (1..).zip(&structure.lines);
+    match numbered.find(|(_, line)| line.anchor_m[1] < -depth) {
+        None => Ok(()),
+        Some((number, line)) => {
+            let [x, z] = line.anchor_m;
+            let allowed = format!("an anchor on the floor or above it, z >= {}", -depth);
+            let key = format!("line.{number}.anchor");
+            Err(CaseError::value(&key, format!("[{x}, {z}]"), allowed))
+        }
+    }
+}
+
+/// Refuses masses that do not go together.
+fn check_masses(structure: &Structure) -> Result<(), CaseError> {
+    let body = &structure.body;
+    let [surge, heave] = body.moving_mass_kg();
+    if !(heave / UNLIKE..=heave * UNLIKE).contains(&surge) {
+        let allowed = format!(
+            "at most {UNLIKE:e} times as much mass to move along one axis as along the other"
+        );
+        let added = &body.added_mass;
+        let shown = format!(
+            "[{}, {}, {}]",
+            added.surge_kg, added.heave_kg, added.pitch_kg_m2
+        );
+        return Err(CaseError::value("body.added_mass", shown, allowed));
+    }
+    Ok(())
+}
 
 /// Refuses what can not be.
 fn check(structure: &Structure) -> Result<(), CaseError> {
     let body = &structure.body;
     let depth = structure.site.depth_m;
     let place = |[x, z]: [f64; 2]| format!("[{x}, {z}]");
+    check_current(structure)?;
+    if structure.afloat.is_some() {
+        return check_afloat(structure);
+    }
     if structure.net_buoyancy_n() <= 0.0 {
         let allowed = format!(
             "less than the {:.0} kg of water that the body displaces, so that its net buoyancy \
@@ -253,6 +375,16 @@ fn check(structure: &Structure) -> Result<(), CaseError> {
         return Err(CaseError::value("body.mass", body.mass_kg, allowed)
             .with_hint("a body that sinks needs no mooring; check mass and displaced_volume"));
     }
+    let [_, upward] = body.constant_force_n;
+    if structure.net_buoyancy_n() + upward <= 0.0 {
+        let allowed = format!(
+            "a load that leaves some of the net buoyancy of {:.0} N to pull on the lines",
+            structure.net_buoyancy_n()
+        );
+        let shown = place(body.constant_force_n);
+        return Err(CaseError::value("body.constant_force", shown, allowed));
+    }
+    check_masses(structure)?;
     let [_, z] = body.position_m;
     let shown = place(body.position_m);
     let lowest = z - body.height_m / 2.0;
@@ -269,13 +401,10 @@ fn check(structure: &Structure) -> Result<(), CaseError> {
         return Err(CaseError::value("body.position", shown, allowed)
             .with_hint("z is up from the still water, so depths are negative"));
     }
+    check_anchors(structure)?;
     for (index, line) in structure.lines.iter().enumerate() {
         let path = |key: &str| format!("line.{}.{key}", index + 1);
         let (anchor, fairlead) = (line.anchor_m, line.fairlead_m);
-        if anchor[1] < -depth {
-            let allowed = format!("an anchor on the floor or above it, z >= {}", -depth);
-            return Err(CaseError::value(&path("anchor"), place(anchor), allowed));
-        }
         let reach = (fairlead[0] - anchor[0]).hypot(fairlead[1] - anchor[1]);
         if reach > line.length_m * (1.0 + ROUNDED) {
             let allowed = format!("at least the {reach:.3} m from its anchor to its fairlead");

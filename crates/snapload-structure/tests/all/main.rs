@@ -2,7 +2,10 @@
 //! files run side by side.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod added_mass;
+mod afloat;
 mod conversion;
+mod current;
 mod elastic;
 mod equilibrium;
 mod manual;

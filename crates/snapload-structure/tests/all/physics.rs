@@ -83,7 +83,7 @@ fn energy_peak_is_that_of_a_body_on_a_spring() {
     structure.lines[0].stiffness_n = Some(1e12);
     let prepared = Prepared::new(structure).unwrap();
     let (mass, inertia) = (
-        prepared.structure.moving_mass_kg(),
+        prepared.structure.body.moving_mass_kg()[0],
         prepared.structure.body.moment_of_inertia_kg_m2,
     );
     let scales = prepared.model.scales;

@@ -24,7 +24,7 @@ proptest! {
     /// overflow.
     #[test]
     fn accelerations_are_the_textbooks(period in 2.0..20.0f64, depth in 2.0..60.0f64, part in 0.0..1.0f64) {
-        let site = Site { depth_m: depth, water_density_kg_m3: 1025.0, gravity_m_s2: 9.80665 };
+        let site = Site { depth_m: depth, water_density_kg_m3: 1025.0, current_m_s: 0.0, gravity_m_s2: 9.80665 };
         let (omega, z) = (2.0 * PI / period, -part * depth);
         let wave = LinearWave::new(&site, 0.7, omega, z);
         let k = wave.wave_number_1_m;

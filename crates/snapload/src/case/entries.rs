@@ -279,6 +279,12 @@ impl FromValue for [f64; 2] {
     }
 }
 
+impl FromValue for [f64; 3] {
+    fn from_value(value: &Value) -> Option<Self> {
+        value.triple()
+    }
+}
+
 impl FromValue for bool {
     fn from_value(value: &Value) -> Option<Self> {
         match value {

@@ -13,6 +13,8 @@ pub enum Kind {
     Number(Bounds),
     /// Two numbers `[x, z]`, neither larger in magnitude than this.
     Pair(f64),
+    /// A number from 0 to this, or three, `[surge, heave, pitch]`.
+    PerFreedom(f64),
     /// A whole number from the first to the second, both allowed.
     Count(u64, u64),
     /// `true` or `false`.
@@ -167,6 +169,10 @@ impl Key {
                 format!("{} {sign} {name} <= {}", short(low), short(high))
             }
             Kind::Pair(limit) => format!("[x, z], each from -{0} to {0}", short(limit)),
+            Kind::PerFreedom(limit) => {
+                let limit = short(limit);
+                format!("0 <= {name} <= {limit}, or [surge, heave, pitch], each from 0 to {limit}")
+            }
             Kind::Count(low, u64::MAX) => format!("a whole number, {low} or more"),
             Kind::Count(low, high) => {
                 let (low, high) = (short(low as f64), short(high as f64));
@@ -213,6 +219,11 @@ impl Key {
                 let pair = value.pair();
                 pair.is_some_and(|pair| pair.iter().all(|n| n.abs() <= limit))
             }
+            Kind::PerFreedom(limit) => {
+                let within = |n: &f64| (0.0..=limit).contains(n);
+                let one = value.number().as_ref().is_some_and(within);
+                one || value.triple().is_some_and(|three| three.iter().all(within))
+            }
             Kind::Count(low, high) => value.count().is_some_and(|n| (low..=high).contains(&n)),
             Kind::Flag => matches!(value, Value::Bool(_)),
             Kind::Choice(words) => value.text().is_some_and(|word| words.contains(&word)),
@@ -224,7 +235,7 @@ impl Key {
     pub(crate) fn check(&self, path: &str, value: &Value) -> Result<(), CaseError> {
         match value {
             value if self.takes(value) => Ok(()),
-            Value::List(_) if !matches!(self.kind, Kind::Pair(_)) => {
+            Value::List(_) if !matches!(self.kind, Kind::Pair(_) | Kind::PerFreedom(_)) => {
                 Err(self.refuse(path, "(a list)"))
             }
             value => {
@@ -242,6 +253,7 @@ impl Key {
         let numbers = match self.kind {
             Kind::Number(_) => "a number",
             Kind::Pair(_) => "two numbers",
+            Kind::PerFreedom(_) => "a number or three",
             _ => return CaseError::value(path, shown, self.allowed()),
         };
         // The keys of a case without tables are multiples of its own units.
@@ -267,7 +279,7 @@ impl Key {
                 let meant = words.iter().find(|word| word.eq_ignore_ascii_case(text))?;
                 Some(format!("\"{meant}\""))
             }
-            Kind::Pair(_) | Kind::Text => None,
+            Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => None,
         }
     }
 }

@@ -48,6 +48,17 @@ impl Value {
         }
     }
 
+    /// The three numbers, if it is a list of three.
+    pub fn triple(&self) -> Option<[f64; 3]> {
+        match self {
+            Self::List(values) => match &values[..] {
+                [a, b, c] => Some([a.number()?, b.number()?, c.number()?]),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// The text, if it is one.
     pub fn text(&self) -> Option<&str> {
         match self {
@@ -84,6 +95,12 @@ impl From<&str> for Value {
 impl From<[f64; 2]> for Value {
     fn from(pair: [f64; 2]) -> Self {
         Self::List(pair.map(Self::Number).to_vec())
+    }
+}
+
+impl From<[f64; 3]> for Value {
+    fn from(triple: [f64; 3]) -> Self {
+        Self::List(triple.map(Self::Number).to_vec())
     }
 }
 

@@ -103,6 +103,11 @@ impl<T: Real> Body<T> {
         self.mass.coupling(normal, normal)
     }
 
+    /// The largest that W can be of a cable with this moment arm, whichever way it points.
+    pub fn largest_inverse_effective_mass(&self, arm: T) -> T {
+        self.mass.largest_coupling(arm.squared())
+    }
+
     /// (ẍ, ÿ, θ̈) by a force (f_x, f_y) and a moment: M⁻¹ times these.
     pub fn moved_by(&self, force: [T; 3]) -> [T; 3] {
         self.mass.moved_by(force)

@@ -174,6 +174,23 @@ impl<T: Real> Floating<T> {
         self.channels().map(|_| [T::ZERO; 2]).collect()
     }
 
+    /// ż = p z + q̇.
+    pub(crate) fn memory_rates(
+        &self,
+        state: &State<T>,
+        memory: &[Complex<T>],
+        rates: &mut [Complex<T>],
+    ) {
+        let velocity = [state.vx, state.vy, state.vtheta];
+        for ((channel, z), rate) in self.channels().zip(memory).zip(rates) {
+            let ([re, im], [pole_re, pole_im]) = (*z, channel.pole);
+            *rate = [
+                pole_re * re - pole_im * im + velocity[channel.input],
+                pole_re * im + pole_im * re,
+            ];
+        }
+    }
+
     /// F_mem = Re Σ R z.
     pub(crate) fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
         let mut force = [T::ZERO; 3];

@@ -93,15 +93,22 @@ impl<T: Real> System<T> {
     }
 
     /// The memory of water that has been at rest; empty where the body does not float.
-    pub(crate) fn memory_at_rest(&self) -> Vec<Complex<T>> {
+    pub fn memory_at_rest(&self) -> Vec<Complex<T>> {
         self.floating
             .as_ref()
             .map_or_else(Vec::new, Floating::at_rest)
     }
 
+    /// ż of the water's memory, in the order of [`System::memory_at_rest`].
+    pub fn memory_rates(&self, state: &State<T>, memory: &[Complex<T>], rates: &mut [Complex<T>]) {
+        if let Some(water) = &self.floating {
+            water.memory_rates(state, memory, rates);
+        }
+    }
+
     /// The force with which the water's memory holds the body back.
     #[inline(always)]
-    pub(crate) fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
+    pub fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
         match &self.floating {
             Some(water) => water.memory_force(memory),
             None => [T::ZERO; 3],

@@ -76,23 +76,27 @@ impl SprungBody<'_> {
 
     /// The largest angular frequency sqrt(k w) of a line that pulls; 1 where none is quicker.
     pub(super) fn quickest(&self, state: &State, pulling: TautSet) -> f64 {
-        let inverse_inertia = self.system.body.inverse_inertia();
+        let body = &self.system.body;
         pulling.iter().fold(1.0, |quickest: f64, line| {
-            let inverse_mass = 1.0 + self.stretch(line, state).arm.powi(2) * inverse_inertia;
+            let inverse_mass = body.largest_inverse_effective_mass(self.stretch(line, state).arm);
             quickest.max((self.springs[line].rate * inverse_mass).sqrt())
         })
     }
 
-    pub(super) fn acceleration(&self, t: f64, state: &State, pulling: TautSet) -> [f64; 3] {
-        let inverse_inertia = self.system.body.inverse_inertia();
-        let free = self.system.free_acceleration(t, state, [0.0; 3]);
+    /// The accelerations, with the force of the water's memory.
+    pub(super) fn acceleration(
+        &self,
+        t: f64,
+        state: &State,
+        memory_force: [f64; 3],
+        pulling: TautSet,
+    ) -> [f64; 3] {
+        let free = self.system.free_acceleration(t, state, memory_force);
         pulling.iter().fold(free, |[x, y, theta], line| {
             let Stretch { n, arm, force, .. } = self.stretch(line, state);
-            [
-                x - force * n[0],
-                y - force * n[1],
-                theta - force * arm * inverse_inertia,
-            ]
+            let pull = [force * n[0], force * n[1], force * arm];
+            let [by_x, by_y, by_theta] = self.system.body.moved_by(pull);
+            [x - by_x, y - by_y, theta - by_theta]
         })
     }
 }

@@ -94,7 +94,7 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
         })?;
         let rate = rate * stiffer / unit;
         let normal = cable.normal(&rest);
-        let mass = 1.0 / normal.coupling(&normal, model.system.body.inverse_inertia());
+        let mass = 1.0 / model.system.body.inverse_effective_mass(&normal);
         Ok(Spring {
             rate,
             damping: 2.0 * ratio * (rate * mass).sqrt(),

@@ -35,41 +35,81 @@ const NOISE: f64 = 1e-12;
 /// A time shorter than this is none.
 const INSTANT: f64 = 10.0 * f64::EPSILON;
 
-/// The components of a state.
-type Components = [f64; 6];
+/// The components of a state, and behind them the water's memory as far as a body has one, each of
+/// its complex states as two numbers.
+type Components<const N: usize> = [f64; N];
+
+/// The components of a body without memory, of one with a usual memory, and of one with the longest
+/// that is computed.
+const DRY: usize = 6;
+const WET: usize = DRY + 2 * USUAL_MEMORY;
+const WETTEST: usize = DRY + 2 * MOST_MEMORY;
+/// The number of states of the memory of a body that is its own mirror image, as a rule.
+const USUAL_MEMORY: usize = 32;
+const LONG_MEMORY: usize = USUAL_MEMORY + 1;
+/// At most: that of twelve pairs of poles for each freedom, and some more for memories that are
+/// given.
+const MOST_MEMORY: usize = 64;
 
 /// The motion with one set of pulling lines, from `begin` on.
-struct Phase<'a> {
+struct Phase<'a, const N: usize> {
     body: &'a SprungBody<'a>,
     begin: f64,
     pulling: TautSet,
     longest_step: f64,
 }
 
-impl ODE<f64, Components> for Phase<'_> {
-    fn diff(&self, s: f64, y: &Components, dydt: &mut Components) {
-        let state = State::from_components(*y);
-        let [ax, ay, atheta] = self.body.acceleration(self.begin + s, &state, self.pulling);
-        *dydt = [state.vx, state.vy, state.vtheta, ax, ay, atheta];
+/// The state among the components.
+fn state_of<const N: usize>(y: &Components<N>) -> State {
+    State::from_components(std::array::from_fn(|i| y[i]))
+}
+
+/// What the water remembers of them.
+fn memory_of<const N: usize>(y: &Components<N>) -> &[[f64; 2]] {
+    y[DRY..].as_chunks().0
+}
+
+impl<const N: usize> ODE<f64, Components<N>> for Phase<'_, N> {
+    fn diff(&self, s: f64, y: &Components<N>, dydt: &mut Components<N>) {
+        let (state, system) = (state_of(y), self.body.system);
+        let remembered = match N {
+            DRY => [0.0; 3],
+            _ => system.memory_force(memory_of(y)),
+        };
+        let [ax, ay, atheta] =
+            self.body
+                .acceleration(self.begin + s, &state, remembered, self.pulling);
+        let (motion, memory) = dydt.split_at_mut(DRY);
+        motion.copy_from_slice(&[state.vx, state.vy, state.vtheta, ax, ay, atheta]);
+        let rates = memory.as_chunks_mut().0;
+        system.memory_rates(&state, memory_of(y), rates);
     }
 }
 
+/// An integrator of so many components with dense output.
+trait Method<const N: usize>:
+    OrdinaryNumericalMethod<f64, Components<N>> + Interpolation<f64, Components<N>>
+{
+}
+
+impl<M, const N: usize> Method<N> for M where
+    M: OrdinaryNumericalMethod<f64, Components<N>> + Interpolation<f64, Components<N>>
+{
+}
+
 /// The integrator, from one time of a phase to another, step by step.
-struct Steps<'a, M> {
-    phase: &'a Phase<'a>,
+struct Steps<'a, M, const N: usize> {
+    phase: &'a Phase<'a, N>,
     method: M,
     end: f64,
 }
 
-impl<'a> Phase<'a> {
+impl<'a, const N: usize> Phase<'a, N> {
     fn steps(
         &'a self,
         [start, end]: [f64; 2],
-        y: Components,
-    ) -> Result<
-        Steps<'a, impl OrdinaryNumericalMethod<f64, Components> + Interpolation<f64, Components>>,
-        CaseError,
-    > {
+        y: Components<N>,
+    ) -> Result<Steps<'a, impl Method<N>, N>, CaseError> {
         let method = ExplicitRungeKutta::dop853().rtol(TOLERANCE).atol(TOLERANCE);
         let mut method = method.h_max(self.longest_step);
         method.init(self, start, end, &y).map_err(gave_up)?;
@@ -100,15 +140,15 @@ impl<'a> Phase<'a> {
         None
     }
 
-    /// Follows it until a line changes, or for a time; returns when, the state there, and the line.
+    /// Follows it until a line changes, or for a time; returns when, the components there, and the line.
     fn follow(
         &self,
         time: f64,
-        start: &State,
+        start: Components<N>,
         fresh: &mut TautSet,
         mut see: impl FnMut(f64, &State),
-    ) -> Result<(f64, State, Option<usize>), CaseError> {
-        let mut steps = self.steps([0.0, time], start.components())?;
+    ) -> Result<(f64, Components<N>, Option<usize>), CaseError> {
+        let mut steps = self.steps([0.0, time], start)?;
         while steps.advance()? {
             let (before, now) = (steps.method.t_prev(), steps.method.t());
             let mut last = before;
@@ -117,35 +157,32 @@ impl<'a> Phase<'a> {
                 let Ok(y) = steps.method.interpolate(s) else {
                     continue;
                 };
-                let state = State::from_components(y);
+                let state = state_of(&y);
                 if let Some(line) = self.changed(&state, fresh) {
                     let s = steps.locate(line, last, s);
                     // The dense output is less exact than the steps.
-                    let state = self.state_at(s, before, steps.method.y_prev())?;
-                    return Ok((s, state, Some(line)));
+                    let reached = self.at(s, before, steps.method.y_prev())?;
+                    return Ok((s, reached, Some(line)));
                 }
                 see(self.begin + s, &state);
                 last = s;
             }
         }
-        Ok((time, State::from_components(*steps.method.y()), None))
+        Ok((time, *steps.method.y(), None))
     }
 
-    /// The state at a time, integrated from one before.
-    fn state_at(&self, s: f64, before: f64, y: &Components) -> Result<State, CaseError> {
+    /// The components at a time, integrated from one before.
+    fn at(&self, s: f64, before: f64, y: &Components<N>) -> Result<Components<N>, CaseError> {
         if s <= before {
-            return Ok(State::from_components(*y));
+            return Ok(*y);
         }
         let mut steps = self.steps([before, s], *y)?;
         while steps.advance()? {}
-        Ok(State::from_components(*steps.method.y()))
+        Ok(*steps.method.y())
     }
 }
 
-impl<M> Steps<'_, M>
-where
-    M: OrdinaryNumericalMethod<f64, Components> + Interpolation<f64, Components>,
-{
+impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
     /// Makes one step that holds the tolerance; `false` at the end.
     fn advance(&mut self) -> Result<bool, CaseError> {
         if (self.end - self.method.t()).abs() <= INSTANT {
@@ -166,7 +203,7 @@ where
     fn locate(&mut self, line: usize, mut low: f64, mut high: f64) -> f64 {
         while high - low > f64::EPSILON * high.abs().max(1.0) {
             let middle = 0.5 * (low + high);
-            let state = self.method.interpolate(middle).map(State::from_components);
+            let state = self.method.interpolate(middle).map(|y| state_of(&y));
             if state.is_ok_and(|state| self.phase.until_change(line, &state) > 0.0) {
                 low = middle;
             } else {
@@ -198,25 +235,44 @@ pub fn run_elastic(
         system: &model.system,
         springs,
     };
-    let mut record = Record::new(prepared, &body, look_s);
+    match model.system.memory_at_rest().len() {
+        0 => run::<DRY>(prepared, &body, look_s, on_progress),
+        1..=USUAL_MEMORY => run::<WET>(prepared, &body, look_s, on_progress),
+        LONG_MEMORY..=MOST_MEMORY => run::<WETTEST>(prepared, &body, look_s, on_progress),
+        states => {
+            let allowed = format!("a memory of at most {MOST_MEMORY} states on lines that stretch");
+            Err(CaseError::value("float.pairs", format!("({states} states)"), allowed).into())
+        }
+    }
+}
+
+fn run<const N: usize>(
+    prepared: &Prepared,
+    body: &SprungBody<'_>,
+    look_s: f64,
+    on_progress: OnProgress,
+) -> Result<ElasticRun, Unfinished> {
+    let mut record = Record::new(prepared, body, look_s);
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
+    let mut components: Components<N> = [0.0; N];
+    components[..DRY].copy_from_slice(&state.components());
     let mut pulling = body.pulling(&state);
     record.change(t, &state, TautSet::SLACK, pulling);
     record.see(t, &state, pulling);
-    let end = model.rules.t_end;
+    let end = prepared.model.rules.t_end;
     while t < end && state.theta.abs() < FRAC_PI_2 {
         Progress::new("lines that stretch", t, end).tell(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
         let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
         let phase = Phase {
-            body: &body,
+            body,
             begin: t,
             pulling,
             longest_step,
         };
         let see = |t: f64, state: &State| record.see(t, state, pulling);
-        let (s, reached, changed) = phase.follow(until - t, &state, &mut fresh, see)?;
-        state = reached;
+        let (s, reached, changed) = phase.follow(until - t, components, &mut fresh, see)?;
+        (components, state) = (reached, state_of(&reached));
         let Some(line) = changed else {
             t = until;
             continue;
@@ -233,7 +289,7 @@ pub fn run_elastic(
     Ok(record.finish(t, state))
 }
 
-fn gave_up(error: Error<f64, Components>) -> CaseError {
+fn gave_up<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {
     let shown: String = format!("({error:?})").chars().take(80).collect();
     let allowed = "lines that the integrator can follow";
     CaseError::value("line.stiffness", shown, allowed)

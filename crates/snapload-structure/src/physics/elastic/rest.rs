@@ -8,6 +8,7 @@
 //! V = −F·(x, y) + Σ ½ k_i max(δ_i, 0)²,    ∇V = −(F, 0) + Σ T_i (n_i, s_i),    T_i = k_i max(δ_i, 0)
 //! ```
 //!
+//! to which ½ qᵀCq − F_cᵀq of the hydrostatics comes for a floating body, q = (x, y, θ). It is
 //! found by the method of Levenberg and Marquardt (J. Nocedal and S. Wright, *Numerical
 //! Optimization* (2006), chapter 4): Newton's step with as much of the identity added to the second
 //! derivatives as it takes to go down.
@@ -37,7 +38,7 @@ impl Prepared {
     /// A [`CaseError`] if it rests nowhere on them.
     pub fn on_springs(&self, springs: &[Spring]) -> Result<Self, CaseError> {
         let body = SprungBody {
-            system: &self.model.system,
+            system: &self.model.still(),
             springs,
         };
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
@@ -57,6 +58,8 @@ impl Prepared {
         let structure = self.structure.clone();
         // From a start of its own it is compared with lines that do not stretch, in the same waves.
         let model = match structure.start_m {
+            // Nor does it change about what a floating body's water is told.
+            None if structure.afloat.is_some() => self.model.clone(),
             Some(_) => self.model.clone(),
             None => Model::about(&structure, rest.place_m, &[]),
         };
@@ -69,6 +72,13 @@ fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
     let force = body.system.forcing.constant;
     let mut energy = -(force.x * at.x + force.y * at.y);
     let mut gradient = Vector3::new(-force.x, -force.y, 0.0);
+    if let Some(water) = &body.system.floating {
+        let q = Vector3::new(at.x, at.y, at.theta);
+        let stiffness = Matrix3::from(water.stiffness).transpose();
+        let constant = Vector3::from(water.constant);
+        energy += 0.5 * q.dot(&(stiffness * q)) - constant.dot(&q);
+        gradient += stiffness * q - constant;
+    }
     for (line, spring) in body.springs.iter().enumerate() {
         let (row, stretch) = body.row(line, at);
         if stretch > 0.0 {

@@ -1,0 +1,210 @@
+//! A floating body on its lines: from the coefficients of a panel code to the engine's units, and
+//! where it rests (docs/floating.md).
+//!
+//! The centre of the engine's picture is the mean place, where the coefficients were computed, and
+//! not the place of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the net
+//! buoyancy may be nothing.
+
+use super::equilibrium::Equilibrium;
+use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
+use super::sea::Spectrum;
+use super::wave::LinearWave;
+use crate::structure::{Afloat, Structure, Water};
+use nalgebra::{Complex, Matrix3, Vector3};
+use snapload::{
+    Body, CaseError, Excitation, Exponential, Floating, FloatingUnits, Forcing, System,
+};
+use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest};
+
+/// Waves outside the file's frequencies may have this part of the sea's energy.
+const OUTSIDE: f64 = 0.01;
+
+/// Less is no displacement \[m, rad\].
+const ROUNDING: f64 = 1e-12;
+
+/// The natural motions that taut lines leave to a floating body, without damping and with it.
+pub type HeldMotion = (Natural, Mode);
+
+fn rows<T: Copy, U>(matrix: &Matrix3<T>, of: impl Fn(T) -> U) -> [[U; 3]; 3] {
+    std::array::from_fn(|i| std::array::from_fn(|j| of(matrix[(i, j)])))
+}
+
+/// The units of a floating structure.
+fn units(structure: &Structure, length_m: f64) -> FloatingUnits {
+    let [_, mass_kg] = structure.body.moving_mass_kg();
+    FloatingUnits::new(length_m, structure.site.gravity_m_s2, mass_kg)
+}
+
+/// The structure in the engine's units, about the mean place of the body's centre.
+pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, CaseError> {
+    let origin_m = structure.body.position_m;
+    let scales = Scales::new(structure, origin_m);
+    let units = units(structure, scales.length_m);
+    let scales = Scales {
+        force_n: units.force_n,
+        time_s: units.time_s,
+        ..scales
+    };
+    let fit = &afloat.report.fit;
+    let mass = afloat.body.with_added_mass(&fit.added_mass_inf);
+    let mass = units.mass_matrix(&rows(&mass.map_err(|error| impossible(&error))?, |m| m));
+    let groups = Groups::of_body(structure, &scales, mass[2][2]);
+    let shape = shape(structure, &groups);
+    let body = Body::with_mass_matrix(shape, mass).ok_or_else(|| {
+        let words = "the mass matrix is not positive definite".to_owned();
+        impossible(&HydroError::Impossible(words))
+    })?;
+    let waves = waves(structure, origin_m[1].min(0.0));
+    let term = |term: &Term| Exponential {
+        pole: [term.pole.re, term.pole.im],
+        residue: rows(&term.residue, |r| [r.re, r.im]),
+    };
+    let water = Floating {
+        stiffness: rows(&afloat.body.stiffness, |c| c),
+        damping: rows(&afloat.body.damping, |b| b),
+        constant: afloat.body.constant_force.into(),
+        memory: fit.memory.terms.iter().map(term).collect(),
+        excitation: excitation(structure, afloat, &waves)?,
+    };
+    let [pushed, lifted] = structure
+        .body
+        .constant_force_n
+        .map(|force| force / scales.force_n);
+    let lines = 0..structure.lines.len();
+    let system = System {
+        body,
+        cables: lines
+            .map(|line| cable(structure, &scales, line, false))
+            .collect(),
+        forcing: Forcing {
+            constant: [pushed, -lifted].into(),
+            harmonics: Vec::new(),
+        },
+        drag: drag(structure, &scales, &waves, groups.inertia),
+        floating: Some(units.floating(&water)),
+        restitution: structure.restitution,
+    };
+    Ok(Model {
+        rules: rules(structure, &scales),
+        scales,
+        system,
+        waves,
+        groups,
+    })
+}
+
+fn impossible(error: &HydroError) -> CaseError {
+    CaseError::value(
+        "body.mass",
+        "(with the file's added mass)",
+        error.to_string(),
+    )
+}
+
+/// The waves' force, Re a e^{iε} X(ω) e^{−iωt} of each. A surface A sin(ωt + ε') at x = 0 is
+/// a cos(−ωt + ε) with a = A and ε = π/2 − ε', so a e^{iε} = A (sin ε' + i cos ε').
+fn excitation(
+    structure: &Structure,
+    afloat: &Afloat,
+    waves: &[LinearWave],
+) -> Result<Vec<Excitation>, CaseError> {
+    if waves.is_empty() {
+        return Ok(Vec::new());
+    }
+    let hydro = &afloat.report.reading.hydro;
+    let shown = || format!("{:?}", afloat.report.name);
+    let curve = hydro.excitation_curve(structure.heading);
+    let curve =
+        curve.map_err(|error| CaseError::value("float.file", shown(), error.to_string()))?;
+    let lost = left_out(structure, afloat);
+    if lost > OUTSIDE {
+        let [low, high] = hydro.range_rad_s();
+        let allowed = format!(
+            "coefficients at the frequencies of the waves: {:.1} % of their energy is outside the \
+             file's {low:.3} to {high:.3} rad/s",
+            100.0 * lost
+        );
+        return Err(CaseError::value("float.file", shown(), allowed)
+            .with_hint("compute more frequencies, or take waves of another period"));
+    }
+    let one = |wave: &LinearWave| {
+        let (sine, cosine) = wave.phase_rad.sin_cos();
+        let amplitude = Complex::new(sine, cosine) * wave.amplitude_m;
+        let force: Vector3<Complex<f64>> = curve.at(wave.omega_rad_s)? * amplitude;
+        let amplitudes = [0, 1, 2].map(|i| [force[i].re, force[i].im]);
+        Some(Excitation::of_amplitudes(wave.omega_rad_s, amplitudes))
+    };
+    Ok(waves.iter().filter_map(one).collect())
+}
+
+/// The part of the waves' energy that is left out, as the file has no coefficients there.
+pub(super) fn left_out(structure: &Structure, afloat: &Afloat) -> f64 {
+    let [low, high] = afloat.report.reading.hydro.range_rad_s();
+    let outside = |omega: f64| f64::from(u8::from(!(low..=high).contains(&omega)));
+    match structure.water {
+        Water::Still => 0.0,
+        Water::Wave(wave) => outside(wave.omega_rad_s()),
+        Water::Sea(sea) => {
+            let spectrum = Spectrum::new(&sea);
+            spectrum.integral(outside) / spectrum.moment(0).max(f64::MIN_POSITIVE)
+        }
+    }
+}
+
+/// Where it rests on its lines, and the small motion that they leave it there. Where no line holds it
+/// in surge there is no such place, and a case that says where it starts begins there without
+/// tension.
+pub(super) fn rest_afloat(
+    structure: &Structure,
+    afloat: &Afloat,
+) -> Result<(Equilibrium, Vec<HeldMotion>), CaseError> {
+    let [x, z] = structure.body.position_m;
+    let line = |line: &crate::structure::LineSi| Line {
+        anchor_m: line.anchor_m,
+        fairlead_m: [line.fairlead_m[0] - x, line.fairlead_m[1] - z],
+        length_m: line.length_m,
+    };
+    let lines: Vec<Line> = structure.lines.iter().map(line).collect();
+    let hydro = &afloat.report.reading.hydro;
+    let mut body = afloat.body.clone();
+    let [pushed, lifted] = structure.body.constant_force_n;
+    body.constant_force += Vector3::new(pushed + structure.drag_of_current_n(), lifted, 0.0);
+    let place = match (rest(hydro, &body, &lines), structure.start_m) {
+        (Ok(place), _) => place,
+        (Err(_), Some(place_m)) => {
+            let equilibrium = Equilibrium {
+                place_m,
+                theta_rad: 0.0,
+                tension_n: vec![0.0; lines.len()],
+                taut: Vec::new(),
+                indeterminate: false,
+            };
+            return Ok((equilibrium, Vec::new()));
+        }
+        (Err(error), None) => {
+            let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
+            let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
+            return Err(CaseError::value("line.length", shown, error.to_string())
+                .with_hint("give run.start, or lines that hold the body"));
+        }
+    };
+    let fit = &afloat.report.fit;
+    let held = place.natural(hydro, &body, &fit.memory, &fit.added_mass_inf);
+    let (natural, modes) = held.map_err(|error| impossible(&error))?;
+    // What is left by rounding of a place that is symmetric has no sign.
+    let [surge, heave, pitch] = [0, 1, 2].map(|i| {
+        if place.q[i].abs() < ROUNDING {
+            0.0
+        } else {
+            place.q[i]
+        }
+    });
+    let equilibrium = Equilibrium {
+        place_m: [x + surge, z + heave],
+        theta_rad: 0.0 - pitch,
+        taut: place.taut,
+        tension_n: place.tension_n,
+        indeterminate: false,
+    };
+    Ok((equilibrium, natural.into_iter().zip(modes).collect()))
+}

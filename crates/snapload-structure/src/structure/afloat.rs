@@ -1,0 +1,174 @@
+//! What `[float]` says: the coefficients of a body that floats, with the memory of the waves it makes.
+
+use super::{BodySi, Site};
+use snapload::{CaseError, Entries, Fields, FromValue};
+use snapload_hydro::{
+    FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
+    Warning, Weight, read,
+};
+use std::path::Path;
+
+/// The file's displaced mass and the case's volume differ by no more than this part.
+const SAME_VOLUME: f64 = 0.01;
+
+/// What the water does to a floating body, about the body's centre.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Afloat {
+    /// Coefficients, memory, and what follows without lines. Its warnings are also those of the case.
+    pub report: Report,
+    /// The body's weight, stiffness and damping.
+    pub body: snapload_hydro::Body,
+}
+
+impl Afloat {
+    /// Reads the coefficients beside a case file and fits their memory.
+    ///
+    /// # Errors
+    /// A [`CaseError`] that says what is wrong with the file or what it lacks.
+    pub(super) fn read(
+        entries: &Entries,
+        beside: &Path,
+        site: &Site,
+        body: &BodySi,
+    ) -> Result<Self, CaseError> {
+        let fields = entries.table("float", 0);
+        let own = entries.table("body", 0);
+        if let Some(value) = own.given("added_mass") {
+            let allowed = "nothing beside [float], whose file has the added mass";
+            return Err(own.refuse("added_mass", value, allowed));
+        }
+        let file: String = fields.need("file")?;
+        let bad = |error: HydroError| {
+            let allowed = format!("coefficients of this body in this water; {error}");
+            fields.refuse("file", format!("{file:?}"), allowed)
+        };
+        let mut reading = read(&beside.join(&file), &given(fields, site)?).map_err(bad)?;
+        idle(fields, &reading)?;
+        same_volume(own, site, body, &mut reading)?;
+        reading.hydro = reading.hydro.about(body.position_m);
+        let inertia = own.get("moment_of_inertia")?;
+        let without = reading.hydro.hydrostatics.inertia.is_none();
+        let uniform = without.then_some(body.moment_of_inertia_kg_m2);
+        let request = Request {
+            weight: Weight {
+                mass_kg: Some(body.mass_kg),
+                centre_m: fields.get("centre_of_gravity")?,
+                inertia_kg_m2: inertia.or(uniform),
+            },
+            damping: three(fields, "damping")?.unwrap_or_default(),
+            fit: FitOptions {
+                pairs: fields.get::<u64>("pairs")?.and_then(|n| n.try_into().ok()),
+            },
+            memory: memory(fields, beside)?,
+            ..Request::default()
+        };
+        let mut report = Report::new(&file, reading, &request).map_err(bad)?;
+        let floating = report.floating.clone().map_err(bad)?;
+        let displaced = report.reading.hydro.hydrostatics.displaced_mass_kg;
+        let other = displaced.is_some_and(|mass| (mass / body.mass_kg - 1.0).abs() > SAME_VOLUME);
+        if inertia.is_none() && uniform.is_none() && other {
+            let words = "body.mass is not the mass that the file's body displaces, and its moment of \
+                         inertia is that of the file's all the same: give body.moment_of_inertia";
+            let (what, words) = ("moment of inertia", words.to_owned());
+            report.warnings.push(Warning { what, words });
+        }
+        Ok(Self {
+            body: floating.body,
+            report,
+        })
+    }
+}
+
+/// What the file is told of the case.
+fn given(fields: Fields<'_>, site: &Site) -> Result<Given, CaseError> {
+    let deep = fields.get("deep_water")?.unwrap_or(false);
+    Ok(Given {
+        density_kg_m3: Some(site.water_density_kg_m3),
+        gravity_m_s2: Some(site.gravity_m_s2),
+        depth_m: Some(if deep { f64::INFINITY } else { site.depth_m }),
+        reference_m: fields.get("reference")?,
+        centre_of_gravity_m: fields.get("file_centre_of_gravity")?,
+        displaced_mass_kg: None,
+        unit_length_m: fields.get("unit_length")?,
+        first_column: match fields.get::<String>("first_column")?.as_deref() {
+            Some("frequency") => FirstColumn::Frequency,
+            Some("wavenumber") => FirstColumn::WaveNumber,
+            _ => FirstColumn::Period,
+        },
+        body: fields.get("name")?,
+    })
+}
+
+/// Refuses keys that the file leaves nothing to do.
+fn idle(fields: Fields<'_>, reading: &Reading) -> Result<(), CaseError> {
+    for key in ["unit_length", "first_column"] {
+        if let Some(value) = fields
+            .given(key)
+            .filter(|_| reading.format != Format::Wamit)
+        {
+            let allowed = format!("nothing for a file of {}; WAMIT's need it", reading.format);
+            return Err(fields.refuse(key, value, allowed));
+        }
+    }
+    let key = "file_centre_of_gravity";
+    let made = reading.hydro.hydrostatics.centre_of_mass_m;
+    match (fields.get::<[f64; 2]>(key)?, made) {
+        (Some(case), Some(file)) if case != file => {
+            let allowed = format!("[{}, {}], as the file has it", file[0], file[1]);
+            Err(fields.refuse(key, format!("[{}, {}]", case[0], case[1]), allowed))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Gives the coefficients the case's displaced volume where the file has none, and refuses another.
+fn same_volume(
+    own: Fields<'_>,
+    site: &Site,
+    body: &BodySi,
+    reading: &mut Reading,
+) -> Result<(), CaseError> {
+    let case = site.water_density_kg_m3 * body.displaced_volume_m3;
+    let file = *reading
+        .hydro
+        .hydrostatics
+        .displaced_mass_kg
+        .get_or_insert(case);
+    if (file / case - 1.0).abs() <= SAME_VOLUME {
+        return Ok(());
+    }
+    let volume = file / site.water_density_kg_m3;
+    let allowed = format!("the {volume:.3} m^3 that the body of the file displaces, to 1 %");
+    Err(own.refuse("displaced_volume", body.displaced_volume_m3, allowed))
+}
+
+/// Three numbers; one is refused, as it would be of which freedom?
+fn three(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
+    match fields.given(key) {
+        None => Ok(None),
+        Some(value) => {
+            let three = <[f64; 3]>::from_value(value).map(Some);
+            three.ok_or_else(|| fields.refuse(key, value, "[surge, heave, pitch]"))
+        }
+    }
+}
+
+/// The memory that a file of JSON holds, if one is named.
+fn memory(fields: Fields<'_>, beside: &Path) -> Result<Option<GivenMemory>, CaseError> {
+    let Some(file) = fields.get::<String>("memory")? else {
+        return Ok(None);
+    };
+    let shown = || format!("{file:?}");
+    let text = std::fs::read_to_string(beside.join(&file)).map_err(|error| {
+        fields.refuse(
+            "memory",
+            shown(),
+            format!("a file that can be read; {error}"),
+        )
+    })?;
+    let memory = serde_json::from_str(&text).map_err(|error| {
+        let allowed = format!("a memory as snapload hydro --json writes it; {error}");
+        fields.refuse("memory", shown(), allowed)
+    })?;
+    Ok(Some(memory))
+}
