@@ -42,6 +42,13 @@ class Animation:
     See Also
     --------
     snapload.Run.plot : Pictures that stand still.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> moving = snapload.Case(f_o=0.31).run().animate(seconds=2)
+    >>> "<canvas" in moving._repr_html_()
+    True
     """
 
     def __init__(self, run: BaseRun, *, start: float, stop: float | None, seconds: float, fps: int) -> None:
@@ -91,6 +98,17 @@ class Animation:
         ------
         ValueError
             If the ending is another one, or ffmpeg is asked for and not there.
+
+        See Also
+        --------
+        snapload.Run.animate : Makes the animation.
+
+        Examples
+        --------
+        >>> import snapload, tempfile
+        >>> moving = snapload.Case(f_o=0.31).run().animate(seconds=0.4, fps=10)
+        >>> moving.save(f"{tempfile.mkdtemp()}/run.gif").name
+        'run.gif'
         """
         target = Path(fspath(path))
         writer = _WRITERS.get(target.suffix.lower())

@@ -39,7 +39,7 @@ pub enum Mode {
 const MODES: [(Mode, Stroke, &str); 4] = [
     (
         Mode::BeyondHorizon,
-        Stroke::new(Colour::SKY_BLUE, 0.5, Dash::Solid),
+        Stroke::new(Colour::GREY, 0.5, Dash::Solid),
         BEYOND,
     ),
     (

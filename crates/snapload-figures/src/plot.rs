@@ -243,6 +243,8 @@ impl Default for Stroke {
 #[allow(missing_docs)]
 impl Colour {
     pub const BLACK: Self = Self([0x00, 0x00, 0x00]);
+    /// What lies past the horizon of trust, and nothing else.
+    pub const GREY: Self = Self([0x99, 0x99, 0x99]);
     pub const ORANGE: Self = Self([0xe6, 0x9f, 0x00]);
     pub const SKY_BLUE: Self = Self([0x56, 0xb4, 0xe9]);
     pub const GREEN: Self = Self([0x00, 0x9e, 0x73]);

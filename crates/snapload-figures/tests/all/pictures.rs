@@ -79,6 +79,21 @@ fn assert_says(plot: Plot, words: &[&str]) {
 }
 
 #[test]
+fn what_lies_past_the_horizon_is_grey_and_nothing_else_is() {
+    let grey = |mode| {
+        let points = vec![[0.0, 0.0], [1.0, 2.0], [2.0, 1.0]];
+        let plot = trajectory(&[Leg { mode, points }], [&[], &[]], &[]);
+        picture(plot).svg().contains("#999")
+    };
+    assert!(grey(Mode::BeyondHorizon));
+    assert!(
+        ![Mode::Slack, Mode::Sliding, Mode::Rocking]
+            .into_iter()
+            .any(grey)
+    );
+}
+
+#[test]
 fn every_figure_contains_its_labels() {
     let wave: Vec<Point> = (0..200)
         .map(|i| f64::from(i) / 20.0)
