@@ -112,6 +112,10 @@ def texts() -> Iterator[str]:
     about = json.loads(read(".zenodo.json"))
     if about["title"] not in read("CITATION.cff"):
         yield ".zenodo.json and CITATION.cff have different titles"
+    measured = {row.split("|")[3].strip() for row in read("README.md").splitlines() if row.count("|") == 8}
+    for factor in re.findall(r"([\d.,]+) times", read("paper/paper.md")):
+        if factor not in measured:
+            yield f"paper/paper.md: {factor} times is no figure of the table in README.md"
     known = set(re.findall(r"^@\w+\{(.+?),", read("paper/paper.bib"), re.MULTILINE))
     for key in sorted(set(re.findall(r"@([a-z]+\d{4}[a-z]*)", read("paper/paper.md"))) - known):
         yield f"paper/paper.md: {key} is not in paper.bib"
