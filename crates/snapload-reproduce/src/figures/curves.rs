@@ -136,7 +136,7 @@ impl Curve {
             ..Plot::default()
         };
         let caption = format!(
-            "{what} against the force amplitude, up to the critical force, r = {r}. Black where both \
+            "{what} against the force amplitude, up to the critical force, r = {r}, in doubles. Black where both \
              readings agree."
         );
         let place = match figure.keys.as_slice() {

@@ -210,6 +210,9 @@ impl Example {
 
 /// Where S, G and R lie on one place of the path, that place enlarged so that they are told apart.
 fn apart(plot: &Plot) -> Option<Inset> {
+    /// What is shown around the place, in parts of its size: so little that S and G, of which the one
+    /// soon follows the other, are two dots.
+    const MARGIN: f64 = 0.2;
     /// A place: so small a part of the distance of all letters.
     const ONE_PLACE: f64 = 1e-2;
     let marks = plot.layers.iter().find_map(|layer| match layer {
@@ -231,7 +234,7 @@ fn apart(plot: &Plot) -> Option<Inset> {
         return None;
     }
     let Inset { plot: mut part, .. } = enlarged(&mut plot.clone());
-    let about = |(from, to): (f64, f64)| Range::Fixed(from - 0.7 * size, to + 0.7 * size);
+    let about = |(from, to): (f64, f64)| Range::Fixed(from - MARGIN * size, to + MARGIN * size);
     (part.x.range, part.y.range) = (about(x), about(y));
     Some(Inset {
         plot: part,
