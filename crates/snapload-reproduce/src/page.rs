@@ -4,7 +4,7 @@
 mod rows;
 
 use crate::ReportError;
-use crate::claims::{Claim, Verdict};
+use crate::claims::{Claim, FEW, MANY, ROUNDING, Verdict};
 use crate::critical_row::{CriticalRow, NEIGHBOURS};
 use crate::figures::{Figure, Row};
 use crate::sentences::{Chapter, Kind};
@@ -109,6 +109,8 @@ impl Page<'_> {
             "version" => return Some(html! { (env!("CARGO_PKG_VERSION")) }),
             "report" => return Some(html! { (REPORT) }),
             "horizons" => return Some(html! { (self.horizons()) }),
+            "starts" => return Some(html! { (FEW) " or " (MANY) }),
+            "rounding" => return Some(html! { (format!("{ROUNDING:e}").replace('-', "−")) }),
             "worst end" => return Some(html! { (decimals(self.worst_end(), 2)) }),
             "miscounted" => self.miscounted(),
             "runs" => self.study.cases.len(),
@@ -265,7 +267,7 @@ impl Page<'_> {
         let data = format!("figures/{}.csv", picture.name);
         html! {
             figure id=(picture.name) {
-                (PreEscaped(picture.svg()))
+                div.drawing { (PreEscaped(picture.svg())) }
                 figcaption {
                     b { "Fig. " (figure.number) ". " } (symbols(&about.caption))
                     @for (k, (name, number)) in about.numbers.iter().enumerate() {

@@ -14,6 +14,8 @@ struct Stretch {
     until: String,
     /// What ends it, in the words of a certificate.
     event: String,
+    /// The velocity of the snap that ends it, if one does.
+    v_n: Option<f64>,
     /// How many snaps and stretches are proved before it: its place in the certificate.
     place: usize,
     /// How many snaps of these.
@@ -24,6 +26,8 @@ struct Stretch {
 const UNTIL: f64 = 12.0;
 /// The examples.
 const CASES: [&str; 2] = ["sliding-example", "rocking-example"];
+/// How the event of a stretch begins that a snap ends.
+const SNAP: &str = "impact";
 /// Shorter stretches are told together.
 const SHORT: f64 = 0.02;
 
@@ -39,7 +43,7 @@ pub(crate) fn proof(case: &str) -> String {
 pub fn stretches() -> Result<String, CaseError> {
     let proved = CASES.map(|code| proved(code, UNTIL));
     let lines: Vec<String> = proved.into_iter().collect::<Result<_, _>>()?;
-    Ok(String::from("case,taut,from,until,event,place,snaps\n") + &lines.concat())
+    Ok(String::from("case,taut,from,until,event,v_n,place,snaps\n") + &lines.concat())
 }
 
 /// The stretches of an example up to a time, a line each.
@@ -52,13 +56,8 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
     let proof = proof.ok().and_then(Result::ok).ok_or_else(fault)?;
     let written: serde_json::Value = serde_json::from_str(&proof.text()).unwrap_or_default();
     let (mut text, mut snaps) = (String::new(), 0);
-    for (place, line) in written["impacts"]
-        .as_array()
-        .iter()
-        .copied()
-        .flatten()
-        .enumerate()
-    {
+    let lines = written["impacts"].as_array().map_or(&[][..], Vec::as_slice);
+    for (place, line) in lines.iter().enumerate() {
         let word = |key: &str| line[key].as_str().unwrap_or_default();
         let Some(mode) = line["mode"].as_array() else {
             snaps += 1;
@@ -67,7 +66,10 @@ fn proved(code: &str, until: f64) -> Result<String, CaseError> {
         let taut: Vec<String> = mode.iter().map(ToString::to_string).collect();
         let (taut, event) = (taut.join("+"), word("event"));
         let (from, until) = (word("from"), word("until"));
-        text += &format!("{code},{taut},{from},{until},{event},{place},{snaps}\n");
+        // A snap that ends a stretch is the line after it; its velocity stands third.
+        let snap = lines.get(place + 1).filter(|_| event.starts_with(SNAP));
+        let v_n = snap.and_then(|snap| snap[2].as_str()).unwrap_or_default();
+        text += &format!("{code},{taut},{from},{until},{event},{v_n},{place},{snaps}\n");
     }
     Ok(text)
 }
@@ -82,13 +84,14 @@ fn kept(code: &str) -> Vec<Stretch> {
 
 fn read(line: &str) -> Option<Stretch> {
     let fields: Vec<&str> = line.split(',').collect();
-    let [_, taut, from, until, event, place, snaps] = fields.try_into().ok()?;
+    let [_, taut, from, until, event, v_n, place, snaps] = fields.try_into().ok()?;
     let [taut, from, until, event] = [taut, from, until, event].map(str::to_owned);
     Some(Stretch {
         taut,
         from,
         until,
         event,
+        v_n: v_n.parse().ok(),
         place: place.parse().ok()?,
         snaps: snaps.parse().ok()?,
     })
@@ -109,16 +112,27 @@ impl Stretch {
             _ => return "rocks with both cables taut, from here on".to_owned(),
         };
         let how = match (self.event.as_str(), next) {
-            (event, Some(next)) if event.starts_with("impact") && next.from == self.until => {
+            (event, Some(next)) if event.starts_with(SNAP) && next.from == self.until => {
                 ", until it strikes the other boundary and keeps to this one"
             }
-            (event, _) if event.starts_with("impact") => {
+            (event, _) if event.starts_with(SNAP) => {
                 ", until it strikes the other boundary and leaves this one"
             }
             _ => "",
         };
         format!("{what} for {lasts:.4}{how}")
     }
+}
+
+/// The slides of an example, up to its rocking, as they are proved: how long each lasts, and the
+/// velocity of the snap of the other cable that ends it.
+pub(crate) fn slides(code: &str) -> Vec<(f64, Option<f64>)> {
+    let slides = kept(code)
+        .into_iter()
+        .filter(|stretch| stretch.taut.len() == 1);
+    slides
+        .map(|stretch| (stretch.lasts(), stretch.v_n))
+        .collect()
 }
 
 /// The steps of a story: when each begins, but for the first, and what happens.
@@ -192,6 +206,9 @@ mod tests {
                 (last.taut.as_str(), last.event.as_str()),
                 ("1+2", "end_time")
             );
+            let snaps = |stretch: &Stretch| stretch.event.starts_with(SNAP);
+            let velocities = stretches.iter().filter(|s| snaps(s) != s.v_n.is_some());
+            assert_eq!(velocities.count(), 0);
             // In order, and none begins before the one before it ends.
             let in_order = |pair: &[Stretch]| pair[0].until <= pair[1].from;
             assert!(stretches.windows(2).all(in_order));

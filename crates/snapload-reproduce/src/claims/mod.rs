@@ -20,6 +20,8 @@ mod section_6_5_2_1;
 mod verdict;
 mod words;
 
+pub(crate) use numbers::ROUNDING;
+pub(crate) use runs::{FEW, MANY};
 pub use verdict::{Claim, Verdict};
 
 use crate::ReportError;

@@ -98,7 +98,7 @@ pub(super) fn between(
 }
 
 /// Residuals below this are rounding.
-const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// Whether an identity with such residuals holds.
 pub(super) fn holds(residual: f64) -> bool {

@@ -8,7 +8,7 @@ use crate::many_digits::Run;
 use crate::reading::first_exceeding;
 use crate::study::{CaseRuns, LARGEST, Reading, Study};
 use snapload::analysis::{ForceScan, in_parallel};
-use snapload::{Case, CaseError, Outcome, Parameters, TautSet, Trajectory, table_6_1};
+use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, table_6_1};
 
 /// How far the neighbours of a start are from it.
 const NEAR: f64 = 1e-12;
@@ -26,9 +26,9 @@ const DIRECTIONS: [[f64; 3]; 8] = [
 ];
 
 /// Neighbours where few cases are asked.
-pub(super) const MANY: usize = 8;
+pub(crate) const MANY: usize = 8;
 /// Neighbours where many cases are asked.
-pub(super) const FEW: usize = 3;
+pub(crate) const FEW: usize = 3;
 
 /// The case itself and up to eight `neighbours`, started 1e-12 away in directions that are always
 /// the same.
@@ -250,23 +250,15 @@ pub(super) fn by_case<const N: usize>(
     std::array::from_fn(|k| Verdict::robust(members.iter().map(|runs| holds(runs[k]))))
 }
 
-/// When the first interval begins, before the end of the run, in which such cables are taut.
-pub(super) fn first_interval(
-    parameters: &Parameters,
-    such: impl Fn(TautSet) -> bool,
-) -> Result<Option<f64>, CaseError> {
+/// When rocking (at least two taut cables) first begins, before the end of the run.
+pub(super) fn first_rocking(parameters: &Parameters) -> Result<Option<f64>, CaseError> {
     let mut simulation = Case::new(*parameters)?.simulation();
     while let Some(step) = simulation.step() {
-        if such(step.taut) && step.t_end > step.t_start {
+        if step.taut.len() > 1 && step.t_end > step.t_start {
             return Ok(Some(step.t_start));
         }
     }
     Ok(None)
-}
-
-/// When rocking (at least two taut cables) first begins.
-pub(super) fn first_rocking(parameters: &Parameters) -> Result<Option<f64>, CaseError> {
-    first_interval(parameters, |taut| taut.len() > 1)
 }
 
 #[cfg(test)]

@@ -6,11 +6,12 @@ mod rotation;
 mod waves;
 
 use super::motions::{ending, endings, exceeds, places};
-use super::numbers::{falling, marked_over_others, max, min};
-use super::runs::{MANY, Tabled, case, chapter, each, measured, near, of_runs, row, standard};
+use super::numbers::{falling, marked_over_others, max, min, span};
+use super::runs::{MANY, Tabled, case, chapter, measured, near, of_runs};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::many_digits::Run;
+use crate::proved::{Proved, over_force, restitutions, with_restitution};
 use crate::reading::first_exceeding;
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Stop};
@@ -50,9 +51,12 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         Ok(finding.values("falls keeps", [FALLS, KEEPS]))
     }),
     ("6.4.1-17", |tabled| {
+        /// So many times as long, if an axis is too short.
+        const LONGER: f64 = 2.0;
         let members = tabled.of(RESTITUTIONS)?;
-        let longer = |[first, others @ ..]: &[f64; 4]| *first > 2.0 * max(*others);
-        Ok(measured("ends", &members, |run| run.end().t, longer))
+        let longer = |[first, others @ ..]: &[f64; 4]| *first > LONGER * max(*others);
+        let finding = measured("ends", &members, |run| run.end().t, longer);
+        Ok(finding.value("longer", LONGER))
     }),
     ("6.4.1-18", |tabled| {
         let [early, late, end] = apart(&elastic(tabled)?);
@@ -91,7 +95,7 @@ const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             max(hits.map(|hit| (energy(&hit.before) - energy(&hit.after)).abs()))
         };
         Ok(Finding::robust(&runs, |run| lost(run) < ROUNDING)
-            .value("most", max(runs.iter().map(lost)))
+            .values("most rounding", [max(runs.iter().map(lost)), ROUNDING])
             .list("impacts", runs.iter().map(|run| run.snaps() as f64)))
     }),
     ("6.4.1-21", |tabled| {
@@ -191,16 +195,14 @@ fn settles_sooner(tabled: &Tabled) -> Judged {
         settled.map(|run| run.end().t).collect()
     };
     let sooner = |times: &[f64]| times.len() == 3 && falling(times);
-    // From 0.95 down to 0.5.
-    let steps = (0..10).map(|k| f64::from(95 - 5 * k) / 100.0);
-    let cases: Vec<Parameters> = steps.map(|e| chapter(standard(|p| p.e = e))).collect();
-    let ends = each(&cases, |case| Ok(*Run::of_doubles(case)?.end()))?;
-    let settled = ends.iter().filter(|end| end.reason == Stop::Settled);
-    let fine: Vec<f64> = settled.map(|end| end.t).collect();
+    let [steps, _] = restitutions();
+    let ends = steps.iter().map(|e| Proved::kept(&with_restitution(*e)));
+    let settled = ends.flatten().filter(|end| end.reason == Stop::Settled);
+    let fine: Vec<f64> = settled.map(Proved::time).collect();
     let back = fine.windows(2).filter(|pair| !falling(pair)).count();
     Ok(Finding::robust(&members, |runs| sooner(&times(runs)))
         .by_start("times", members.iter().map(times))
-        .values("settle back", [fine.len(), back])
+        .values("settle steps back", [fine.len(), steps.len(), back])
         .list("fine", fine))
 }
 
@@ -222,12 +224,19 @@ fn settles_above_critical(tabled: &Tabled) -> Judged {
     };
     let pairs = members.iter().zip(first);
     let holds = pairs.map(|(runs, first)| settles(runs, first));
-    let scan = &row(tabled.study, 1.5, [0.1, 0.0])?.computed.chapter;
-    let exceeding = scan.exceeding.iter().take(4);
-    let exceeding: Vec<String> = exceeding.map(|[a, b]| format!("{a:.2}-{b:.2}")).collect();
     Ok(Finding::new(Verdict::robust(holds))
         .list("ends", members.iter().map(|runs| runs[3].end().t))
-        .value("exceeding", exceeding.join(", ")))
+        .value("exceeding", exceeding()))
+}
+
+/// The amplitudes up to 1 of which it is proved that they exceed, in hundredths, as intervals.
+fn exceeding() -> String {
+    let forces: Vec<(f64, bool)> = over_force()
+        .map(|(f_o, proved)| (f_o, proved.is_some_and(|proved| proved.reason.exceeds())))
+        .collect();
+    let intervals = forces.chunk_by(|p, q| p.1 == q.1).filter(|part| part[0].1);
+    let words = intervals.map(|part| span(part.iter().map(|p| p.0), 2));
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// What the rows of Table 6.1 with a force below a half come to: those of the series f_o, and all;
@@ -263,9 +272,14 @@ fn below_a_half(tabled: &Tabled) -> Judged {
 /// Whether it is the loss that keeps a case within the limits: those that lose the least exceed, and
 /// none that loses more.
 fn loss_holds() -> Judged {
-    let steps = (0..=10).map(|k| f64::from(100 - k) / 100.0);
-    let cases: Vec<Parameters> = steps.map(|e| chapter(standard(|p| p.e = e))).collect();
-    let exceeding = of_runs(&cases, MANY, exceeds)?;
+    let [_, steps] = restitutions();
+    let cases: Vec<Parameters> = steps.into_iter().map(with_restitution).collect();
+    let mut exceeding = of_runs(&cases, MANY, exceeds)?;
+    // The first are those of the motion itself.
+    let proved = cases.iter().map(Proved::kept);
+    exceeding[0] = proved
+        .map(|proved| proved.is_some_and(|proved| proved.reason.exceeds()))
+        .collect();
     let least = |all: &Vec<bool>| {
         let first = all.iter().take_while(|exceeds| **exceeds).count();
         (1..all.len()).contains(&first) && !all[first..].contains(&true)
@@ -274,5 +288,8 @@ fn loss_holds() -> Judged {
         .iter()
         .zip(&exceeding[0])
         .filter(|(_, exceeds)| **exceeds);
-    Ok(Finding::robust(&exceeding, least).list("exceeding", own.map(|(case, _)| case.e)))
+    let same = exceeding.iter().filter(|all| **all == exceeding[0]).count();
+    Ok(Finding::robust(&exceeding, least)
+        .list("exceeding", own.map(|(case, _)| case.e))
+        .values("same starts", [same, exceeding.len()]))
 }

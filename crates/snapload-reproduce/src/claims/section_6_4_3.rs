@@ -19,7 +19,12 @@ use std::f64::consts::FRAC_PI_2;
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     let of = |r| Sweeps::of(study, r);
     let (short, long) = (of(1.5)?, of(2.5)?);
-    let sweeps = Sweeps { study, short, long };
+    let sweeps = Sweeps {
+        study,
+        short,
+        long,
+        points: point_mass::critical_forces()?,
+    };
     ask(
         &[JUDGES, energy::JUDGES, swings::JUDGES, point_mass::JUDGES],
         &sweeps,
@@ -73,10 +78,8 @@ const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     }),
     ("6.4.3-07", first_is_largest),
     ("6.4.3-10", |sweeps| {
-        /// A deviation that one calls constant, in parts of the mean.
-        const CONSTANT: f64 = 0.05;
         let erratic = |[low, high]: [(f64, f64); 2]| {
-            low.1 < CONSTANT * low.0 && high.1 >= 2.0 * low.1 && high.0 < low.0
+            is_constant(low) && high.1 >= 2.0 * low.1 && high.0 < low.0
         };
         let text = |figure: fn(&Swept) -> f64| {
             let of = |half: usize| {
@@ -167,6 +170,8 @@ struct Swept {
     /// Which impact is the largest snap, from 1.
     strongest: usize,
     largest_swing: f64,
+    /// How often the rotation turns back, per unit of time.
+    turns: f64,
     /// The sizes of those swings of θ that are large.
     large_swings: Vec<f64>,
     /// Energy lost in its impacts.
@@ -185,6 +190,7 @@ impl Swept {
             t: run.end().t,
             strongest: strongest(run.impacts()),
             largest_swing: swings.iter().map(|swing| swing.size()).fold(0.0, f64::max),
+            turns: (swings.len() + 1) as f64 / run.end().t,
             large_swings: large.map(|swing| swing.size()).collect(),
             lost: run.impacts().iter().map(|hit| hit.energy_lost).sum(),
         }
@@ -205,6 +211,9 @@ struct Sweeps<'a> {
     study: &'a Study,
     short: Vec<Sweep>,
     long: Vec<Sweep>,
+    /// The critical force of the point mass, with the shorter and with the longer cables, from each
+    /// start.
+    points: [Vec<f64>; 2],
 }
 
 impl Sweeps<'_> {
@@ -252,6 +261,14 @@ fn over_force(sweep: &[Swept], figure: impl Fn(&Swept) -> f64) -> Vec<(f64, f64)
 /// ρ2 and ρ3.
 const SUMS: [fn(&Swept) -> f64; 2] = [|run| run.norms.rho2, |run| run.norms.rho3];
 
+/// A deviation that one calls constant, in parts of the mean.
+const CONSTANT: f64 = 0.05;
+
+/// Whether values of such a mean and deviation are constant.
+fn is_constant((mean, deviation): (f64, f64)) -> bool {
+    deviation <= CONSTANT * mean
+}
+
 /// Mean and deviation of a figure at the lower and at the higher amplitudes below f_cr.
 fn halves(sweep: &[Swept], of: impl Fn(&Swept) -> f64) -> [(f64, f64); 2] {
     let values = figure(below_critical(sweep), of);
@@ -293,6 +310,11 @@ fn height(starts: &[Sweep], holds: impl Fn(usize) -> bool) -> Finding {
         .value("first", first.unwrap_or_default())
 }
 
+/// The impacts that are about the first, and the fewest of the five figures in which the largest snap
+/// is one of these.
+const FIRST: usize = 3;
+const FIGURES: usize = 4;
+
 fn first_is_largest(sweeps: &Sweeps) -> Judged {
     let mut figures: Vec<Vec<usize>> = Vec::new();
     // Figs 6.22-6.26.
@@ -301,15 +323,16 @@ fn first_is_largest(sweeps: &Sweeps) -> Judged {
         let impact = |case: &Parameters| Ok(strongest(run(case)?.impacts()));
         figures.push(near(&chapter(case.parameters), MANY, impact)?);
     }
-    // About the first: among the first three.
-    let early = |k: &usize| *k <= 3;
+    let early = |k: &usize| *k <= FIRST;
     let drawn = count(&figures, |figure| figure.iter().all(early));
     let shares = sweeps.short.iter();
     let shares = shares.map(|sweep| share(sweep, |run| early(&run.strongest)));
-    let usual = |share: f64| share >= 100.0 * USUAL && drawn >= 4;
+    let usual = |share: f64| share >= 100.0 * USUAL && drawn >= FIGURES;
     let finding = Finding::measured("early", shares.map(|share| 100.0 * share), usual);
     Ok(finding
         .list("impacts", figures.iter().map(|figure| figure[0] as f64))
+        .values("first figures", [FIRST, FIGURES])
+        .value("usual", 100.0 * USUAL)
         .value(
             "second",
             100.0 * share(&sweeps.short[0], |run| run.strongest == 2),

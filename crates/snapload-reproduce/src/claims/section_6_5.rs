@@ -5,30 +5,30 @@ mod example;
 mod slides;
 mod weak;
 
-use super::numbers::max;
-use super::runs::{FEW, each, from_starts, near, past_settling, run, shapes_under, standard};
+use super::numbers::{max, min, span};
+use super::runs::{FEW, from_starts, near, past_settling, run, shapes_under, standard};
 use super::verdict::{Claim, Finding, Judged, Judges, ask};
 use crate::ReportError;
 use crate::study::Study;
-use example::{LOW, Rocking, example, rocks_on};
+use example::{LOW, Rocking, example, leaves_rocking, rocks_on};
 use slides::Slides;
-use snapload::{ModeInterval, Parameters, Playback, Trajectory};
+use snapload::{CaseError, ModeInterval, Parameters, Playback, Trajectory};
 
 /// Checks the claims of the section.
 pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
-    // All shapes under 14 amplitudes, until t = 60.
-    let forces: Vec<f64> = (1..=14).map(|k| f64::from(k) / 20.0).collect();
-    let cases = shapes_under(study, &forces).into_iter().map(past_settling);
+    let cases = shapes_under(study, &forces())
+        .into_iter()
+        .map(past_settling);
     let until = |case| Parameters {
-        t_end: 60.0,
+        t_end: UNTIL,
         ..case
     };
-    let sweep = each(&cases.map(until).collect::<Vec<_>>(), run)?;
+    let sweeps = from_starts(&cases.map(until).collect::<Vec<_>>(), FEW, run)?;
     let forced = past_settling(standard(|p| p.f_o = 0.4));
     let material = Material {
         study,
-        slides: Slides::of(&sweep),
-        sweep,
+        slides: sweeps.iter().map(|runs| Slides::of(runs)).collect(),
+        sweeps,
         forced: near(&forced, FEW, run)?,
         strong: example("sliding-example")?,
         weak: example("rocking-example")?,
@@ -39,12 +39,19 @@ pub(super) fn claims(study: &Study) -> Result<Vec<Claim>, ReportError> {
     )
 }
 
+/// The amplitudes under which all shapes are looked at, and until when.
+fn forces() -> Vec<f64> {
+    (1..=14).map(|k| f64::from(k) / 20.0).collect()
+}
+const UNTIL: f64 = 60.0;
+
 /// The runs on which the claims rest.
 struct Material<'a> {
     study: &'a Study,
-    /// All shapes under 14 amplitudes.
-    sweep: Vec<Trajectory>,
-    slides: Slides,
+    /// All shapes under these amplitudes, `[start][case]`.
+    sweeps: Vec<Vec<Trajectory>>,
+    /// What slides come to in them, by start.
+    slides: Vec<Slides>,
     /// The standard case at f_o = 0.4 and its neighbours.
     forced: Vec<Trajectory>,
     /// The example of eq. 6.57, f_o = 0.27, and its neighbours.
@@ -63,48 +70,72 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5-02", |of| {
         let kinds = ["slack", "sliding", "rocking", "sliding", "slack"];
         let chains = of.count(&kinds);
-        let with = of.sweep.iter().filter(|run| count(run, &kinds) > 0).count();
-        Ok(Finding::of(chains > 0).values("chains with runs", [chains, with, of.sweep.len()]))
+        let with =
+            |runs: &Vec<Trajectory>| runs.iter().filter(|run| count(run, &kinds) > 0).count();
+        let found = Finding::robust(&chains, |chains| *chains > 0.0);
+        Ok(of
+            .told(found)
+            .list("chains", chains)
+            .list("with", of.sweeps.iter().map(|runs| with(runs) as f64)))
     }),
     ("6.5-03", slack_is_taut),
     ("6.5.2.2-01", |of| {
         let counts: Vec<[usize; 2]> = of.forced.iter().map(climbs).collect();
         let words = counts.iter().map(|[all, up]| format!("{up} of {all}"));
-        let in_sweep: Vec<[usize; 2]> = of.sweep.iter().map(climbs).collect();
-        let [all, up] = [0, 1].map(|k| in_sweep.iter().map(|run| run[k]).sum());
-        Ok(Finding::robust(&counts, |[_, up]| *up > 0)
+        let total = |which: usize| {
+            let of_runs =
+                move |runs: &Vec<Trajectory>| runs.iter().map(|run| climbs(run)[which]).sum();
+            of.sweeps
+                .iter()
+                .map(of_runs)
+                .map(|count: usize| count as f64)
+        };
+        let found = Finding::robust(&counts, |[_, up]| *up > 0);
+        Ok(of
+            .told(found)
             .value("by_start", words.collect::<Vec<_>>().join(", "))
-            .values("up all runs", [up, all, of.sweep.len()]))
+            .list("all", total(0))
+            .list("up", total(1)))
     }),
     ("6.5.2.2-02", |of| {
         let slack = of.count(&["rocking", "slack"]);
         let sliding = of.count(&["rocking", "sliding"]);
-        let after = of.count(&["rocking", "sliding", "slack"]);
-        Ok(Finding::of(slack > 0)
-            .values("slack ends", [slack, slack + sliding])
-            .values("after runs", [after, of.sweep.len()])
-            .found("by_sliding", sliding > 0))
+        let found = Finding::robust(&slack, |slack| *slack > 0.0);
+        Ok(of
+            .told(found)
+            .list("ends", slack.iter().zip(&sliding).map(|(p, q)| p + q))
+            .list("after", of.count(&["rocking", "sliding", "slack"]))
+            .found("by_sliding", min(sliding.iter().copied()) > 0.0)
+            .list("slack", slack))
     }),
     ("6.5.2.2-12", |of| {
         let begins = of.rocking_begins();
-        let [long, short] = [Begin::after_a_slide, Begin::after_a_short_slide]
-            .map(|such| begins.iter().filter(|begin| such(begin)).count());
-        Ok(Finding::of(long > 0)
-            .values("long short all", [long, short, begins.len()])
-            .values("runs", [of.sweep.len()])
+        Ok(of
+            .told(Finding::robust(&begins, |of| of.long > 0))
+            .list("long", begins.iter().map(|of| of.long as f64))
+            .list("short", begins.iter().map(|of| of.short as f64))
+            .list("all", begins.iter().map(|of| of.all as f64))
             .value("shortest", SHORTEST))
     }),
     ("6.5.2.2-16", |of| {
         let begins = of.rocking_begins();
-        let settling = begins.iter().filter(|begin| begin.settles()).count();
-        Ok(Finding::of(2 * settling > begins.len())
-            .values(
-                "settling all runs",
-                [settling, begins.len(), of.sweep.len()],
-            )
+        Ok(of
+            .told(Finding::robust(&begins, Begins::usually_settle))
+            .list("settling", begins.iter().map(|of| of.settling as f64))
+            .list("all", begins.iter().map(|of| of.all as f64))
             .values("low shortest", [LOW, SHORTEST]))
     }),
+    ("6.5.2.2-17", |of| {
+        let begins = of.rocking_begins();
+        Ok(of
+            .told(Finding::robust(&begins, Begins::in_two_ways))
+            .list("neither", begins.iter().map(|of| of.neither() as f64))
+            .list("all", begins.iter().map(|of| of.all as f64))
+            .values("low shortest", [LOW, SHORTEST])
+            .value("few", 100.0 * FEW_OTHERS))
+    }),
     ("6.5.2.2-13", |_| lasting()),
+    ("6.5.2.2-18", |_| ellipse_frees()),
 ];
 
 fn kind(mode: &ModeInterval) -> &'static str {
@@ -118,30 +149,49 @@ fn count(run: &Trajectory, kinds: &[&str]) -> usize {
 }
 
 impl Material<'_> {
-    /// How often some kinds of motion follow each other over all shapes and amplitudes.
-    fn count(&self, kinds: &[&str]) -> usize {
-        self.sweep.iter().map(|run| count(run, kinds)).sum()
+    /// How often some kinds of motion follow each other over all shapes and amplitudes, by start.
+    fn count(&self, kinds: &[&str]) -> Vec<f64> {
+        let of_runs = |runs: &Vec<Trajectory>| runs.iter().map(|run| count(run, kinds)).sum();
+        let counts = self.sweeps.iter().map(of_runs);
+        counts.map(|count: usize| count as f64).collect()
+    }
+
+    /// What was found, with the runs in which.
+    fn told(&self, finding: Finding) -> Finding {
+        let (starts, runs) = (self.sweeps.len(), self.sweeps.first().map_or(0, Vec::len));
+        let forces = span(forces(), 2);
+        let words = format!(
+            "{runs} runs, of the shapes of Table 6.2 under f_o = {forces} in steps of 0.05 until t = {UNTIL}, the \
+             settling rule off, from each of {starts} starts"
+        );
+        finding.value("runs", words)
     }
 }
 
 fn slack_is_taut(of: &Material) -> Judged {
-    let run = &of.study.sliding.run;
-    let mut playback = Playback::new(run);
-    let flights = run.modes().iter().filter(|mode| mode.taut.is_empty());
-    let gaps = flights.map(|mode| {
-        let state = playback.at(0.5 * (mode.t_start + mode.t_end)).state;
-        max(run.system().cables.iter().map(|cable| cable.gap(&state)))
-    });
-    let gaps: Vec<f64> = gaps.collect();
-    let nearest = max(gaps.iter().copied());
-    Ok(Finding::of(!gaps.is_empty() && nearest >= 0.0)
-        .value("intervals", gaps.len())
+    let gaps_of = |run: &Trajectory| -> Vec<f64> {
+        let mut playback = Playback::new(run);
+        let flights = run.modes().iter().filter(|mode| mode.taut.is_empty());
+        let gaps = flights.map(|mode| {
+            let state = playback.at(0.5 * (mode.t_start + mode.t_end)).state;
+            max(run.system().cables.iter().map(|cable| cable.gap(&state)))
+        });
+        gaps.collect()
+    };
+    let members: Vec<Vec<f64>> = of.strong.iter().map(|of| gaps_of(&of.run)).collect();
+    let nearest = max(members.iter().flatten().copied());
+    let taut = |gaps: &Vec<f64>| !gaps.is_empty() && max(gaps.iter().copied()) >= 0.0;
+    Ok(Finding::robust(&members, taut)
+        .list("intervals", members.iter().map(|gaps| gaps.len() as f64))
         .value("nearest", nearest)
         .found("slack", nearest < 0.0))
 }
 
 /// A slide shorter than this moves nothing that one could see.
 const SHORTEST: f64 = 1e-3;
+
+/// A part that is few: nearly all are otherwise.
+const FEW_OTHERS: f64 = 0.2;
 
 /// How a rocking begins.
 #[derive(Clone, Copy, Debug)]
@@ -152,24 +202,46 @@ struct Begin {
     y: f64,
 }
 
-impl Begin {
-    fn after_a_slide(&self) -> bool {
-        self.slid >= SHORTEST
-    }
-
-    fn after_a_short_slide(&self) -> bool {
-        self.slid > 0.0 && self.slid < SHORTEST
-    }
-
+/// How the rockings of many runs begin, counted.
+#[derive(Clone, Copy, Debug, Default)]
+struct Begins {
+    all: usize,
+    /// After a slide, and after one that moves nothing.
+    long: usize,
+    short: usize,
     /// Low, and out of bouncing.
-    fn settles(&self) -> bool {
-        self.slid < SHORTEST && self.y < LOW
+    settling: usize,
+}
+
+impl Begins {
+    fn of(begins: impl Iterator<Item = Begin>) -> Self {
+        begins.fold(Self::default(), |of, Begin { slid, y }| Self {
+            all: of.all + 1,
+            long: of.long + usize::from(slid >= SHORTEST),
+            short: of.short + usize::from(slid > 0.0 && slid < SHORTEST),
+            settling: of.settling + usize::from(slid < SHORTEST && y < LOW),
+        })
+    }
+
+    fn usually_settle(&self) -> bool {
+        2 * self.settling > self.all
+    }
+
+    /// Neither after a slide nor as the body settles.
+    fn neither(&self) -> usize {
+        self.all - self.long - self.settling
+    }
+
+    /// Whether both ways are met, and few begin otherwise.
+    fn in_two_ways(&self) -> bool {
+        let few = self.neither() as f64 <= FEW_OTHERS * self.all as f64;
+        self.long > 0 && self.settling > 0 && few
     }
 }
 
 impl Material<'_> {
-    /// How the rocking of all shapes and amplitudes begins, each time.
-    fn rocking_begins(&self) -> Vec<Begin> {
+    /// How the rocking of all shapes and amplitudes begins, each time, by start.
+    fn rocking_begins(&self) -> Vec<Begins> {
         let of_run = |run: &Trajectory| {
             let mut playback = Playback::new(run);
             let pairs = run
@@ -185,7 +257,10 @@ impl Material<'_> {
             });
             begins.collect::<Vec<_>>()
         };
-        self.sweep.iter().flat_map(of_run).collect()
+        let sweeps = self.sweeps.iter();
+        sweeps
+            .map(|runs| Begins::of(runs.iter().flat_map(of_run)))
+            .collect()
     }
 }
 
@@ -206,18 +281,42 @@ fn climbs(run: &Trajectory) -> [usize; 2] {
     })
 }
 
-fn lasting() -> Judged {
+/// The standard case that goes on after it has settled, under each amplitude up to a half, with the
+/// forcing on an ellipse or along a line.
+fn up_to_a_half(nu: f64) -> Vec<Parameters> {
     let forces = (1..=50).map(|k| f64::from(k) / 100.0);
-    let cases: Vec<_> = forces
-        .map(|f_o| past_settling(standard(|p| p.f_o = f_o)))
-        .collect();
+    let cases = forces.map(|f_o| past_settling(standard(|p| (p.f_o, p.nu) = (f_o, nu))));
+    cases.collect()
+}
+
+fn lasting() -> Judged {
+    let cases = up_to_a_half(Parameters::STANDARD.nu);
     let on = from_starts(&cases, FEW, |case| Ok(rocks_on(&run(case)?)))?;
     let counts = |on: &Vec<bool>| {
         let (low, high) = on.split_at(on.len() / 2);
         [low, high].map(|part| part.iter().filter(|on| **on).count())
     };
     let counts: Vec<[usize; 2]> = on.iter().map(counts).collect();
-    Ok(Finding::robust(&counts, |[low, high]| low > high).values("low high", counts[0]))
+    let of = |half: usize| counts.iter().map(move |counts| counts[half] as f64);
+    Ok(Finding::robust(&counts, |[low, high]| low > high)
+        .list("low", of(0))
+        .list("high", of(1)))
+}
+
+/// Whether a body comes out of rocking under more amplitudes if the force turns on an ellipse.
+fn ellipse_frees() -> Judged {
+    let freed = |nu: f64| {
+        let found = from_starts(&up_to_a_half(nu), FEW, |case| {
+            Ok(leaves_rocking(&run(case)?))
+        })?;
+        let count = |freed: &Vec<bool>| freed.iter().filter(|freed| **freed).count();
+        Ok::<Vec<usize>, CaseError>(found.iter().map(count).collect())
+    };
+    let (ellipse, line) = (freed(Parameters::STANDARD.nu)?, freed(0.0)?);
+    let members: Vec<[usize; 2]> = ellipse.iter().zip(&line).map(|(p, q)| [*p, *q]).collect();
+    Ok(Finding::robust(&members, |[ellipse, line]| ellipse > line)
+        .list("ellipse", ellipse.iter().map(|count| *count as f64))
+        .list("line", line.iter().map(|count| *count as f64)))
 }
 
 #[cfg(test)]
@@ -227,8 +326,16 @@ mod tests {
     #[test]
     fn a_slide_of_no_length_is_none() {
         let begin = |slid, y| Begin { slid, y };
-        assert!(begin(0.01, 0.02).after_a_slide() && !begin(0.01, 0.02).settles());
-        assert!(!begin(1e-4, 0.02).after_a_slide() && begin(1e-4, 0.02).settles());
-        assert!(!begin(0.0, 0.2).settles() && !begin(0.0, 0.02).after_a_short_slide());
+        let of = |begins: &[Begin]| Begins::of(begins.iter().copied());
+        let [slid, settled, high] = [begin(0.01, 0.02), begin(1e-4, 0.02), begin(0.0, 0.2)];
+        let all = of(&[slid, settled, high]);
+        assert_eq!(
+            (all.long, all.short, all.settling, all.neither()),
+            (1, 1, 1, 1)
+        );
+        // As many settle as not; one of three begins in neither way.
+        assert!(of(&[slid, settled, settled]).usually_settle() && !all.usually_settle());
+        assert!(of(&[slid, settled]).in_two_ways() && !all.in_two_ways());
+        assert!(!of(&[settled, settled]).in_two_ways());
     }
 }

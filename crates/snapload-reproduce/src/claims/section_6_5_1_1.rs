@@ -1,12 +1,14 @@
 //! 6.5.1.1: the equations of sliding, as printed, against Newton's law with a multiplier. The
 //! equations of the right cable (6.45-6.56) are told from those of the left one (6.5-6.27) by the
-//! side.
+//! side. What is said of the tension has a file of its own.
+
+mod tension;
 
 use super::newton::{
     BOTH, Jet, LEFT, Moment, Numbers, RIGHT, Sizes, derivatives, differences, identity, jet,
-    largest, length, over, sin_cos, tension_residual,
+    largest, over, sin_cos,
 };
-use super::numbers::holds;
+use super::numbers::{holds, min};
 use super::verdict::{Claim, Finding, Judged, Judges, ask};
 use crate::ReportError;
 use crate::study::Study;
@@ -56,13 +58,13 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             differences(q.terms(), q.moment.gradient(q.side).map(|g| g * q.lambda))
         })
     }),
-    ("6.5.1.1-10", compression),
+    ("6.5.1.1-10", tension::compression),
     ("6.5.1.1-11", |of| {
         identity(&of.left, |q| {
             [q.m.i * q.bdd - 2.0 * q.lambda * q.m.r * q.bracket()]
         })
     }),
-    ("6.5.1.1-12", loss),
+    ("6.5.1.1-12", tension::loss),
     ("6.5.1.1-13", |of| {
         identity(&of.right, |q| {
             [&[q.moment.gap(q.side)][..], &q.rates(q.side)].concat()
@@ -85,6 +87,12 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     }),
     ("6.5.1.1-18", origin),
     ("6.5.1.1-19", |of| identity(&of.left, Sliding::pendulum)),
+    ("6.5.1.1-20", |of| {
+        let (least, solved) = (least_determinant(&of.left), over(&of.left, Sliding::solved));
+        Ok(Finding::of(least > 0.0 && holds(solved))
+            .values("least solved", [least, solved])
+            .value("states", of.left.len()))
+    }),
 ];
 
 /// A body on one taut cable, by the symbols of the chapter.
@@ -246,6 +254,13 @@ impl Sliding {
         self.motion()[1] - self.m.b * sin_cos(self.beta).1
     }
 
+    /// α̈ and β̈ by Cramer's rule, with the term that 6.35 lacks, less the true ones.
+    fn solved(&self) -> [f64; 2] {
+        let (matrix, [b1, b2]) = self.equations(self.m.b, self.forces());
+        let mended = b2 + self.m.b * sin_cos(self.beta).1;
+        differences(cramer(matrix, [b1, mended]), [self.add, self.bdd])
+    }
+
     /// The multiplier's terms of 6.40, 6.41, 6.42.
     fn terms(&self) -> [f64; 3] {
         let (Sizes { a, b, .. }, h) = (self.m, self.m.h());
@@ -274,10 +289,8 @@ impl Sliding {
     /// 6.29 without height and forcing: a massless leg r at the angle α, a leg a at β, at its end a
     /// mass 1 with a moment of inertia (d'Alembert's principle).
     fn pendulum(&self) -> [f64; 2] {
-        let ([a11, a12, a22], [b1, b2]) = self.equations(0.0, [0.0; 2]);
-        let determinant = a11 * a22 - a12 * a12;
-        let add = (a22 * b1 - a12 * b2) / determinant;
-        let bdd = (a11 * b2 - a12 * b1) / determinant;
+        let (matrix, right_sides) = self.equations(0.0, [0.0; 2]);
+        let [add, bdd] = cramer(matrix, right_sides);
         let legs = [
             (self.m.r, [self.alpha, self.ad, add]),
             (self.m.a, [self.beta, self.bd, bdd]),
@@ -293,6 +306,20 @@ impl Sliding {
         });
         [work_alpha, work_beta + self.m.i * bdd]
     }
+}
+
+/// The solution of 6.28 and 6.29 by Cramer's rule.
+fn cramer([a11, a12, a22]: [f64; 3], [b1, b2]: [f64; 2]) -> [f64; 2] {
+    let determinant = a11 * a22 - a12 * a12;
+    [a22 * b1 - a12 * b2, a11 * b2 - a12 * b1].map(|numerator| numerator / determinant)
+}
+
+/// The least determinant of 6.28 and 6.29, in parts of the product of its diagonal.
+fn least_determinant(states: &[Sliding]) -> f64 {
+    min(states.iter().map(|q| {
+        let ([a11, a12, a22], _) = q.equations(q.m.b, [0.0; 2]);
+        1.0 - a12 * a12 / (a11 * a22)
+    }))
 }
 
 /// The angle below a quarter turn with this sine: Newton's method, which from the sine itself only
@@ -325,54 +352,6 @@ fn random_states(side: usize) -> Vec<Sliding> {
         Sliding::new(sizes, side, [angles[0], angles[1], ad, bd], force)
     };
     (0..BODIES).map(|_| state()).collect()
-}
-
-/// Circles whose cable points to their centre, β = α, which 6.44 can not judge.
-fn pointing_to_the_centre() -> Vec<Sliding> {
-    let mut numbers = Numbers::new(SEED + 1);
-    let mut state = || {
-        let sizes = numbers.sizes(0.0);
-        let alpha = numbers.between(0.2, 1.2);
-        let [ad, bd] = [0.2; 2].map(|deviation| numbers.normal(deviation));
-        let force = [FORCE; 2].map(|deviation| numbers.normal(deviation));
-        Sliding::new(sizes, LEFT, [alpha, alpha, ad, bd], force)
-    };
-    (0..BODIES).map(|_| state()).collect()
-}
-
-fn compression(of: &Material) -> Judged {
-    let size = |q: &Sliding| length(q.terms().into_iter().take(2));
-    let residual = over(&of.left, |q| [size(q) - 2.0 * q.lambda.abs() * q.m.r]);
-    // A force along the span, from the anchor to the body, pushes the body away.
-    let pushes = of.left.iter().all(|q| {
-        let ([gx, gy, _], [fx, fy, _]) = (q.moment.gradient(q.side), q.terms());
-        (fx * gx + fy * gy > 0.0) == (q.lambda > 0.0)
-    });
-    let (tension, times) = tension_residual(&of.study.sliding.run, 1);
-    let finding = Finding::of(holds(residual) && pushes && times > 0 && holds(tension));
-    Ok(finding
-        .value("times", times)
-        .values("residual tension", [residual, tension]))
-}
-
-fn loss(of: &Material) -> Judged {
-    let count =
-        |states: &[Sliding], holds: fn(&&Sliding) -> bool| states.iter().filter(holds).count();
-    let agree = |states| count(states, |q| q.said_lost() == (q.lambda > 0.0));
-    let lost = |states| count(states, |q| q.lambda > 0.0);
-    let (left, right, blind) = (&of.left[..], &of.right[..], &pointing_to_the_centre()[..]);
-    let all = agree(left) == left.len() && agree(right) == right.len();
-    Ok(Finding::of(all && lost(left) > 0)
-        .values(
-            "left left_agree left_lost",
-            [left.len(), agree(left), lost(left)],
-        )
-        .values(
-            "right right_agree right_lost",
-            [right.len(), agree(right), lost(right)],
-        )
-        .values("blind blind_lost", [blind.len(), lost(blind)])
-        .value("seen", count(blind, |q| q.said_lost())))
 }
 
 /// Where the sliding example first hits its other cable's boundary while it slides.
@@ -426,6 +405,14 @@ mod tests {
         assert_eq!(verdict(&left, &other)?, Verdict::NotReproduced);
         assert_eq!(verdict(&left, &larger)?, Verdict::NotReproduced);
         assert_eq!(verdict(&[], &rates)?, Verdict::NotReproduced);
+        // Cramer's rule with the right side of the equation of another angle.
+        let solved = |q: &Sliding| q.solved().to_vec();
+        let swapped = |q: &Sliding| {
+            let (matrix, [b1, b2]) = q.equations(q.m.b, q.forces());
+            differences(cramer(matrix, [b2, b1]), [q.add, q.bdd]).to_vec()
+        };
+        assert_eq!(verdict(&left, &solved)?, Verdict::Reproduced);
+        assert_eq!(verdict(&left, &swapped)?, Verdict::NotReproduced);
         Ok(())
     }
 }

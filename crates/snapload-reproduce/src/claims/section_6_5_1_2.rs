@@ -4,15 +4,16 @@ mod example;
 
 use super::numbers::{max, min, span};
 use super::runs::{
-    MANY, chapter, each, ensemble, first_interval, from_starts, near, outcome, past_settling, run,
-    shapes_under, standard, table_codes,
+    FEW, MANY, chapter, ensemble, from_starts, near, outcome, run, shapes_under, standard,
+    table_codes,
 };
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
 use crate::critical_row::CriticalRow;
-use crate::study::{CaseRuns, Study};
+use crate::proved::Proved;
+use crate::study::{CaseRuns, Study, exact};
 use example::Example;
-use snapload::analysis::{ForceScan, in_parallel};
+use snapload::analysis::{ForceScan, Unfinished, in_parallel, outcomes, unwatched};
 use snapload::{Case, CaseError, Parameters, Stop, named_case};
 
 /// Checks the claims of the section.
@@ -37,21 +38,37 @@ const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         };
         let robust = shapes.iter().filter(|s| s.robust).count();
         let verdict = match everywhere(|s| s.robust) {
-            false if everywhere(|s| s.amplitudes > 0) => Verdict::NotDecidable,
+            false if everywhere(|s| s.counts[0][0] > 0) => Verdict::NotDecidable,
             robustly => Verdict::of(robustly),
         };
+        let amplitudes = shapes
+            .iter()
+            .flat_map(|s| s.counts.iter().map(|counts| counts[0]));
         Ok(Finding::new(verdict)
-            .list("amplitudes", shapes.iter().map(|s| s.amplitudes as f64))
+            .list("amplitudes", amplitudes.map(|count| count as f64))
             .values("shapes robust", [shapes.len(), robust]))
     }),
     ("6.5.1.2-03", |(_, shapes)| {
-        let (scattered, all) = (
-            shapes.iter().filter(|s| s.intervals >= 2).count(),
-            shapes.len(),
-        );
-        Ok(Finding::of(scattered + 2 >= all && all > 2)
-            .list("intervals", shapes.iter().map(|s| s.intervals as f64))
-            .values("scattered shapes", [scattered, all]))
+        /// Intervals that no simple rule gives, and so many shapes may have fewer.
+        const SCATTERED: usize = 2;
+        const BUT: usize = 2;
+        let all = shapes.len();
+        let scattered = |start: usize| {
+            let of_shapes = shapes.iter().map(|s| s.counts[start][1]);
+            of_shapes
+                .filter(|intervals| *intervals >= SCATTERED)
+                .count()
+        };
+        let scattered: Vec<usize> = (0..=MANY).map(scattered).collect();
+        let intervals = shapes
+            .iter()
+            .flat_map(|s| s.counts.iter().map(|counts| counts[1]));
+        Ok(
+            Finding::robust(&scattered, |count| count + BUT >= all && all > BUT)
+                .list("intervals", intervals.map(|count| count as f64))
+                .list("scattered", scattered.iter().map(|count| *count as f64))
+                .values("shapes several but", [all, SCATTERED, BUT]),
+        )
     }),
     ("6.5.1.2-04", |_| dying_snaps()),
     ("6.5.1.2-16", ends),
@@ -91,42 +108,39 @@ fn table_6_1((study, _): &Material) -> Judged {
 struct Shape {
     /// Its outline, and whether its cables are the longer ones.
     class: (&'static str, bool),
-    /// So many amplitudes slide, and in so many intervals.
-    amplitudes: usize,
-    intervals: usize,
-    /// Whether all neighbours slide, too, at one amplitude.
+    /// How many amplitudes slide, and in how many intervals, from each start.
+    counts: Vec<[usize; 2]>,
+    /// Whether all starts slide at one amplitude.
     robust: bool,
 }
 
 impl Shape {
-    fn of(row: &CriticalRow) -> Result<Self, CaseError> {
-        let with = |f_o| Parameters {
-            f_o,
-            ..row.parameters()
-        };
-        let cases: Vec<Parameters> = ForceScan::default().amplitudes().map(with).collect();
-        let found = each(&cases, slides)?;
-        // One start after the other, as most amplitudes fail at the first neighbours.
-        let from_all = |case| -> Result<bool, CaseError> {
-            for start in ensemble(case, MANY) {
-                if !slides(&start)? {
-                    return Ok(false);
-                }
-            }
-            Ok(true)
-        };
-        let mut robust = false;
-        for (case, _) in cases.iter().zip(&found).filter(|(_, slides)| **slides) {
-            robust = robust || from_all(case)?;
-        }
-        let intervals = found.chunk_by(|p, q| p == q).filter(|part| part[0]);
+    fn of(row: &CriticalRow) -> Result<Self, Unfinished> {
+        let forces: Vec<f64> = ForceScan::default().amplitudes().collect();
+        let case = row.parameters();
+        let starts = ensemble(&chapter(case), MANY);
+        let with = |start: &Parameters, f_o| Case::new(Parameters { f_o, ..*start });
+        let cases = starts
+            .iter()
+            .flat_map(|start| forces.iter().map(|f_o| with(start, *f_o)));
+        let ends = outcomes(&cases.collect::<Result<Vec<_>, CaseError>>()?, &unwatched)?;
+        let slides: Vec<bool> = ends.iter().map(|of| ends_sliding(of.end.reason)).collect();
+        let of_starts: Vec<&[bool]> = slides.chunks(forces.len()).collect();
         Ok(Self {
             class: (row.shape, row.r > 2.0),
-            amplitudes: found.iter().filter(|slides| **slides).count(),
-            intervals: intervals.count(),
-            robust,
+            counts: of_starts.iter().map(|slides| sliding(slides)).collect(),
+            robust: (0..forces.len()).any(|k| of_starts.iter().all(|slides| slides[k])),
         })
     }
+}
+
+/// How many amplitudes slide, and in how many intervals.
+fn sliding(slides: &[bool]) -> [usize; 2] {
+    let intervals = slides.chunk_by(|p, q| p == q).filter(|part| part[0]);
+    [
+        slides.iter().filter(|slides| **slides).count(),
+        intervals.count(),
+    ]
 }
 
 fn dying_snaps() -> Judged {
@@ -135,18 +149,30 @@ fn dying_snaps() -> Judged {
     /// Velocities at which a cable is taken to stick. If the snaps die out there, it does not
     /// matter which.
     const STICKS: [f64; 2] = [1e-6, 1e-8];
-    let mut verdicts = Vec::new();
-    let mut words = Vec::new();
-    for f_o in [0.2, 0.27, 0.4, 0.44] {
-        let with = |v_stick| past_settling(standard(|p| (p.f_o, p.v_stick) = (f_o, v_stick)));
+    let forces = [0.2, 0.27, 0.4, 0.44];
+    let starts = in_parallel(forces.len(), |k| {
+        let with = |v_stick| chapter(standard(|p| (p.f_o, p.v_stick) = (forces[k], v_stick)));
         let cases = STICKS.map(with);
-        let first_slide = |case: &_| first_interval(case, |taut| taut.len() == 1);
-        let starts: Vec<f64> = each(&cases, first_slide)?.into_iter().flatten().collect();
-        let same = max(starts.iter().copied()) - min(starts.iter().copied()) < SAME;
-        verdicts.push(Verdict::of(same && starts.len() == cases.len()));
-        words.push(format!("{} at f_o = {f_o}", span(starts, 4)));
-    }
-    Ok(Finding::new(Verdict::all(verdicts)).value("times", words.join(", ")))
+        let sticks: Result<Vec<_>, CaseError> = cases.iter().map(sticks).collect();
+        Ok::<Vec<f64>, CaseError>(sticks?.into_iter().flatten().collect())
+    })?;
+    let same = |times: &Vec<f64>| {
+        let apart = max(times.iter().copied()) - min(times.iter().copied());
+        Verdict::of(times.len() == STICKS.len() && apart < SAME)
+    };
+    let verdict = Verdict::all(starts.iter().map(same));
+    let words = starts.iter().zip(forces);
+    let words = words.map(|(times, f_o)| format!("{} at f_o = {f_o}", span(times.clone(), 4)));
+    Ok(Finding::new(verdict)
+        .value("times", words.collect::<Vec<_>>().join(", "))
+        .value("same", SAME))
+}
+
+/// When the first cable sticks, in many digits, if one does.
+fn sticks(case: &Parameters) -> Result<Option<f64>, CaseError> {
+    let run = exact(case, Proved::kept(case))?;
+    let stuck = [Stop::Settled, Stop::SlidingStart].contains(&run.end().reason);
+    Ok(stuck.then_some(run.end().t))
 }
 
 /// Why a run stops that has slid, and with how many taut cables.
@@ -167,28 +193,48 @@ fn all_met(ways: [usize; 3]) -> bool {
     !ways.contains(&0)
 }
 
+/// How runs end that slide: settled, at the rotation limit, rocking; at the upper bound, and not yet.
+type Ends = [usize; 5];
+
+fn counted(ends: &[Option<(Stop, usize)>]) -> Ends {
+    let mut counts = Ends::default();
+    for (stop, taut) in ends.iter().flatten() {
+        let way = match stop {
+            Stop::Settled => 0,
+            Stop::RotationLimit => 1,
+            Stop::UpperBound => 3,
+            _ if *taut > 1 => 2,
+            _ => 4,
+        };
+        counts[way] += 1;
+    }
+    counts
+}
+
 fn ends((study, _): &Material) -> Judged {
     let forces: Vec<f64> = (1..=18).map(|k| f64::from(k) / 20.0).collect();
     let cases = shapes_under(study, &forces);
-    let [mut settle, mut limit, mut rock, mut going] = [0; 4];
-    let mut at_bound = Vec::new();
-    for (case, end) in cases.iter().zip(each(&cases, end_if_slid)?) {
-        match end {
-            None => {}
-            Some((Stop::Settled, _)) => settle += 1,
-            Some((Stop::RotationLimit, _)) => limit += 1,
-            Some((Stop::UpperBound, _)) => at_bound.push(case.f_o),
-            Some((_, taut)) if taut > 1 => rock += 1,
-            Some(_) => going += 1,
-        }
-    }
-    let (bound, named) = (at_bound.len(), settle + limit + rock);
-    let all = named + bound + going;
-    Ok(Finding::of(all_met([settle, limit, rock]))
-        .values("all settle limit", [all, settle, limit])
-        .values("rock going bound", [rock, going, bound])
-        .found("others", bound + going > 0)
-        .list("forces", at_bound))
+    let starts = from_starts(&cases, FEW, end_if_slid)?;
+    let counts: Vec<Ends> = starts.iter().map(|ends| counted(ends)).collect();
+    let number = |way: usize| counts.iter().map(move |counts| counts[way] as f64);
+    let all = counts
+        .iter()
+        .map(|counts| counts.iter().sum::<usize>() as f64);
+    Ok(Finding::robust(&counts, |[settle, limit, rock, ..]| {
+        all_met([*settle, *limit, *rock])
+    })
+    .list("settle", number(0))
+    .list("limit", number(1))
+    .list("rock", number(2))
+    .list("bound", number(3))
+    .list("going", number(4))
+    .found(
+        "others",
+        counts.iter().any(|counts| counts[3] + counts[4] > 0),
+    )
+    .list("all", all)
+    .value("runs", cases.len())
+    .list("forces", forces))
 }
 
 #[cfg(test)]
@@ -198,5 +244,18 @@ mod tests {
     #[test]
     fn an_end_that_is_never_met_is_seen() {
         assert!(all_met([3, 1, 2]) && !all_met([3, 0, 2]));
+        let ends = [
+            Some((Stop::Settled, 1)),
+            None,
+            Some((Stop::EndTime, 2)),
+            Some((Stop::EndTime, 1)),
+        ];
+        assert_eq!(counted(&ends), [1, 0, 1, 0, 1]);
+    }
+
+    #[test]
+    fn one_interval_is_not_two() {
+        assert_eq!(sliding(&[false, true, true, false]), [2, 1]);
+        assert_eq!(sliding(&[true, false, true]), [2, 2]);
     }
 }

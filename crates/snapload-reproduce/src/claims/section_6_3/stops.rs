@@ -4,7 +4,7 @@ use crate::ReportError;
 use crate::claims::motions::{ending, exceeds, places};
 use crate::claims::numbers::{max, min, span};
 use crate::claims::runs::{
-    FEW, MANY, SAME, Tabled, case, chapter, critical_force, each, first_rocking, from_starts, near,
+    FEW, MANY, SAME, Tabled, case, chapter, critical_force, first_rocking, from_starts, near,
     outcome, past_settling, run, shapes_under, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
@@ -75,10 +75,11 @@ fn rotates_easily(tabled: &Tabled) -> Judged {
 }
 
 fn parts_pass_first(tabled: &Tabled) -> Judged {
-    let strong = shapes_under(tabled.study, &[0.6, 0.7, 0.8, 0.9]);
+    const FORCES: [f64; 4] = [0.6, 0.7, 0.8, 0.9];
+    let strong = shapes_under(tabled.study, &FORCES);
     // How far the highest point is above the centre at any tilt, and where the centre is at the
     // stop.
-    let found = each(&strong, |parameters| {
+    let found = from_starts(&strong, FEW, |parameters| {
         let case = Case::new(chapter(*parameters))?;
         let (end, simulation) = (Outcome::of(&case).end, case.simulation());
         let system = simulation.system();
@@ -87,13 +88,20 @@ fn parts_pass_first(tabled: &Tabled) -> Judged {
         let below = system.cables[0].anchor().y - end.state.y;
         Ok((min(tops), (end.reason == Stop::UpperBound).then_some(below)))
     })?;
-    let least = min(found.iter().map(|(top, _)| *top));
-    let stops: Vec<f64> = found.iter().filter_map(|(_, below)| *below).collect();
-    let nearest = min(stops.iter().copied());
-    let finding = Finding::of(!stops.is_empty() && nearest > 0.0 && least > 0.0);
-    Ok(finding
-        .values("least nearest", [least, nearest])
-        .value("stops", stops.len()))
+    let least = min(found.iter().flatten().map(|(top, _)| *top));
+    let stops = |of: &Vec<(f64, Option<f64>)>| of.iter().filter_map(|(_, below)| *below).collect();
+    let stops: Vec<Vec<f64>> = found.iter().map(stops).collect();
+    let passes = |below: &Vec<f64>| least > 0.0 && below.iter().all(|below| *below > 0.0);
+    Ok(
+        Finding::robust(&stops, |below| !below.is_empty() && passes(below))
+            .values(
+                "least nearest",
+                [least, min(stops.iter().flatten().copied())],
+            )
+            .list("stops", stops.iter().map(|of| of.len() as f64))
+            .value("runs", strong.len())
+            .list("forces", FORCES),
+    )
 }
 
 /// The height of the start; what rises above it rises far.
@@ -133,12 +141,14 @@ fn little_energy(tabled: &Tabled) -> Judged {
     let with = |verdict| on.iter().filter(move |case| case.0 == verdict);
     let high = || with(Verdict::NotReproduced);
     let words: Vec<&str> = high().map(|case| &*case.1).collect();
-    Ok(Finding::new(Verdict::all(on.iter().map(|case| case.0)))
-        .values("cases low", [on.len(), with(Verdict::Reproduced).count()])
-        .value("far", FAR)
-        .value("high", words.join(", "))
-        .list("energy_high", high().map(|case| case.2))
-        .list("energy_low", with(Verdict::Reproduced).map(|case| case.2)))
+    Ok(
+        Finding::new(Verdict::families(on.iter().map(|case| case.0)))
+            .values("cases low", [on.len(), with(Verdict::Reproduced).count()])
+            .value("far", FAR)
+            .value("high", words.join(", "))
+            .list("energy_high", high().map(|case| case.2))
+            .list("energy_low", with(Verdict::Reproduced).map(|case| case.2)),
+    )
 }
 
 fn rocks_while_settling() -> Judged {

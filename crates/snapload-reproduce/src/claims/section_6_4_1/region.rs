@@ -4,7 +4,7 @@ use crate::ReportError;
 use crate::claims::motions::{endings, exceeds, places};
 use crate::claims::numbers::{max, min};
 use crate::claims::runs::{Tabled, row};
-use crate::claims::verdict::{Finding, Judged, Judges};
+use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use crate::many_digits::Run;
 use snapload::{Stop, anchor_height};
 
@@ -24,23 +24,19 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
             .value("endings", endings(&members)))
     }),
     ("6.4.1-04", |tabled| {
-        let first = row(tabled.study, 2.5, [0.1, 0.0])?.computed.chapter.first;
-        let critical = first.map_or(f64::INFINITY, |first| first.f_o);
+        let first = row(tabled.study, 2.5, [0.1, 0.0])?.first();
+        let critical = first.map_or(f64::INFINITY, |(f_o, _)| f_o);
         let members = tabled.of(["2910001000-359"])?;
         let finding = Finding::robust(&members, |[run]| critical < 0.3 && exceeds(run));
         Ok(finding.value("critical", critical))
     }),
     ("6.4.1-05", |_| {
         let (rings, high) = (by_width(1.5, 0.0), by_width(1.5, 0.1));
-        let pairs = || rings.iter().zip(&high);
-        let not_sharper = pairs().all(|(p, q)| q.reach >= p.reach && q.slope <= p.slope);
-        let narrower = pairs().all(|(p, q)| q.reach < p.reach);
-        Ok(Finding::of(flattens(&rings) && not_sharper)
+        let narrower = rings.iter().zip(&high).all(|(p, q)| q.reach < p.reach);
+        let [by_width, by_height] = by_size(&rings, &high);
+        Ok(Finding::new(Verdict::families([by_width, by_height]))
             .values("low high", [&rings, &high].map(|of| measures(of)))
-            .found(
-                "of_the_width",
-                flattens(&rings) && flattens(&high) && narrower,
-            ))
+            .found("of_the_width", by_width == Verdict::Reproduced && narrower))
     }),
     ("6.4.1-06", |_| {
         let all = [(1.5, 0.0), (1.5, 0.1), (2.5, 0.0), (2.5, 0.1)];
@@ -53,7 +49,8 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         let flatter: Vec<bool> = rows.map(|row| flattens(&by_length(row.size))).collect();
         let count = flatter.iter().filter(|flatter| **flatter).count();
         Ok(Finding::of(count == flatter.len() && count > 0)
-            .values("flatter shapes", [count, flatter.len()]))
+            .values("flatter shapes", [count, flatter.len()])
+            .value("height", HEIGHT))
     }),
     ("6.4.1-08", |tabled| {
         let frames = frames(tabled)?;
@@ -67,7 +64,8 @@ pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
         Ok(
             Finding::robust(&frames, |[others, last]| doubled(*others, *last).is_some())
                 .by_start("least", frames.iter().filter_map(|[p, q]| doubled(*p, *q)))
-                .by_start("most", frames.iter().map(|frames| frames[1])),
+                .by_start("most", frames.iter().map(|frames| frames[1]))
+                .by_start("filled", frames.iter().filter_map(|[p, q]| filled(*p, *q))),
         )
     }),
 ];
@@ -119,6 +117,16 @@ fn by_width(r: f64, b: f64) -> [Bottom; 3] {
 
 fn flattens(bottoms: &[Bottom]) -> bool {
     bottoms.len() > 1 && bottoms.windows(2).all(|pair| pair[1].flatter_than(pair[0]))
+}
+
+/// Whether the bottom gets flatter with the width, of low bodies and of high ones, and whether no
+/// width's bottom gets sharper with the height.
+fn by_size(low: &[Bottom], high: &[Bottom]) -> [Verdict; 2] {
+    let flatter = |(p, q): (&Bottom, &Bottom)| q.reach >= p.reach && q.slope <= p.slope;
+    [
+        Verdict::of(flattens(low) && flattens(high)),
+        Verdict::of(low.iter().zip(high).all(flatter)),
+    ]
 }
 
 fn measures(bottoms: &[Bottom]) -> String {
@@ -195,6 +203,12 @@ fn doubled(others: [f64; 2], last: [f64; 2]) -> Option<[f64; 2]> {
     (!within(last, frame)).then_some(frame)
 }
 
+/// Which part of the least such frame the other motions fill, across and upwards.
+fn filled(others: [f64; 2], last: [f64; 2]) -> Option<[f64; 2]> {
+    let frame = doubled(others, last)?;
+    Some([0, 1].map(|k| others[k] / frame[k]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -213,5 +227,9 @@ mod tests {
         let narrowing: Vec<Bottom> = widths.iter().rev().copied().collect();
         assert!(flattens(&widths) && !flattens(&narrowing) && !flattens(&widths[..1]));
         assert!(!widths[0].flatter_than(widths[0]));
+        // Narrowing bodies, and such as are no flatter when high.
+        let judged = by_size(&narrowing, &narrowing);
+        assert_eq!(judged, [Verdict::NotReproduced, Verdict::Reproduced]);
+        assert_eq!(by_size(&widths, &narrowing)[1], Verdict::NotReproduced);
     }
 }

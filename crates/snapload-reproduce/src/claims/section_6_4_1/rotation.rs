@@ -198,7 +198,7 @@ fn more_frequent(tabled: &Tabled) -> Judged {
     let words = boxes[0].map(|run| counts(run).map(|count| count.to_string()).join(" then "));
     let sure = verdicts.iter().zip([0.1, 0.2, 0.3]);
     let sure = sure.filter(|(verdict, _)| **verdict == Verdict::Reproduced);
-    Ok(Finding::new(Verdict::all(verdicts))
+    Ok(Finding::new(Verdict::families(verdicts))
         .value("turns", words.join(", "))
         .found("of_some", sure.clone().count() > 0)
         .list("widths", sure.map(|(_, a)| a)))

@@ -61,28 +61,28 @@ pub(super) const JUDGES: &Judges<fn(&[Runs]) -> Judged> = &[
             .value("throughout", THROUGHOUT))
     }),
     ("6.4.1-31", |members| {
+        /// The velocity of grazing snaps, in parts of that of direct ones.
+        const SOFT: f64 = 0.6;
         let found = members.iter().map(|runs| harder_and_other(runs[0]));
         let found: Vec<[[f64; 2]; 2]> = found.collect();
-        let grazes = |[hard, soft]: &[[f64; 2]; 2]| soft[0] < 0.6 * hard[0] && soft[1] < hard[1];
+        let grazes = |[hard, soft]: &[[f64; 2]; 2]| soft[0] < SOFT * hard[0] && soft[1] < hard[1];
         let speeds = found.iter().map(|[hard, soft]| [hard[0], soft[0]]);
         let shares = found.iter().map(|[hard, soft]| [hard[1], soft[1]]);
         Ok(Finding::robust(&found, grazes)
             .by_start("speeds", speeds)
-            .by_start("shares", shares))
+            .by_start("shares", shares)
+            .values("soft clear", [SOFT, CLEAR]))
     }),
     ("6.4.1-32", |members| {
         let lines: Vec<Vec<f64>> = members.iter().map(|runs| difference(runs[3]).0).collect();
-        let nears = |d: &Vec<f64>| crossings(d) <= 1 && approaches(&extremes(d)) >= 1;
-        Ok(Finding::robust(&lines, nears)
-            .value("crossings", crossings(&lines[0]))
-            .list("extremes", extremes(&lines[0])))
+        Ok(Finding::robust(&lines, |line| nears_and_parts(line))
+            .list("crossings", lines.iter().map(|line| crossings(line) as f64))
+            .list("extremes", extremes(&lines[0]))
+            .values("near clear", [NEAR, CLEAR]))
     }),
     ("6.4.1-33", |members| {
-        let braided = |rates: &[f64; 5]| {
-            let least = min(BRAIDS.map(|k| rates[k]));
-            least >= 0.5 && least > 2.0 * max([0, 3, 4].map(|k| rates[k]))
-        };
-        Ok(measured("rates", members, crossing_rate, braided))
+        let braided = measured("rates", members, crossing_rate, braids);
+        Ok(braided.values("often more clear", [OFTEN, MORE, CLEAR]))
     }),
     ("6.4.1-34", towards_the_boundary),
 ];
@@ -100,11 +100,14 @@ fn longest(run: &Run, above: f64) -> usize {
     lengths.max().unwrap_or(0)
 }
 
-/// By how much the body rises over each stretch of at least five clear snaps.
+/// The fewest snaps that make a stretch.
+const SEVERAL: usize = 5;
+
+/// By how much the body rises over each stretch of clear snaps.
 fn rises(run: &Run) -> Vec<f64> {
     let long = stretches(run, CLEAR)
         .into_iter()
-        .filter(|hits| hits.len() >= 5);
+        .filter(|hits| hits.len() >= SEVERAL);
     long.map(|hits| hits[hits.len() - 1].before.y - hits[0].before.y)
         .collect()
 }
@@ -120,10 +123,10 @@ fn down_a_boundary(members: &[Runs]) -> Judged {
     let verdicts = STRETCHES.map(|k| all[k]);
     let own = STRETCHES.map(|k| rises(members[0][k]));
     let up = max(own.iter().flatten().copied());
-    Ok(Finding::new(Verdict::all(verdicts))
+    Ok(Finding::new(Verdict::families(verdicts))
         .value("rises", own.map(|rises| list(&rises, 3)).join("; "))
         .value("sure", Verdict::Reproduced.count(verdicts))
-        .value("up", up)
+        .values("up clear several", [up, CLEAR, SEVERAL as f64])
         .found("rises_too", up >= SEEN))
 }
 
@@ -160,6 +163,25 @@ fn on_line(points: &[(f64, f64)], t: f64) -> f64 {
 fn crossings(values: &[f64]) -> usize {
     let cross = |pair: &&[f64]| (pair[0] > 0.0) != (pair[1] > 0.0);
     values.windows(2).filter(cross).count()
+}
+
+/// The distance of lines that are near, in parts of that before and after.
+const NEAR: f64 = 1.0 / 3.0;
+
+/// Whether two lines, by their difference, draw near and part again without crossing.
+fn nears_and_parts(difference: &[f64]) -> bool {
+    let near = |three: &[f64]| three[1] < NEAR * three[0].min(three[2]);
+    crossings(difference) == 0 && extremes(difference).windows(3).any(near)
+}
+
+/// Lines that braid cross so often per T at least, and so many times as often as others.
+const OFTEN: f64 = 0.5;
+const MORE: f64 = 2.0;
+
+/// Whether of the rates of crossing in all figures those of braids stand out.
+fn braids(rates: &[f64; 5]) -> bool {
+    let least = min(BRAIDS.map(|k| rates[k]));
+    least >= OFTEN && least > MORE * max([0, 3, 4].map(|k| rates[k]))
 }
 
 /// Crossings of the two lines per unit time.
@@ -204,11 +226,6 @@ fn extremes(values: &[f64]) -> Vec<f64> {
         .map(|three| three[1]);
     let ends = (distance.first().copied(), distance.last().copied());
     ends.0.into_iter().chain(turning).chain(ends.1).collect()
-}
-
-fn approaches(extremes: &[f64]) -> usize {
-    let near = |three: &&[f64]| 3.0 * three[1] < three[0] && 3.0 * three[1] < three[2];
-    extremes.windows(3).filter(near).count()
 }
 
 /// Mean snap velocity where the force pushes towards the struck cable over that where it does not;
@@ -258,6 +275,25 @@ fn towards_the_boundary(members: &[Runs]) -> Judged {
     // Either reading of the force at a snap would do.
     Ok(Finding::new(Verdict::any(verdicts))
         .values("at_the_snap on_the_mean", words)
+        .value("clear", CLEAR)
         .found("remembered", memories.iter().all(|rho| *rho > 0.5))
         .list("memories", memories))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_that_cross_or_stay_apart_do_not_draw_near_and_part() {
+        assert!(nears_and_parts(&[3.0, 2.0, 0.5, 2.0, 3.0]));
+        assert!(!nears_and_parts(&[3.0, 2.0, -0.5, 2.0, 3.0]));
+        assert!(!nears_and_parts(&[3.0, 2.5, 2.0, 2.5, 3.0]) && !nears_and_parts(&[]));
+    }
+
+    #[test]
+    fn lines_that_cross_as_often_elsewhere_are_no_braids() {
+        assert!(braids(&[0.3, 1.0, 0.8, 0.0, 0.1]));
+        assert!(!braids(&[0.5, 1.0, 0.8, 0.0, 0.1]) && !braids(&[0.0, 1.0, 0.4, 0.0, 0.0]));
+    }
 }

@@ -4,7 +4,7 @@ use crate::ReportError;
 use crate::claims::motions::clear;
 use crate::claims::numbers::{mean, span, spearman};
 use crate::claims::runs::{
-    FEW, NEVER, SAME, chapter, critical_force, each, ensemble, of_runs, shown, shown_span, standard,
+    FEW, NEVER, SAME, chapter, critical_force, each, ensemble, of_runs, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use crate::many_digits::Run;
@@ -81,6 +81,11 @@ fn neighbours(curve: &CriticalCurve, values: &[f64]) -> Result<Vec<Points>, Case
 /// A rank correlation that one sees as a trend.
 const TREND: f64 = 0.5;
 
+/// Whether there is a curve: not where no amplitude exceeds over a whole part.
+fn exists(points: &Points) -> bool {
+    points.iter().any(|p| p.1 < NEVER)
+}
+
 /// Whether points rise (1) or fall (-1).
 fn goes(points: &Points, sign: f64) -> bool {
     match (points.first(), points.last()) {
@@ -104,16 +109,21 @@ fn trend(study: &Study, key: &str, r: f64, sign: f64) -> Judged {
         let step = (own.len() / 10).max(1);
         let coarse: Vec<f64> = own.iter().step_by(step).map(|p| p.0).collect();
         let mut all = vec![own, between(curve, Reading::SlidingOn, part)];
+        let without = Reading::BOTH
+            .iter()
+            .zip(&all)
+            .filter(|(_, points)| !exists(points))
+            .map(|(reading, _)| format!(", no curve where {}", reading.words()))
+            .collect::<String>();
         all.extend(neighbours(curve, &coarse)?);
-        // Where no amplitude exceeds over the whole part there is no curve.
-        all.retain(|points| points.iter().any(|p| p.1 < NEVER));
+        all.retain(exists);
         verdicts.push(Verdict::robust(all.iter().map(|points| goes(points, sign))));
         let ends = |k: fn(&Points) -> Option<&(f64, f64)>| {
             shown_span(all.iter().filter_map(k).map(|p| p.1))
         };
         let rho = span(all.iter().map(|points| spearman(points)), 2);
         texts.push(format!(
-            "from {} to {}: {} at the left end, {} at the right, rank correlation {rho}",
+            "from {} to {}: {} at the left end, {} at the right, rank correlation {rho}{without}",
             part[0],
             part[1],
             ends(|points| points.first()),
@@ -161,6 +171,12 @@ fn impact_rates() -> Judged {
         .values("trend early", [-TREND, EARLY]))
 }
 
+/// The symbol of the key over which a curve is drawn.
+fn symbol(curve: &CriticalCurve) -> String {
+    let known = if curve.key == "e" { "e" } else { "Ω" };
+    known.to_owned()
+}
+
 /// By how much the second of three points stands out, up (1) or down (-1).
 fn height(points: &[(f64, f64)], sign: f64) -> f64 {
     (sign * (points[1].1 - points[0].1)).min(sign * (points[1].1 - points[2].1))
@@ -188,20 +204,21 @@ fn local_extremes(study: &Study) -> Judged {
             continue;
         };
         let values: Vec<f64> = points.iter().map(|p| p.0).collect();
-        let members = neighbours(curve, &values)?;
+        let mut members = neighbours(curve, &values)?;
+        members.push(points.clone());
         verdicts.push(Verdict::robust(
             members.iter().map(|points| height(points, sign) > SAME),
         ));
-        let (value, f_cr) = points[1];
+        let clearest = shown_span(members.iter().map(|points| points[1].1));
+        let (key, value, r) = (symbol(curve), points[1].0, curve.r);
         texts.push(format!(
-            "{} {name}, the clearest {} at {} = {value}, r = {}",
-            all.len(),
-            shown(f_cr),
-            curve.key,
-            curve.r
+            "{} {name}, the clearest of {clearest} at {key} = {value}, r = {r}",
+            all.len()
         ));
     }
-    Ok(Finding::new(Verdict::all(verdicts)).value("extremes", texts.join("; ")))
+    Ok(Finding::new(Verdict::all(verdicts))
+        .value("extremes", texts.join("; "))
+        .value("same", SAME))
 }
 
 fn jumps(study: &Study) -> Judged {
@@ -227,12 +244,11 @@ fn jumps(study: &Study) -> Judged {
     let mut members = neighbours(curve, &[p.0, q.0])?;
     members.push(pair.clone());
     let typical = mean(all.iter().map(|(_, pair)| rise(pair)));
+    let of = |k: usize| shown_span(members.iter().map(|pair| pair[k].1));
     Ok(Finding::robust(&members, |pair| rise(pair) >= MUCH)
-        .values(
-            "key before after",
-            [curve.key.to_owned(), shown(p.1), shown(q.1)],
-        )
-        .values("from to r mean", [p.0, q.0, curve.r, typical]))
+        .values("key before after", [symbol(curve), of(0), of(1)])
+        .values("from to r mean", [p.0, q.0, curve.r, typical])
+        .value("much", MUCH))
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! The comparison with the point mass.
 
 use super::{STEADY, Sweeps, spread};
-use crate::claims::numbers::{min, spearman};
-use crate::claims::runs::{chapter, each, run, standard};
+use crate::ReportError;
+use crate::claims::numbers::{min, span, spearman};
+use crate::claims::runs::{FEW, chapter, each, near, row, run, standard};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::reading::first_exceeding;
 use snapload::analysis::ForceScan;
 use snapload::{Case, CaseError, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
 
@@ -14,42 +14,42 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         let (rank, at) = (spearman(&points), [0, 10, 18].map(|k| points[k].1));
         let same = largest_snaps(same_forces(sweeps), point)?;
         let finding = Finding::of(rank > 1.0 - 1e-9 && at[1] / at[0] - 1.0 > STEADY);
-        Ok(finding.list("rho1", at).values(
-            "rank same",
-            [rank, 100.0 * spread(same.iter().map(|p| p.1))],
-        ))
+        let same = spread(same.iter().map(|p| p.1));
+        Ok(finding
+            .list("rho1", at)
+            .values("rank same steady", [rank, 100.0 * same, 100.0 * STEADY]))
     }),
     ("6.4.3-08", |_| slack_at_start()),
     ("6.4.3-09", |_| way_to_first_impact()),
     ("6.4.3-17", |sweeps| {
-        let scan = ForceScan::new(0.01, 3.0)?;
-        let force = |r: f64| first_exceeding(&point(standard(|p| p.r = r)), scan);
-        let [short, long] = [force(1.5)?, force(2.5)?].map(|f| f.map_or(f64::INFINITY, |f| f.0));
-        let [rigid_short, rigid_long] = [&sweeps.short, &sweeps.long].map(|starts| {
-            let last = starts[0].last().filter(|run| run.reason.exceeds());
-            last.map_or(f64::INFINITY, |run| run.f_o)
-        });
-        Ok(Finding::of(rigid_short < short && rigid_long < long)
-            .values("short long", [short, long])
-            .values("rigid_short rigid_long", [rigid_short, rigid_long]))
+        let proved = |r: f64| {
+            let first = row(sweeps.study, r, [0.1, 0.0])?.first();
+            Ok::<_, ReportError>(first.map_or(f64::INFINITY, |(f_o, _)| f_o))
+        };
+        let rigid = [proved(1.5)?, proved(2.5)?];
+        let lower = |points: &[f64; 2]| rigid.iter().zip(points).all(|(p, q)| p < q);
+        let [short, long] = &sweeps.points;
+        let points: Vec<[f64; 2]> = short.iter().zip(long).map(|(p, q)| [*p, *q]).collect();
+        Ok(Finding::robust(&points, lower)
+            .values("rigid_short rigid_long", rigid)
+            .list("short", short.iter().copied())
+            .list("long", long.iter().copied()))
     }),
-    ("6.4.3-22", |_| {
-        let scan = ForceScan::new(0.01, 3.0)?;
-        let by_bound = [1.5, 2.5].map(|r| {
-            let case = standard(|p| p.r = r);
-            Ok::<_, CaseError>([
-                first_at_bound(&chapter(case), scan)?,
-                first_at_bound(&point(case), scan)?,
-            ])
+    ("6.4.3-22", |sweeps| {
+        let lengths = LENGTHS.iter().zip(&sweeps.points).map(|(r, points)| {
+            let rigid = chapter(standard(|p| p.r = *r));
+            Ok::<_, CaseError>((first_at_bound(&rigid)?, points))
         });
-        let [short, long] = by_bound;
-        let [short, long] = [short?, long?];
-        let not_lower = |[rigid, point]: [f64; 2]| Verdict::of(rigid >= point);
-        let words = |[rigid, point]: [f64; 2]| format!("{rigid:.2} (rigid), {point:.2} (point)");
-        Ok(
-            Finding::new(Verdict::families([short, long].map(not_lower)))
-                .values("short long", [short, long].map(words)),
-        )
+        let lengths: Vec<(Vec<f64>, &Vec<f64>)> = lengths.collect::<Result<_, _>>()?;
+        let words = |(rigid, points): &(Vec<f64>, &Vec<f64>)| {
+            let [rigid, points] = [rigid, *points].map(|of| span(of.iter().copied(), 2));
+            format!("{rigid} (rigid), {points} (point)")
+        };
+        let verdicts = lengths
+            .iter()
+            .map(|(rigid, points)| not_lower(rigid, points));
+        let finding = Finding::new(Verdict::families(verdicts));
+        Ok(finding.values("short long", [0, 1].map(|k| words(&lengths[k]))))
     }),
     ("6.4.3-21", |sweeps| {
         // A moment of inertia that no impact turns.
@@ -60,11 +60,19 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
         let held = largest_snaps(same_forces(sweeps), heavy)?;
         let held = spread(held.iter().map(|p| p.1));
         let turning = spread(sweeps.short[0].iter().map(|run| run.norms.rho1));
-        Ok(Finding::of(held >= STEADY && turning < STEADY)
+        Ok(Finding::of(owed_to_turning(held, turning))
             .found("constant_anyway", held < STEADY && turning < STEADY)
-            .values("held turning", [100.0 * held, 100.0 * turning]))
+            .values(
+                "held turning steady",
+                [held, turning, STEADY].map(|part| 100.0 * part),
+            ))
     }),
 ];
+
+/// Whether ρ1 is constant for a body that turns and not for one that can not.
+fn owed_to_turning(held: f64, turning: f64) -> bool {
+    held >= STEADY && turning < STEADY
+}
 
 /// The point mass in the place of the body.
 fn point(parameters: Parameters) -> Parameters {
@@ -76,23 +84,43 @@ fn point(parameters: Parameters) -> Parameters {
     }
 }
 
-/// The first amplitude at which a body reaches the upper bound, at whatever rotation.
-fn first_at_bound(parameters: &Parameters, scan: ForceScan) -> Result<f64, CaseError> {
-    for f_o in scan.amplitudes() {
-        let simulation = Case::new(Parameters { f_o, ..*parameters })?.into_simulation();
-        let rules = Rules {
-            rotation_limit: None,
-            ..*simulation.rules()
-        };
-        let (system, start) = (simulation.system().clone(), *simulation.state());
-        let mut simulation = Simulation::new(system, rules, 0.0, start)
-            .map_err(|_| CaseError::value("f_o", f_o, "a legal start"))?;
-        while simulation.step().is_some() {}
-        if simulation.stop() == Some(Stop::UpperBound) {
-            return Ok(f_o);
+/// The lengths of the cables.
+const LENGTHS: [f64; 2] = [1.5, 2.5];
+
+/// The critical force of the point mass for both lengths, from each start.
+pub(super) fn critical_forces() -> Result<[Vec<f64>; 2], CaseError> {
+    let [short, long] = LENGTHS.map(|r| first_at_bound(&point(standard(|p| p.r = r))));
+    Ok([short?, long?])
+}
+
+/// Whether the rigid body's force is no lower than the point mass's, from all starts.
+fn not_lower(rigid: &[f64], points: &[f64]) -> Verdict {
+    Verdict::robust(rigid.iter().zip(points).map(|(p, q)| p >= q))
+}
+
+/// The first amplitude at which a body reaches the upper bound, at whatever rotation, from each start.
+fn first_at_bound(parameters: &Parameters) -> Result<Vec<f64>, CaseError> {
+    near(parameters, FEW, |case| {
+        for f_o in ForceScan::new(0.01, 3.0)?.amplitudes() {
+            if reaches_bound(&Parameters { f_o, ..*case })? {
+                return Ok(f_o);
+            }
         }
-    }
-    Ok(f64::INFINITY)
+        Ok(f64::INFINITY)
+    })
+}
+
+fn reaches_bound(parameters: &Parameters) -> Result<bool, CaseError> {
+    let simulation = Case::new(*parameters)?.into_simulation();
+    let rules = Rules {
+        rotation_limit: None,
+        ..*simulation.rules()
+    };
+    let (system, start) = (simulation.system().clone(), *simulation.state());
+    let mut simulation = Simulation::new(system, rules, 0.0, start)
+        .map_err(|_| CaseError::value("f_o", parameters.f_o, "a legal start"))?;
+    while simulation.step().is_some() {}
+    Ok(simulation.stop() == Some(Stop::UpperBound))
 }
 
 /// The force amplitude and ρ1 of a body.
@@ -179,4 +207,22 @@ fn way(run: &Trajectory) -> f64 {
     let middle = |k: i32| until * (f64::from(k) + 0.5) / f64::from(steps);
     let states = (0..steps).map(|k| playback.at(middle(k)).state);
     states.map(|now| now.vx.hypot(now.vy)).sum::<f64>() * until / f64::from(steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_force_that_is_lower_from_some_starts_decides_nothing() {
+        assert_eq!(not_lower(&[1.2, 1.3], &[1.1, 1.2]), Verdict::Reproduced);
+        assert_eq!(not_lower(&[0.9, 0.9], &[1.1, 1.2]), Verdict::NotReproduced);
+        assert_eq!(not_lower(&[0.9, 1.3], &[1.1, 1.2]), Verdict::NotDecidable);
+    }
+
+    #[test]
+    fn what_is_constant_anyway_is_not_owed_to_turning() {
+        assert!(owed_to_turning(0.2, 0.04));
+        assert!(!owed_to_turning(0.07, 0.04) && !owed_to_turning(0.2, 0.2));
+    }
 }

@@ -1,42 +1,24 @@
 //! The swings of the rotation over the force amplitude.
 
-use super::{SUMS, Sweep, Sweeps, Swept, below_critical, figure, halves, over_force, place};
+use super::{
+    CONSTANT, SUMS, Sweep, Sweeps, Swept, below_critical, figure, halves, is_constant, over_force,
+    place,
+};
 use crate::claims::motions::LARGE;
 use crate::claims::numbers::{max, min, span, spearman};
 use crate::claims::verdict::{Finding, Judged, Judges};
 
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     ("6.4.3-11", |sweeps| {
-        let figures: [fn(&Swept) -> f64; 2] = [
-            |run: &Swept| run.largest_swing,
-            |run| run.large_swings.len() as f64,
-        ];
-        // Their means in both halves of the amplitudes, and their rank correlation with those.
-        let measured = sweeps.short.iter().map(|sweep| {
-            figures.map(|figure| {
-                let [low, high] = halves(sweep, figure).map(|half| half.0);
-                [
-                    low,
-                    high,
-                    spearman(&over_force(below_critical(sweep), figure)),
-                ]
-            })
+        Ok(told(sweeps, |run| run.largest_swing))
+    }),
+    ("6.4.3-23", |sweeps| {
+        let rates = sweeps.short.iter().map(|sweep| {
+            let [low, high] = halves(sweep, |run| run.turns);
+            [low.0, high.0]
         });
-        let measured: Vec<[[f64; 3]; 2]> = measured.collect();
-        let grows = |[low, high, rho]: &[f64; 3]| *high > 2.0 * low && *rho > TREND;
-        let text = |figure: usize| {
-            let of = |k: usize| span(measured.iter().map(|all| all[figure][k]), 2);
-            format!(
-                "{} then {} on the mean (rank correlation {})",
-                of(0),
-                of(1),
-                of(2)
-            )
-        };
-        let finding = Finding::robust(&measured, |figures| figures.iter().all(grows));
-        Ok(finding
-            .values("size number", [0, 1].map(text))
-            .values("angle trend", [LARGE, TREND]))
+        let number = told(sweeps, |run| run.large_swings.len() as f64);
+        Ok(number.value("angle", LARGE).by_start("rates", rates))
     }),
     ("6.4.3-12", |sweeps| {
         let found = sweeps
@@ -66,6 +48,33 @@ pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
             .list("last", changes.iter().map(|all| 100.0 * all[2])))
     }),
 ];
+
+/// A figure of the swings: its mean and deviation in both halves of the amplitudes, and its rank
+/// correlation with these.
+type Growth = ([(f64, f64); 2], f64);
+
+/// Whether a figure is constant under weak forces, and grows to more than twice under strong ones.
+fn constant_then_grows(([low, high], rho): &Growth) -> bool {
+    is_constant(*low) && high.0 > 2.0 * low.0 && *rho > TREND
+}
+
+/// Of a figure of the swings under weak forces and under strong ones.
+fn told(sweeps: &Sweeps, figure: fn(&Swept) -> f64) -> Finding {
+    let of = |sweep: &Sweep| {
+        let rho = spearman(&over_force(below_critical(sweep), figure));
+        (halves(sweep, figure), rho)
+    };
+    let measured: Vec<Growth> = sweeps.short.iter().map(of).collect();
+    let half = |k: usize| {
+        let (means, deviations): (Vec<f64>, Vec<f64>) =
+            measured.iter().map(|growth| growth.0[k]).unzip();
+        format!("{} ± {}", span(means, 2), span(deviations, 2))
+    };
+    Finding::robust(&measured, constant_then_grows)
+        .values("low high", [half(0), half(1)])
+        .list("rho", measured.iter().map(|growth| growth.1))
+        .values("constant trend", [100.0 * CONSTANT, TREND])
+}
 
 /// A rank correlation that one sees as a trend.
 const TREND: f64 = 0.5;
@@ -128,6 +137,16 @@ mod tests {
         assert!((given(-0.66, 0.0, 0.0) + 0.66).abs() < 1e-12);
         assert_eq!(given(0.5, 1.0, 0.5), 0.0);
         assert!(!is_associated(&[[-0.66, -0.08]; 4]) && is_associated(&[[-0.66, -0.5]; 4]));
+    }
+
+    #[test]
+    fn what_grows_from_the_first_on_is_not_constant_at_first() {
+        let growth = |deviation, high| ([(0.6, deviation), (high, 0.5)], 0.9);
+        assert!(constant_then_grows(&growth(0.02, 1.6)));
+        assert!(!constant_then_grows(&growth(0.1, 1.6)));
+        assert!(!constant_then_grows(&growth(0.02, 0.7)));
+        // None at first, some later.
+        assert!(constant_then_grows(&([(0.0, 0.0), (0.5, 0.9)], 0.6)));
     }
 
     #[test]

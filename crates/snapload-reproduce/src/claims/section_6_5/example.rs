@@ -21,6 +21,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         let height = |of: &Rocking| of.largest_late(|now| now.state.y);
         let heights = of.strong.iter().map(height);
         Ok(Finding::measured("heights", heights, |y| y < LOW)
+            .value("low", LOW)
             .found("all_go_on", of.strong.iter().all(Rocking::goes_on)))
     }),
     ("6.5.2.2-14", |of| {
@@ -33,6 +34,7 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         Ok(Finding::robust(&all, |left| *left < DYING)
             .list("weak", weak)
             .list("strong", strong)
+            .value("dying", DYING)
             .found("lasting", all.iter().all(|left| *left > LASTING)))
     }),
 ];
@@ -61,6 +63,11 @@ fn from_rocking(run: &Trajectory) -> &[ModeInterval] {
 /// Whether a run rocks from its first rocking to the end of its time.
 pub(super) fn rocks_on(run: &Trajectory) -> bool {
     from_rocking(run).len() == 1 && run.end().reason == Stop::EndTime
+}
+
+/// Whether a run comes out of its first rocking.
+pub(super) fn leaves_rocking(run: &Trajectory) -> bool {
+    from_rocking(run).len() > 1
 }
 
 impl Rocking {

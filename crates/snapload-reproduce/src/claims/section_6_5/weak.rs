@@ -2,10 +2,12 @@
 
 use super::Material;
 use super::example::{LOW, Rocking};
+use crate::ReportError;
 use crate::claims::motions::CLEAR;
 use crate::claims::numbers::{max, mean, min, spearman};
+use crate::claims::runs::case;
 use crate::claims::verdict::{Finding, Judged, Judges};
-use snapload::{Motion, State, System};
+use snapload::{Impact, Motion, State, System};
 
 pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-05", |of| {
@@ -18,7 +20,8 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
         };
         Ok(Finding::robust(&of.weak, |of| of.goes_on() && low(of))
             .list("from", of.weak.iter().map(|of| of.start))
-            .by_start("widest", of.weak.iter().map(widest)))
+            .by_start("widest", of.weak.iter().map(widest))
+            .value("low", LOW))
     }),
     ("6.5.2.2-06", |of| {
         let on = of.weak.iter().filter(|of| of.goes_on()).count();
@@ -30,16 +33,16 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
     ("6.5.2.2-07", |of| {
         /// A wait that one calls none.
         const AT_ONCE: f64 = 0.01;
-        let sticks = |of: &Rocking| {
-            let first = of.run.modes().iter().find(|mode| !mode.taut.is_empty());
-            first.map_or(f64::NAN, |mode| mode.t_start)
-        };
         let waits: Vec<f64> = of.weak.iter().map(|of| of.start - sticks(of)).collect();
         Ok(Finding::robust(&waits, |wait| *wait < AT_ONCE)
             .list("sticks", of.weak.iter().map(sticks))
             .values(
-                "least most",
-                [min(waits.iter().copied()), max(waits.iter().copied())],
+                "least most at_once",
+                [
+                    min(waits.iter().copied()),
+                    max(waits.iter().copied()),
+                    AT_ONCE,
+                ],
             ))
     }),
     ("6.5.2.2-08", |of| {
@@ -56,21 +59,23 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             .found("weight_counts", forces.iter().all(|of| ratio(of) >= 1.0)))
     }),
     ("6.5.2.2-09", |of| {
-        let impacts = above_arc(&of.weak[0]);
-        let clear = impacts.iter().filter(|impact| impact.clear);
-        let lowest = min(impacts.iter().map(|impact| impact.height));
-        let lowest_clear = min(clear.clone().map(|impact| impact.height));
-        Ok(Finding::of(lowest >= -1e-9 && lowest_clear > 0.0)
-            .values("impacts clear", [impacts.len(), clear.count()])
-            .values("lowest lowest_clear", [lowest, lowest_clear]))
+        let members = bouncing(of)?;
+        let lowest = |of: &[Above]| min(of.iter().map(|impact| impact.height));
+        let lowest_clear = |of: &Vec<Above>| lowest(&clear(of));
+        let above = |of: &Vec<Above>| lowest(of) >= -ROUNDING && lowest_clear(of) > 0.0;
+        let below = max(members.iter().map(|of| -lowest(of)));
+        Ok(Finding::robust(&members, above)
+            .list("impacts", members.iter().map(|of| of.len() as f64))
+            .list("clear", members.iter().map(|of| clear(of).len() as f64))
+            .list("lowest_clear", members.iter().map(lowest_clear))
+            .values("below plain", [below.max(0.0), CLEAR]))
     }),
     ("6.5.2.2-10", |of| {
-        let impacts = above_arc(&of.weak[0])
-            .into_iter()
-            .filter(|impact| impact.clear);
-        let points: Vec<(f64, f64)> = impacts.map(|hit| (hit.height, hit.turned)).collect();
-        let (rho, lowest) = (spearman(&points), min(points.iter().map(|p| p.0)));
-        Ok(Finding::of(rho > 0.5 && lowest > 0.0).value("rho", rho))
+        /// A rank correlation from which on the one goes with the other.
+        const GOES_WITH: f64 = 0.5;
+        let rho = bouncing(of)?.into_iter().map(|of| turned_away(&clear(&of)));
+        let finding = Finding::measured("rho", rho, |rho| rho > GOES_WITH);
+        Ok(finding.values("goes_with plain", [GOES_WITH, CLEAR]))
     }),
     ("6.5.2.2-11", |of| {
         /// The largest miss of a circle, in parts of its radius.
@@ -81,7 +86,10 @@ pub(super) const JUDGES: &Judges<fn(&Material) -> Judged> = &[
             (fit_circle(system, widest), fit_circle(system, wide));
         Ok(Finding::of(miss < ROUND)
             .values("widest radius wide", [widest, radius, wide])
-            .values("miss miss_wide", [100.0 * miss, 100.0 * miss_wide]))
+            .values(
+                "miss miss_wide round",
+                [miss, miss_wide, ROUND].map(|part| 100.0 * part),
+            ))
     }),
 ];
 
@@ -90,7 +98,14 @@ fn largest(of: &Rocking, figure: impl Fn(&Motion) -> f64) -> f64 {
     max(of.motion.iter().map(figure))
 }
 
+/// When the first cable sticks.
+fn sticks(of: &Rocking) -> f64 {
+    let first = of.run.modes().iter().find(|mode| !mode.taut.is_empty());
+    first.map_or(f64::NAN, |mode| mode.t_start)
+}
+
 /// An impact as seen from the arc on which the body rocks.
+#[derive(Clone, Copy)]
 struct Above {
     clear: bool,
     /// Height of the centre above the arc at the same x.
@@ -99,11 +114,25 @@ struct Above {
     turned: f64,
 }
 
-/// The impacts before rocking.
-fn above_arc(of: &Rocking) -> Vec<Above> {
-    let before = of.run.impacts().iter().filter(|hit| hit.t < of.start);
-    let above = before.map(|hit| {
-        let arc = on_arc(of.run.system(), 0, hit.before.x);
+/// Heights of which rounding decides whether they are above or below.
+const ROUNDING: f64 = 1e-9;
+
+/// The impacts of the bouncing, until the first cable sticks: those of the motion in many digits, then
+/// of its neighbours.
+fn bouncing(of: &Material) -> Result<Vec<Vec<Above>>, ReportError> {
+    let own = &case(of.study, "1910001000-159")?.exact;
+    let mut members = vec![above_arc(own.system(), own.impacts().iter())];
+    for neighbour in &of.weak[1..] {
+        let until = sticks(neighbour);
+        let hits = neighbour.run.impacts().iter().filter(|hit| hit.t < until);
+        members.push(above_arc(neighbour.run.system(), hits));
+    }
+    Ok(members)
+}
+
+fn above_arc<'a>(system: &System, hits: impl Iterator<Item = &'a Impact>) -> Vec<Above> {
+    let above = hits.map(|hit| {
+        let arc = on_arc(system, 0, hit.before.x);
         Above {
             clear: hit.v_n > CLEAR,
             height: hit.before.y - arc.y,
@@ -111,6 +140,21 @@ fn above_arc(of: &Rocking) -> Vec<Above> {
         }
     });
     above.collect()
+}
+
+/// Those that a plot shows.
+fn clear(impacts: &[Above]) -> Vec<Above> {
+    impacts
+        .iter()
+        .filter(|impact| impact.clear)
+        .copied()
+        .collect()
+}
+
+/// Rank correlation of the height above the arc and the rotation away from that on it.
+fn turned_away(impacts: &[Above]) -> f64 {
+    let points = impacts.iter().map(|hit| (hit.height, hit.turned));
+    spearman(&points.collect::<Vec<_>>())
 }
 
 /// The place at which both cables are straight, for a given x (0) or θ (2): Newton's iteration in
@@ -210,5 +254,18 @@ mod tests {
         assert!(with(0.1, 0.5).horizontal_controls());
         assert!(with(0.1, 2.1).wave_is_horizontal() && !with(0.1, 2.1).horizontal_controls());
         assert!(!with(0.3, 0.5).wave_is_horizontal());
+    }
+
+    #[test]
+    fn what_turns_less_the_higher_it_is_does_not_turn_away() {
+        let with = |turned: [f64; 3]| {
+            let impact = |k: usize| Above {
+                clear: true,
+                height: k as f64,
+                turned: turned[k],
+            };
+            turned_away(&[0, 1, 2].map(impact))
+        };
+        assert!(with([0.1, 0.2, 0.3]) > 0.5 && with([0.3, 0.2, 0.1]) < 0.0);
     }
 }

@@ -3,10 +3,27 @@
 use crate::claims::motions::{CLEAR, attachment_speed, places};
 use crate::claims::numbers::{max, min};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
+use crate::story::slides;
 use snapload::{Impact, ModeInterval, Motion, Playback, TautSet, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
-    ("6.5.1.2-05", three_ways),
+    ("6.5.1.2-05", |of| {
+        let ways = |s: &Story| [s.goes(1.0), s.goes(-1.0)];
+        let count = |way: usize| of.stories.iter().filter(|s| ways(s)[way]).count();
+        Ok(of
+            .robust(|s| ways(s) == [true; 2])
+            .values("members up down", [of.members, count(0), count(1)]))
+    }),
+    ("6.5.1.2-18", |of| {
+        /// Speed of a resting connection point, in parts of the centre's.
+        const TURNS: f64 = 0.5;
+        let least = || of.stories.iter().map(Story::least_turning);
+        Ok(of
+            .robust(|s| s.least_turning() < TURNS)
+            .list("least", least())
+            .values("turns shortest", [TURNS, SHORTEST])
+            .found("never_turns", least().all(|least| least >= TURNS)))
+    }),
     ("6.5.1.2-06", |of| {
         Ok(of
             .robust(on_the_left)
@@ -41,27 +58,41 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             .found("never", going_on == 0))
     }),
     ("6.5.1.2-10", |of| {
-        let clear = |s: &Story| s.hits.iter().filter(|hit| hit.v_n > CLEAR).count();
-        let all = |s: &Story| s.hits.len() as f64;
-        Ok(of
-            .robust(|s| is_many(clear(s)))
-            .list("hits", of.stories.iter().map(all))
-            .list("clear", of.stories.iter().map(|s| clear(s) as f64))
+        // What is proved of the example itself, then what its neighbours do.
+        let proved = slides(CASE)
+            .into_iter()
+            .filter_map(|(_, v_n)| v_n)
+            .collect();
+        let neighbours = of.stories.iter().skip(1);
+        let hits = neighbours.map(|s| s.hits.iter().map(|hit| hit.v_n).collect());
+        let members: Vec<Vec<f64>> = std::iter::once(proved).chain(hits).collect();
+        let clear = |hits: &Vec<f64>| hits.iter().filter(|v_n| **v_n > CLEAR).count();
+        Ok(Finding::robust(&members, |hits| is_many(clear(hits)))
+            .values(
+                "proved proved_clear",
+                [members[0].len(), clear(&members[0])],
+            )
+            .list("hits", members.iter().map(|hits| hits.len() as f64))
+            .list("clear", members.iter().map(|hits| clear(hits) as f64))
             .value("above", CLEAR)
             .value("many", MANY_HITS)
-            .found(
-                "small_ones",
-                of.stories.iter().all(|s| is_many(s.hits.len())),
-            ))
+            .found("small_ones", members.iter().all(|hits| is_many(hits.len()))))
     }),
     ("6.5.1.2-11", |of| {
-        let turning = |s: &Story| s.slides.iter().filter(|slide| turns_back(slide)).count();
+        let turning = |s: &Story| s.seen().filter(|slide| turns_back(slide)).count();
         let moves: Vec<[f64; 2]> = of.stories.iter().filter_map(Story::rise_and_fall).collect();
         let none = of.stories.iter().all(|s| turning(s) == 0);
         Ok(of
             .robust(|s| turning(s) > 0)
             .list("turning", of.stories.iter().map(|s| turning(s) as f64))
-            .list("slides", of.stories.iter().map(|s| s.slides.len() as f64))
+            .list("slides", of.stories.iter().map(|s| s.seen().count() as f64))
+            .value(
+                "proved",
+                slides(CASE)
+                    .iter()
+                    .filter(|(lasts, _)| *lasts > SHORTEST)
+                    .count(),
+            )
             .list("up", moves.iter().map(|m| m[0]))
             .list("down", moves.iter().map(|m| m[1]))
             .value("shortest", SHORTEST)
@@ -72,23 +103,27 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
             let end = s.run.at(s.first.t_end.next_down()).state.y;
             end - s.start.state.y
         };
-        let both = |s: &Story| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
+        let lasts = |s: &Story| s.first.t_end - s.first.t_start;
         Ok(of
-            .robust(|s| rise(s) < 0.0 && both(s))
+            .robust(|s| rise(s) < 0.0)
             .list("rise", of.stories.iter().map(rise))
-            .list(
-                "lasts",
-                of.stories.iter().map(|s| s.first.t_end - s.first.t_start),
-            ))
+            .list("lasts", of.stories.iter().map(lasts)))
+    }),
+    ("6.5.1.2-19", |of| {
+        let at_its_end = |s: &Story| s.hits.first().is_some_and(|hit| hit.t == s.first.t_end);
+        Ok(of
+            .robust(at_its_end)
+            .list("ends", of.stories.iter().map(|s| s.first.t_end)))
     }),
     ("6.5.1.2-12", |of| {
         let places = || of.stories.iter().map(|s| s.start.state.x);
-        let slides = of.stories.iter().flat_map(Story::sliding);
+        let sliding = of.stories.iter().flat_map(Story::sliding);
         let on_left = of.robust(on_the_left).verdict == Verdict::Reproduced;
         Ok(of
             .robust(|s| s.start.state.x < 0.0 && s.sliding().any(|m| m.state.x > 0.0))
             .list("start", places())
-            .list("all", slides.map(|now| now.state.x))
+            .list("all", sliding.map(|now| now.state.x))
+            .value("shortest", SHORTEST)
             .list("theta", of.stories.iter().map(|s| s.start.state.theta))
             .found("on_the_right", on_left && places().all(|x| x > 0.0)))
     }),
@@ -107,10 +142,15 @@ pub(super) const JUDGES: &Judges<fn(&Example) -> Judged> = &[
         let kinetic = |s: &Story| s.rocks.map(|(now, _)| now.energy - now.state.y);
         let moves = |s: &Story| s.rocks_after_slide() && kinetic(s) > Some(MOVING);
         let energies = of.stories.iter().filter_map(kinetic);
-        Ok(of.robust(moves).list("kinetic", energies))
+        Ok(of
+            .robust(moves)
+            .list("kinetic", energies)
+            .value("moving", MOVING))
     }),
 ];
 
+/// The built-in case.
+const CASE: &str = "sliding-example";
 /// Cable 2, the left one, of g2.
 const LEFT: usize = 1;
 /// A slide shorter than this moves nothing that one could see; it is passed over.
@@ -151,6 +191,12 @@ impl<'a> Example<'a> {
     }
 }
 
+/// A slide: how long it lasts, and its motion at many times.
+struct Slide {
+    lasts: f64,
+    motion: Vec<Motion>,
+}
+
 /// What happens in one run, in the chapter's order of events.
 struct Story<'a> {
     run: &'a Trajectory,
@@ -158,8 +204,8 @@ struct Story<'a> {
     first: ModeInterval,
     /// Where it starts.
     start: Motion,
-    /// Its motion at many times of each slide.
-    slides: Vec<Vec<Motion>>,
+    /// Its slides.
+    slides: Vec<Slide>,
     /// The hits of cable 1 while it slides on cable 2.
     hits: Vec<Impact>,
     /// The first rocking after a slide, and whether that came just before.
@@ -178,15 +224,15 @@ impl<'a> Story<'a> {
         let rocking = pairs.find(|pair| pair[1].taut.len() > 1);
         let rocking = rocking.map(|pair| (pair[1].t_start, slid(&pair[0])));
         let end = rocking.map_or(run.end().t, |(t, _)| t);
-        let long = |mode: &ModeInterval| mode.t_end - mode.t_start > SHORTEST;
-        let seen = |mode: &&ModeInterval| slid(mode) && long(mode) && mode.t_start < end;
-        let slides = modes.iter().filter(seen);
+        let slides = modes.iter().filter(|mode| slid(mode) && mode.t_start < end);
         let slides = slides.map(|mode| {
+            let lasts = mode.t_end - mode.t_start;
             let part = |k: usize| (k as f64 + 0.5) / TIMES as f64;
-            let times = (0..TIMES).map(|k| mode.t_start + part(k) * (mode.t_end - mode.t_start));
-            times.map(|t| playback.at(t)).collect()
+            let times = (0..TIMES).map(|k| mode.t_start + part(k) * lasts);
+            let motion = times.map(|t| playback.at(t)).collect();
+            Slide { lasts, motion }
         });
-        let slides: Vec<Vec<Motion>> = slides.collect();
+        let slides: Vec<Slide> = slides.collect();
         let on_left = |t: f64| {
             let mut on_left = modes.iter().filter(|mode| mode.taut == TautSet::only(LEFT));
             on_left.any(|mode| mode.t_start < t && t <= mode.t_end)
@@ -218,9 +264,21 @@ impl<'a> Story<'a> {
         min(self.sliding().filter_map(ratio))
     }
 
-    /// All times of all slides.
+    /// Its slides that one could see.
+    fn seen(&self) -> impl Iterator<Item = &[Motion]> {
+        let long = self.slides.iter().filter(|slide| slide.lasts > SHORTEST);
+        long.map(|slide| slide.motion.as_slice())
+    }
+
+    /// All times of these.
     fn sliding(&self) -> impl Iterator<Item = &Motion> {
-        self.slides.iter().flatten()
+        self.seen().flatten()
+    }
+
+    /// Whether it goes up (1) or down (-1) in a slide, however short.
+    fn goes(&self, sign: f64) -> bool {
+        let mut motion = self.slides.iter().flat_map(|slide| &slide.motion);
+        motion.any(|now| sign * now.state.vy > 0.0)
     }
 
     fn rocks_after_slide(&self) -> bool {
@@ -259,20 +317,6 @@ impl<'a> Story<'a> {
 
 fn on_the_left(story: &Story) -> bool {
     story.first.taut == TautSet::only(LEFT)
-}
-
-fn three_ways(of: &Example) -> Judged {
-    /// Speed of a resting connection point, in parts of the centre's.
-    const TURNS: f64 = 0.5;
-    let goes = |s: &Story, sign| s.sliding().any(|now| sign * now.state.vy > 0.0);
-    let ways = |s: &Story| [goes(s, 1.0), goes(s, -1.0), s.least_turning() < TURNS];
-    let found: Vec<[bool; 3]> = of.stories.iter().map(ways).collect();
-    let [up, down, turning] = [0, 1, 2].map(|way| found.iter().filter(|all| all[way]).count());
-    Ok(of
-        .robust(|s| ways(s) == [true; 3])
-        .values("members up down turning", [of.members, up, down, turning])
-        .list("least", of.stories.iter().map(Story::least_turning))
-        .found("never_turns", turning == 0))
 }
 
 #[cfg(test)]
