@@ -89,15 +89,16 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     if !is_proved && !args.partial {
         return Err(Failure::Failed(words));
     }
-    // The certificate itself first: it is one file, put in its place whole.
-    let written = out.write(stage, &proof)?;
-    let printed = json.write(Stage::default(), &proof)?;
-    if let (Some(files), Some(more)) = (written, printed) {
+    // Both files appear whole, and together.
+    out.stage(&mut stage, &proof)?;
+    json.stage(&mut stage, &proof)?;
+    let files = stage.commit()?;
+    if !(out.print(&proof)? | json.print(&proof)?) {
         let mut text = words + "\n";
         if proof.end == Ended::Proved(Reason::Sticks) {
             text += "The motion goes on with a taut cable; --taut proves that, too\n";
         }
-        for path in files.iter().chain(&more) {
+        for path in &files {
             let _ = writeln!(text, "Written   {}", path.display());
         }
         print(&text)?;

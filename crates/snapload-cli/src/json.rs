@@ -39,12 +39,25 @@ impl Json {
         mut stage: Stage,
         value: &impl Serialize,
     ) -> Result<Option<Vec<PathBuf>>, Failure> {
-        if let Self::File(room, path) = &self {
-            stage.write(*room, path.clone(), |out| write_json(value, out))?;
-        }
+        self.stage(&mut stage, value)?;
         let written = stage.commit()?;
+        Ok((!self.print(value)?).then_some(written))
+    }
+
+    /// Stages the value where it is to become a file.
+    pub(crate) fn stage(&self, stage: &mut Stage, value: &impl Serialize) -> Result<(), Failure> {
+        match self {
+            Self::File(room, path) => {
+                stage.write(*room, path.clone(), |out| write_json(value, out))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Prints the value if standard output belongs to it, and says whether it does.
+    pub(crate) fn print(&self, value: &impl Serialize) -> Result<bool, Failure> {
         if !matches!(self, Self::Stdout) {
-            return Ok(Some(written));
+            return Ok(false);
         }
         let write = |out: StdoutLock| {
             let mut out = BufWriter::new(out);
@@ -53,7 +66,7 @@ impl Json {
         standard_output()
             .and_then(write)
             .map_err(|error| Failure::write("standard output", &error))?;
-        Ok(None)
+        Ok(true)
     }
 }
 

@@ -154,3 +154,23 @@ fn a_proof_that_ends_at_a_stick_names_the_option_that_goes_on() {
     let settled = told(&["certify", "--set", "e=0.5"]);
     assert!(settled.contains("settled at t = ") && !settled.contains("--taut"));
 }
+
+/// A certificate goes into a file that `--json` names, alone or beside that of `--out`.
+#[test]
+fn a_certificate_is_written_into_every_file_that_is_named() {
+    let d = directory();
+    let proved = |more: &[&str]| {
+        let args = [&["certify", "--set", "e=0.5"], more].concat();
+        let out = snapload(d.path()).args(args).assert().success();
+        String::from_utf8(out.get_output().stdout.clone()).unwrap()
+    };
+    let said = proved(&["--json", "one.json"]);
+    assert!(said.ends_with("Written   one.json\n"), "{said}");
+    let said = proved(&["--json", "two.json", "--out", "run.cert"]);
+    let both = "Written   run.cert\nWritten   two.json\n";
+    assert!(said.ends_with(both), "{said}");
+    let read = |name: &str| fs::read_to_string(d.path().join(name)).unwrap();
+    assert_eq!(read("one.json"), read("two.json"));
+    assert_eq!(read("one.json"), read("run.cert"));
+    assert_eq!(listing(d.path()), ["one.json", "run.cert", "two.json"]);
+}
