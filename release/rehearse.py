@@ -95,6 +95,9 @@ def crates() -> Iterator[str]:
         for key in ("description", "license", "keywords", "categories", "readme"):
             if not crate[key]:
                 yield f"{crate['name']}: its Cargo.toml has no {key}"
+        for text in ("LICENSE-MIT", "LICENSE-APACHE"):
+            if not (Path(crate["manifest_path"]).parent / text).exists():
+                yield f"{crate['name']}: {text} is not in its folder, so that its package would lack it"
         if len(crate["keywords"]) > 5:
             yield f"{crate['name']}: more than five keywords"
 
