@@ -21,6 +21,7 @@ from ._case import Case, cases
 from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
+from ._hydro import Hydro
 from ._neighbours import Ensemble, Share, ensemble
 from ._parts import Body, Cable, Forcing, Sinusoid
 from ._reproduce import reproduce
@@ -42,6 +43,7 @@ __all__ = [
     "End",
     "Ensemble",
     "Forcing",
+    "Hydro",
     "Norms",
     "Outcome",
     "Run",

@@ -6,6 +6,7 @@ mod certify;
 mod command;
 mod critical;
 mod errors;
+mod hydro;
 mod interrupt;
 mod pool;
 mod run;
@@ -29,6 +30,8 @@ mod _engine {
     use super::command::{command, reproduce};
     #[pymodule_export]
     use super::critical::{critical_force, critical_force_over, probability};
+    #[pymodule_export]
+    use super::hydro::hydro;
     #[pymodule_export]
     use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
     #[pymodule_export]

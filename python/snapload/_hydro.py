@@ -1,0 +1,311 @@
+"""Hydrodynamic coefficients of floating bodies."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._later import Later
+
+if TYPE_CHECKING:
+    import xarray
+else:
+    xarray = Later("xarray")
+
+_DOFS = ["Surge", "Heave", "Pitch"]
+# A variable of a dataset: name, dimensions, lengths, values.
+_Variable = tuple[str, list[str], list[int], list[float] | list[str]]
+
+
+class Asked(TypedDict, total=False):
+    """What may be asked beside the coefficients; see :meth:`Hydro.from_file`."""
+
+    mass: float | None
+    centre: tuple[float, float] | None
+    inertia: float | None
+    damping: tuple[float, float, float] | None
+    force: tuple[float, float, float] | None
+    lines: Sequence[tuple[float, float, float, float, float]]
+    pairs: int | None
+    body: str | None
+    density: float | None
+    gravity: float | None
+    depth: float | None
+    reference: tuple[float, float] | None
+    displaced_mass: float | None
+    file_centre: tuple[float, float] | None
+    unit_length: float | None
+    first_column: Literal["period", "frequency", "wavenumber"]
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Hydro:
+    """What the water does to a floating body, and what follows without a simulation.
+
+    Made by :meth:`from_file` or :meth:`from_dataset`. All quantities are in kg, m, N, s and rad; pitch is positive
+    from z to x; time goes as exp(-iωt).
+
+    Attributes
+    ----------
+    natural : list of dict
+        Natural motions without lines: ``freedom``, ``period_s`` by the file, ``damped_period_s`` and
+        ``damping_ratio`` by the memory.
+    rest : dict or None
+        The place of rest on lines, with tensions and small motion about it.
+    quality : dict
+        What the memory is off by: ``blocks``, ``entries``, ``least_eigenvalue``, ``states``.
+    warnings : list of str
+        What to know of file, memory and answers.
+    answer : dict
+        All of it, as ``snapload hydro --json`` writes it.
+
+    See Also
+    --------
+    Hydro.from_file : Reads the file of a panel code.
+    Hydro.from_dataset : Takes a dataset of Capytaine.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> pontoon = snapload.Hydro.from_file("docs/examples/pontoon.nc")  # doctest: +SKIP
+    >>> pontoon.natural[1]["freedom"], round(pontoon.natural[1]["period_s"], 3)  # doctest: +SKIP
+    ('heave', 3.254)
+    """
+
+    natural: list[dict[str, Any]]
+    rest: dict[str, Any] | None
+    quality: dict[str, Any]
+    warnings: list[str]
+    answer: dict[str, Any]
+    _summary: list[tuple[str, str]]
+
+    @classmethod
+    def from_file(cls, path: str | PathLike[str], **asked: Unpack[Asked]) -> Hydro:
+        """
+        Read the file of a panel code, fit the memory and answer.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            Capytaine's ``.nc``; one of WAMIT's ``.1``, ``.3`` and ``.hst`` with the others beside it; Nemoh's folder.
+        **asked
+            What may be asked beside the coefficients, all by default the file's or nothing:
+
+            - ``mass``, ``centre`` (x, z), ``inertia``: the body's, its inertia about the centre of gravity;
+            - ``damping``: linear damping of surge, heave and pitch beside that of waves;
+            - ``force``: a constant force beside weight and buoyancy;
+            - ``lines``: each (anchor x, anchor z, fairlead x, fairlead z, length), fairleads from the reference point;
+            - ``pairs``: pairs of poles of the memory, else as many as are needed for 1 %;
+            - ``body``: which, where there are several;
+            - ``density``, ``gravity``, ``depth``, ``reference``, ``displaced_mass``, ``file_centre``,
+              ``unit_length``, ``first_column``: what the file does not say, as ``snapload hydro --help`` has it;
+              where it does, both have to agree.
+
+        Returns
+        -------
+        Hydro
+            The coefficients with all that follows from them.
+
+        Raises
+        ------
+        ValueError
+            If something is missing, breaks a convention or is no number; the words say which.
+        OSError
+            If there is no such file.
+
+        See Also
+        --------
+        Hydro.from_dataset : The same of a dataset that Capytaine has just computed.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Hydro.from_file("docs/examples/pontoon.nc", mass=80_000).quality["states"]  # doctest: +SKIP
+        48
+        """
+        name = fspath(path)
+        Path(name).stat()
+        return cls._of(name, None, asked)
+
+    @classmethod
+    def from_dataset(cls, dataset: xarray.Dataset, **asked: Unpack[Asked]) -> Hydro:
+        """
+        Take a dataset of Capytaine as it is, fit the memory and answer.
+
+        Parameters
+        ----------
+        dataset : xarray.Dataset
+            What ``assemble_dataset`` or ``fill_dataset`` returned, complex, or with complex values apart.
+        **asked
+            As for :meth:`Hydro.from_file`.
+
+        Returns
+        -------
+        Hydro
+            The coefficients with all that follows from them.
+
+        Raises
+        ------
+        ValueError
+            If something is missing, breaks a convention or is no number; the words say which.
+
+        See Also
+        --------
+        Hydro.from_file : The same of a file.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> import xarray
+        >>> with xarray.open_dataset("docs/examples/pontoon.nc") as dataset:  # doctest: +SKIP
+        ...     snapload.Hydro.from_dataset(dataset).quality["states"]
+        48
+        """
+        return cls._of("dataset", _variables(dataset), asked)
+
+    @classmethod
+    def _of(cls, name: str, variables: list[_Variable] | None, asked: Asked) -> Hydro:
+        given = {key: value for key, value in asked.items() if value is not None}
+        text, summary = _engine.hydro(name, variables, json.dumps(given))
+        answer = json.loads(text)
+        floating = answer["floating"] or {}
+        return cls(
+            natural=floating.get("natural", []),
+            rest=floating.get("rest"),
+            quality=answer["quality"],
+            warnings=[f"{warning['what']}: {warning['words']}" for warning in answer["warnings"]],
+            answer=answer,
+            _summary=summary,
+        )
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """
+        Coefficients, response and memory as xarray, with units.
+
+        ``added_mass``, ``radiation_damping`` and ``excitation_force`` over ``omega``; ``response`` and
+        ``response_of_the_memory`` per metre of wave; the memory as ``pole`` and ``residue``, with the
+        ``added_mass_inf`` that belongs to it.
+
+        See Also
+        --------
+        Hydro.kernel : The memory over time.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> pontoon = snapload.Hydro.from_file("docs/examples/pontoon.nc")  # doctest: +SKIP
+        >>> pontoon.dataset["added_mass"].sel(influenced_dof="Heave", radiating_dof="Heave")  # doctest: +SKIP
+        """
+        return _dataset(self.answer)
+
+    def kernel(self, t: ArrayLike) -> NDArray[np.float64]:
+        """
+        Evaluate the memory K(t) = Re Σ R exp(pt).
+
+        Parameters
+        ----------
+        t : array_like
+            Times [s], from 0 on.
+
+        Returns
+        -------
+        numpy.ndarray
+            K, of shape ``(*t.shape, 3, 3)``.
+
+        See Also
+        --------
+        Hydro.dataset : Its poles and residues.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> pontoon = snapload.Hydro.from_file("docs/examples/pontoon.nc")  # doctest: +SKIP
+        >>> pontoon.kernel(0.0)[1, 1] > 0  # doctest: +SKIP
+        np.True_
+        """
+        times = np.asarray(t, dtype=float)
+        poles = _complex([term["pole"] for term in self.answer["memory"]])
+        residues = _complex([term["residue"] for term in self.answer["memory"]])
+        kernel = np.tensordot(np.exp(np.multiply.outer(times, poles)), residues, axes=1)
+        return np.asarray(kernel.real, dtype=float)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{label:<10}{words}" for label, words in self._summary)
+
+    def _repr_html_(self) -> str:
+        rows = (f"<tr><td>{escape(label)}</td><td>{escape(words)}</td></tr>" for label, words in self._summary)
+        return f"<table><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _variables(dataset: xarray.Dataset) -> list[_Variable]:
+    """Every variable of a dataset, complex ones with a dimension of their own."""
+    variables: list[_Variable] = []
+    for name, variable in dataset.variables.items():
+        values, dims = np.asarray(variable.values), [str(dim) for dim in variable.dims]
+        if values.dtype.kind in "OUS":
+            held: list[float] | list[str] = [str(word) for word in values.ravel()]
+        elif values.dtype.kind == "c":
+            values, dims = np.stack([values.real, values.imag]), ["complex", *dims]
+            held = values.ravel().tolist()
+        elif values.dtype.kind in "fiub":
+            held = values.astype(float).ravel().tolist()
+        else:
+            continue
+        variables.append((str(name), dims, list(values.shape), held))
+    if not any(name == "complex" for name, *_ in variables):
+        variables.append(("complex", ["complex"], [2], ["re", "im"]))
+    return variables
+
+
+def _complex(pairs: object) -> NDArray[np.complex128]:
+    parts = np.asarray(pairs, dtype=float)
+    return parts[..., 0] + 1j * parts[..., 1]
+
+
+def _dataset(answer: dict[str, Any]) -> xarray.Dataset:
+    """The answers as a dataset, with Capytaine's names."""
+    matrix = ("influenced_dof", "radiating_dof")
+    wave = ("wave_direction", "omega", "influenced_dof")
+    excitation = answer["excitation"]
+    # A row or a column of pitch takes a length along.
+    mass, damping, force, motion = (
+        {"units": units, "units_of_pitch": pitch}
+        for units, pitch in [("kg", "kg m, kg m2"), ("N s m-1", "N s, N m s"), ("N m-1", "N"), ("m m-1", "rad m-1")]
+    )
+    stiffness = {"units": "N m-1", "units_of_pitch": "N, N m"}
+    poles = _complex([term["pole"] for term in answer["memory"]])
+    residues = _complex([term["residue"] for term in answer["memory"]])
+    variables: dict[str, Any] = {
+        "added_mass": (("omega", *matrix), answer["added_mass"], mass),
+        "radiation_damping": (("omega", *matrix), answer["radiation_damping"], damping),
+        "excitation_force": (wave, _complex([each["force"] for each in excitation]), force),
+        "added_mass_inf": (matrix, answer["added_mass_inf"], mass),
+        "pole": ("memory", poles, {"units": "s-1"}),
+        "residue": (("memory", *matrix), residues, stiffness),
+    }
+    if answer["floating"]:
+        responses = answer["floating"]["responses"]
+        for name, key in [("response", "of_the_file"), ("response_of_the_memory", "of_the_memory")]:
+            variables[name] = (wave, _complex([each[key] for each in responses]), motion)
+    coordinates = {
+        "omega": ("omega", answer["omega_rad_s"], {"units": "rad s-1"}),
+        "influenced_dof": _DOFS,
+        "radiating_dof": _DOFS,
+        "wave_direction": (
+            "wave_direction",
+            [0.0 if each["direction"] > 0 else np.pi for each in excitation],
+            {"units": "rad"},
+        ),
+    }
+    return xarray.Dataset(variables, coords=coordinates)

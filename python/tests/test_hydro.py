@@ -1,0 +1,74 @@
+"""Coefficients of floating bodies: as xarray in and out, the same as the command's."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import snapload
+import xarray
+from snapload import _engine
+
+PONTOON = Path(__file__).parents[2] / "docs" / "examples" / "pontoon.nc"
+
+
+def test_file_and_dataset_are_the_same_body() -> None:
+    of_file = snapload.Hydro.from_file(PONTOON, pairs=4)
+    with xarray.open_dataset(PONTOON) as apart:
+        of_dataset = snapload.Hydro.from_dataset(apart, pairs=4)
+        # As Capytaine has it before it is written: complex numbers, axes in another order.
+        names = ["diffraction_force", "Froude_Krylov_force"]
+        whole = apart.drop_vars([*names, "excitation_force", "complex"])
+        for name in names:
+            part = apart[name]
+            whole[name] = (part.sel(complex="re") + 1j * part.sel(complex="im")).drop_vars("complex").T
+        of_complex = snapload.Hydro.from_dataset(whole, pairs=4)
+    for other in (of_dataset, of_complex):
+        xarray.testing.assert_identical(other.dataset, of_file.dataset)
+        assert other.natural == of_file.natural
+    assert [motion["freedom"] for motion in of_file.natural] == ["heave", "pitch"]
+    assert of_file.natural[0]["period_s"] == pytest.approx(3.253867029, rel=1e-9)
+    units = {name: of_file.dataset[name].attrs["units"] for name in ("omega", "added_mass", "response")}
+    assert units == {"omega": "rad s-1", "added_mass": "kg", "response": "m m-1"}
+
+
+def test_it_says_what_the_command_says(tmp_path: Path) -> None:
+    line = [(6, -10, 2, -1.2, 9.666436778876), (-6, -10, -2, -1.2, 9.666436778876)]
+    pontoon = snapload.Hydro.from_file(PONTOON, mass=80000, pairs=4, lines=line)
+    out = tmp_path / "all.json"
+    words = ["--line=" + ",".join(str(number) for number in each) for each in line]
+    status = _engine.command(
+        ["snapload", "hydro", str(PONTOON), "--mass", "80000", "--pairs", "4", *words, "--json", str(out)]
+    )
+    assert status == 0
+    command = json.loads(out.read_text())
+    for key in ("added_mass_inf", "memory", "quality", "floating", "warnings"):
+        assert pontoon.answer[key] == command[key]
+    assert pontoon.rest is not None
+    assert pontoon.rest["taut"] == [1, 2]
+
+
+def test_memory_is_that_of_the_damping() -> None:
+    pontoon = snapload.Hydro.from_file(PONTOON)
+    omega = pontoon.dataset["omega"].values
+    damping = pontoon.dataset["radiation_damping"].values[:, 1, 1]
+    t = np.linspace(0, 8, 30)
+    expected = 2 / np.pi * np.trapezoid(damping * np.cos(np.multiply.outer(t, omega)), omega, axis=-1)
+    found = pontoon.kernel(t)
+    assert found.shape == (30, 3, 3)
+    assert np.abs(found[:, 1, 1] - expected).max() < 0.02 * expected[0]
+    assert "passive" in repr(pontoon)
+    assert "<table>" in pontoon._repr_html_()
+
+
+def test_bad_datasets_are_refused() -> None:
+    with xarray.open_dataset(PONTOON) as pontoon, pytest.raises(ValueError, match="positive damping"):
+        snapload.Hydro.from_dataset(pontoon.assign(radiation_damping=-pontoon["radiation_damping"]))
+    with pytest.raises(ValueError, match="1025 in the file and 1000"):
+        snapload.Hydro.from_file(PONTOON, density=1000)
+    with pytest.raises(FileNotFoundError):
+        snapload.Hydro.from_file("nowhere.nc")
+    with pytest.raises(ValueError, match="first_column"):
+        snapload.Hydro.from_file(PONTOON, first_column="rows")  # type: ignore[typeddict-item]
