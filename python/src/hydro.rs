@@ -17,6 +17,9 @@ pub(crate) enum Held {
     Words(Vec<String>),
 }
 
+/// A variable of a dataset: its name, the names of its dimensions, their lengths, its values.
+type Told = (String, Vec<String>, Vec<usize>, Held);
+
 /// What is asked, beside the coefficients.
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,14 +59,14 @@ fn refused(error: HydroError) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
-/// The answers about a dataset's variables (name, dimensions, lengths, values), or about the file of
+/// The answers about a dataset's variables, or about the file of
 /// that name where there are none: as JSON, and as labels with their words.
 #[pyfunction]
 #[pyo3(signature = (name, variables, asked, /))]
 pub(crate) fn hydro(
     py: Python<'_>,
     name: &str,
-    variables: Option<Vec<(String, Vec<String>, Vec<usize>, Held)>>,
+    variables: Option<Vec<Told>>,
     asked: &str,
 ) -> PyResult<(String, Vec<(String, String)>)> {
     let asked: Asked = serde_json::from_str(asked).map_err(of_program)?;
@@ -112,11 +115,8 @@ pub(crate) fn hydro(
     Ok((json, report.summary()))
 }
 
-fn of_variables(
-    variables: Vec<(String, Vec<String>, Vec<usize>, Held)>,
-    given: &Given,
-) -> Result<Reading, HydroError> {
-    let variable = |(name, dims, shape, held): (String, Vec<String>, Vec<usize>, Held)| {
+fn of_variables(variables: Vec<Told>, given: &Given) -> Result<Reading, HydroError> {
+    let variable = |(name, dims, shape, held): Told| {
         let values = match held {
             Held::Numbers(numbers) => Values::Numbers(numbers),
             Held::Words(words) => Values::Words(words),
