@@ -55,8 +55,13 @@ impl Frame {
     }
 
     /// Carries it through one step.
-    #[inline(always)]
     pub fn follow(&mut self, map: &StepMap) {
+        self.follow_here(map);
+    }
+
+    /// The same, for work that is compiled for a kind of processor.
+    #[inline(always)]
+    pub(crate) fn follow_here(&mut self, map: &StepMap) {
         if self.bounces > 0 {
             self.make_orthogonal();
         }

@@ -19,6 +19,7 @@
 //! for one cable alone, which is nearly every impact, it is written out there.
 
 use crate::arithmetic::dual::Dual;
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::model::floating::Floating;
 use crate::model::state::State;
 use crate::model::system::System;
@@ -46,6 +47,18 @@ pub struct Tangent {
     system: System<Number>,
 }
 
+/// The map of a step, by the best instructions for it.
+struct Mapping<'a>(&'a Tangent, &'a Simulation, &'a Step);
+
+impl Kernel for Mapping<'_> {
+    type Output = StepMap;
+    #[inline(always)]
+    fn run(self) -> StepMap {
+        let Self(tangent, simulation, step) = self;
+        tangent.of_step_here(simulation, step)
+    }
+}
+
 impl Tangent {
     /// Of the motions of a system.
     pub fn new(system: &System) -> Self {
@@ -67,8 +80,13 @@ impl Tangent {
     }
 
     /// Of the step that `simulation` has just made.
-    #[inline(always)]
     pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
+        dispatch(Mapping(self, simulation, step))
+    }
+
+    /// The same, for work that is compiled for a kind of processor.
+    #[inline(always)]
+    pub(crate) fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
         let afloat = system.floating.as_ref();
         let flow = Flow {

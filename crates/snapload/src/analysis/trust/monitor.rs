@@ -136,7 +136,7 @@ impl Kernel for SeeingStep<'_, '_> {
     #[inline(always)]
     fn run(self) {
         self.0.note(&LinearMap::Step(self.1));
-        self.0.frame.follow(self.1);
+        self.0.frame.follow_here(self.1);
     }
 }
 
