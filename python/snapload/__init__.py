@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from typing import get_type_hints
 
+from ._assessed import Assessment, Elastic, Seas
 from ._axes import evenly
 from ._case import Case, cases
 from ._certify import Certificate
@@ -28,6 +29,7 @@ from ._reproduce import reproduce
 from ._run import Run
 from ._scales import Scales
 from ._sensitivities import sensitivities
+from ._structure import Structure
 from ._sweep import merge, open_study, sweep
 from ._system import System, SystemRun
 from ._table import Table
@@ -35,11 +37,13 @@ from ._told import End, Norms, Outcome, Trust
 from ._verify import Verification, verify
 
 __all__ = [
+    "Assessment",
     "Body",
     "Cable",
     "Case",
     "Certificate",
     "CriticalForce",
+    "Elastic",
     "End",
     "Ensemble",
     "Forcing",
@@ -48,8 +52,10 @@ __all__ = [
     "Outcome",
     "Run",
     "Scales",
+    "Seas",
     "Share",
     "Sinusoid",
+    "Structure",
     "System",
     "SystemRun",
     "Table",

@@ -11,6 +11,7 @@ mod interrupt;
 mod pool;
 mod run;
 mod schema;
+mod structure;
 mod study;
 mod system;
 mod table;
@@ -36,6 +37,8 @@ mod _engine {
     use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases};
+    #[pymodule_export]
+    use super::structure::{Assessment, Elastic, Structure};
     #[pymodule_export]
     use super::study::{Store, Study, evenly, identity, merge, read_column, threads_for};
     #[pymodule_export]

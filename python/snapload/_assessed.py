@@ -1,0 +1,424 @@
+"""What structures come to: answers with units."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from html import escape
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._later import Later
+
+if TYPE_CHECKING:
+    import xarray
+else:
+    xarray = Later("xarray")
+
+#: Units by the endings of names, longest first.
+_UNITS = {
+    "_kg_m2": "kg m2",
+    "_n_s_m": "N s m-1",
+    "_n_s": "N s",
+    "_n_m": "N m-1",
+    "_kg_m": "kg m-1",
+    "_m_s": "m s-1",
+    "_rad": "rad",
+    "_kg": "kg",
+    "_n": "N",
+    "_m": "m",
+    "_s": "s",
+    "_j": "J",
+}
+
+
+def _unit(name: str) -> str:
+    return next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "1")
+
+
+def _about(name: str) -> dict[str, str]:
+    unit = _unit(name)
+    ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
+    return {"long_name": name.removesuffix(ending).replace("_", " "), "units": unit}
+
+
+def _column(values: list[Any]) -> NDArray[Any]:
+    """Numbers with NaN where there is none; anything else as it is."""
+    if all(value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)) for value in values):
+        if any(value is None or isinstance(value, float) for value in values):
+            return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
+        return np.array(values, dtype=np.int64)
+    return np.array(["" if value is None else value for value in values])
+
+
+def _rows(rows: Sequence[Mapping[str, Any]], along: str, index: str | None = None) -> xarray.Dataset:
+    """Rows with the same names as a dataset along one dimension, by one of the columns where it is named."""
+    names = list(rows[0]) if rows else []
+    variables = {
+        name: (along, _column([row[name] for row in rows]), _about(name))
+        for name in names
+        if name != index and not isinstance(rows[0][name], (list, dict))
+    }
+    coords = {along: [row[index] for row in rows]} if index else {}
+    return xarray.Dataset(variables, coords=coords)
+
+
+def _motion(columns: tuple[list[float], list[float], list[float], list[float], list[list[float]]]) -> xarray.Dataset:
+    t, x, z, theta, tension = columns
+    lines = np.arange(1, len(tension[0]) + 1 if tension else 1)
+    along = {"x_m": x, "z_m": z, "theta_rad": theta}
+    variables: dict[str, Any] = {name: ("t_s", np.array(values), _about(name)) for name, values in along.items()}
+    tensions = np.array(tension, dtype=np.float64).reshape(len(t), len(lines))
+    variables["tension_n"] = (("t_s", "line"), tensions, _about("tension_n"))
+    return xarray.Dataset(variables, coords={"t_s": ("t_s", np.array(t), _about("t_s")), "line": lines})
+
+
+class _Answer:
+    """What is common to the answers."""
+
+    def __init__(self, data: dict[str, Any], told: str) -> None:
+        #: Everything that the command writes as JSON: SI units, each in the name of its key.
+        self.data = data
+        self._told = told
+
+    def __str__(self) -> str:
+        return self._told
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(self._told)}</pre>"
+
+
+class Assessment(_Answer):
+    """What one wave or one record of a sea does to a structure.
+
+    Attributes
+    ----------
+    data : dict
+        Everything that ``snapload assess --json`` writes: SI units, each in the name of its key.
+
+    See Also
+    --------
+    snapload.Structure.assess : Makes one.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> answer = snapload.Structure.example().assess(neighbours=0)
+    >>> answer.standing
+    'holds'
+    >>> answer.lines["slack_fraction"].dims
+    ('line',)
+    """
+
+    def __init__(self, engine: _engine.Assessment) -> None:
+        super().__init__(json.loads(engine.json()), engine.summary())
+        self._engine = engine
+
+    @property
+    def standing(self) -> str:
+        """How it stands: ``holds``, ``breaks``, ``exceeds`` (turned over or on the floor), ``open`` or ``unknown``.
+
+        See Also
+        --------
+        snapload.Assessment.verdict : The same in words.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Structure.example().assess(neighbours=0).standing
+        'holds'
+        """
+        return str(self.data["verdict"]["standing"])
+
+    @property
+    def verdict(self) -> str:
+        """The answer in a sentence or two.
+
+        See Also
+        --------
+        snapload.Assessment.standing : The same in one word.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Structure.example().assess(neighbours=0).verdict[:24]
+        'Lines go slack and snap,'
+        """
+        return str(self.data["verdict"]["words"])
+
+    @property
+    def lines(self) -> xarray.Dataset:
+        """What each line comes to: tensions [N], snaps, the part of the time it is slack, utilisation.
+
+        See Also
+        --------
+        snapload.Assessment.snaps : Each snap by itself.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> lines = snapload.Structure.example().assess(neighbours=0).lines
+        >>> lines["held_tension_n"].attrs["units"], lines["line"].values.tolist()
+        ('N', [1, 2])
+        """
+        return _rows(self.data["lines"], "line", "line")
+
+    @property
+    def snaps(self) -> xarray.Dataset:
+        """Every snap and jolt of 1 cm/s or more, in the order in which they come.
+
+        See Also
+        --------
+        snapload.Assessment.lines : What they come to, line by line.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snaps = snapload.Structure.example().assess(neighbours=0).snaps
+        >>> snaps["impulse_n_s"].attrs["units"]
+        'N s'
+        """
+        return _rows(self.data["snaps"], "snap")
+
+    @property
+    def checks(self) -> xarray.Dataset:
+        """The checks by the rule of ``[design]``; none without that table.
+
+        See Also
+        --------
+        snapload.Assessment.verdict : The answer without factors.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> structure = snapload.Structure.example().replace({"design.least_share": 0})
+        >>> structure.assess(neighbours=0).checks["answer"].values.tolist()
+        ['fails', 'fails']
+        """
+        return _rows(self.data["checks"], "check")
+
+    def motion(self, times: ArrayLike) -> xarray.Dataset:
+        """Place, rotation and tensions at times.
+
+        Parameters
+        ----------
+        times : array_like
+            Times within the run [s].
+
+        Returns
+        -------
+        xarray.Dataset
+            ``x_m``, ``z_m`` and ``theta_rad`` along ``t_s``, and ``tension_n``, 0 where a line is slack, along
+            ``t_s`` and ``line``.
+
+        See Also
+        --------
+        snapload.Elastic.motion : The same on lines that stretch.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> motion = snapload.Structure.example().assess(neighbours=0).motion([0, 1, 2])
+        >>> dict(motion.sizes)
+        {'t_s': 3, 'line': 2}
+        """
+        values = np.asarray(times, dtype=np.float64)
+        if values.ndim != 1 or not np.isfinite(values).all():
+            raise ValueError("times: allowed is one row of finite numbers")
+        return _motion(self._engine.motion(values.tolist()))
+
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the page for a design note.
+
+        Parameters
+        ----------
+        path : str or path
+            Where to.
+
+        See Also
+        --------
+        snapload.Seas.to_html : The page of many records.
+
+        Examples
+        --------
+        >>> import snapload, tempfile
+        >>> answer = snapload.Structure.example().assess(neighbours=0)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     answer.to_html(f"{folder}/note.html")
+        """
+        Path(path).write_text(self._engine.page(), encoding="utf-8", newline="\n")
+
+    def __repr__(self) -> str:
+        return f"<Assessment: {self.standing}>"
+
+
+class Seas(_Answer):
+    """What many records of a sea do to a structure.
+
+    Attributes
+    ----------
+    data : dict
+        Everything that ``snapload seas --json`` writes.
+
+    See Also
+    --------
+    snapload.Structure.seas : Makes one.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+    >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
+    >>> seas.largest_tensions_n.size
+    4
+    """
+
+    def __init__(self, found: tuple[str, str, str]) -> None:
+        text, told, self._page = found
+        super().__init__(json.loads(text), told)
+
+    @property
+    def words(self) -> str:
+        """The answer in a sentence or two.
+
+        See Also
+        --------
+        snapload.Seas.largest_tensions_n : The numbers that it rests on.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+        >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
+        >>> "of 4 records" in seas.words
+        True
+        """
+        return str(self.data["words"])
+
+    @property
+    def largest_tensions_n(self) -> xarray.DataArray:
+        """The largest tension of each record, in a snap or held [N]; empty where tensions are not known.
+
+        See Also
+        --------
+        snapload.Seas.words : What they come to.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+        >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
+        >>> seas.largest_tensions_n.attrs["units"]
+        'N'
+        """
+        values = np.array(self.data["largest_tensions_n"] or [], dtype=np.float64)
+        return xarray.DataArray(values, dims="record", name="largest_tensions_n", attrs=_about("largest_tensions_n"))
+
+    def to_html(self, path: str | PathLike[str]) -> None:
+        """Write the page.
+
+        Parameters
+        ----------
+        path : str or path
+            Where to.
+
+        See Also
+        --------
+        snapload.Assessment.to_html : The page of one record.
+
+        Examples
+        --------
+        >>> import snapload, tempfile
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600}
+        >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     seas.to_html(f"{folder}/seas.html")
+        """
+        Path(path).write_text(self._page, encoding="utf-8", newline="\n")
+
+    def __repr__(self) -> str:
+        return f"<Seas: {self.data['records']} records>"
+
+
+class Elastic(_Answer):
+    """A structure on lines that stretch, beside the same on lines that do not.
+
+    Attributes
+    ----------
+    data : dict
+        Everything that ``snapload elastic --json`` writes.
+
+    See Also
+    --------
+    snapload.Structure.elastic : Makes one.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> both = snapload.Structure.example().replace({"run.duration": 30}).elastic()
+    >>> both.lines["peak_n"].attrs["units"]
+    'N'
+    """
+
+    def __init__(self, engine: _engine.Elastic) -> None:
+        super().__init__(json.loads(engine.json()), engine.summary())
+        self._engine = engine
+
+    @property
+    def lines(self) -> xarray.Dataset:
+        """What each line comes to: spring, damper, largest tension, the part of the time it is slack.
+
+        See Also
+        --------
+        snapload.Elastic.pulls : Each pull by itself.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> both = snapload.Structure.example().replace({"run.duration": 30}).elastic()
+        >>> both.lines["line"].values.tolist()
+        [1, 2]
+        """
+        return _rows(self.data["lines"], "line", "line")
+
+    @property
+    def pulls(self) -> xarray.Dataset:
+        """Every pull, in the order in which lines took hold.
+
+        See Also
+        --------
+        snapload.Elastic.lines : What they come to, line by line.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> both = snapload.Structure.example().replace({"run.duration": 30}).elastic()
+        >>> both.pulls["peak_n"].dims
+        ('pull',)
+        """
+        return _rows(self.data["pulls"], "pull")
+
+    @property
+    def motion(self) -> xarray.Dataset:
+        """Place, rotation and tensions on lines that stretch, every ``every`` seconds.
+
+        See Also
+        --------
+        snapload.Assessment.motion : The same on lines that do not stretch.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> both = snapload.Structure.example().replace({"run.duration": 30}).elastic(every=0.5)
+        >>> sorted(both.motion.data_vars)
+        ['tension_n', 'theta_rad', 'x_m', 'z_m']
+        """
+        return _motion(self._engine.motion())
+
+    def __repr__(self) -> str:
+        return f"<Elastic: {len(self.data['pulls'])} pulls>"

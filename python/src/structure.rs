@@ -1,0 +1,226 @@
+//! Structures in SI units: assessed, in many records of a sea, and on lines that stretch.
+
+use crate::errors::{of_case, of_program, of_work};
+use crate::interrupt::interruptible;
+use pyo3::prelude::*;
+use snapload::{CaseError, Entries};
+use snapload_structure::note::{self, Source};
+use snapload_structure::{BothModels, Lines, Prepared, STRUCTURE, both_models, moordyn};
+
+/// The example of the manual.
+const EXAMPLE: &str = include_str!("../../docs/examples/cylinder.toml");
+
+/// A structure that was read and checked.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct Structure {
+    name: String,
+    entries: Entries,
+    structure: snapload_structure::Structure,
+}
+
+impl Structure {
+    fn of(name: &str, mut entries: Entries, changes: &[String]) -> Result<Self, CaseError> {
+        changes.iter().try_for_each(|change| entries.set(change))?;
+        let structure = snapload_structure::Structure::from_entries(&entries);
+        let structure = structure.map_err(|error| match error.place {
+            Some(_) => error,
+            None => error.at(name.to_owned()),
+        })?;
+        Ok(Self {
+            name: name.to_owned(),
+            entries,
+            structure,
+        })
+    }
+}
+
+#[pymethods]
+impl Structure {
+    /// Reads the text of a case; `changes` are keys such as `wave.height=2`.
+    #[staticmethod]
+    fn parse(name: &str, text: &str, changes: Vec<String>) -> PyResult<Self> {
+        let entries = Entries::parse(&STRUCTURE, name, text).map_err(of_case)?;
+        Self::of(name, entries, &changes).map_err(of_case)
+    }
+
+    /// The text of the manual's example.
+    #[staticmethod]
+    fn example() -> &'static str {
+        EXAMPLE
+    }
+
+    /// Reads an input file of MoorDyn; returns what of it was left out or taken otherwise, too.
+    #[staticmethod]
+    fn from_moordyn(name: &str, text: &str, changes: Vec<String>) -> PyResult<(Self, Vec<String>)> {
+        let reading = moordyn::read(name, text).map_err(of_case)?;
+        let structure = Self::of(name, reading.entries, &changes).map_err(of_case)?;
+        Ok((structure, reading.notes))
+    }
+
+    /// An input file for MoorDyn.
+    fn to_moordyn(&self, segments: u32) -> PyResult<String> {
+        moordyn::write(&self.name, &self.structure, segments).map_err(of_case)
+    }
+
+    /// The same with other values of keys.
+    fn replace(&self, changes: Vec<String>) -> PyResult<Self> {
+        Self::of(&self.name, self.entries.clone(), &changes).map_err(of_case)
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The case as TOML.
+    fn to_toml(&self) -> String {
+        self.entries.to_toml()
+    }
+
+    /// Runs it with its neighbours.
+    fn assess(
+        &self,
+        py: Python<'_>,
+        neighbours: u32,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Assessment> {
+        let structure = self.structure.clone();
+        let found = interruptible(py, progress, move |watch| {
+            snapload_structure::assess(structure, neighbours, &|progress| watch.go_on(progress))
+        })?;
+        Ok(Assessment {
+            name: self.name.clone(),
+            found: found.map_err(of_work)?,
+        })
+    }
+
+    /// Runs it in many records of its sea; the answer is JSON, a summary and a page.
+    fn seas(
+        &self,
+        py: Python<'_>,
+        seeds: u32,
+        elastic: bool,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(String, String, String)> {
+        let structure = self.structure.clone();
+        let lines = match elastic {
+            true => Lines::Elastic,
+            false => Lines::Inextensible,
+        };
+        let found = interruptible(py, progress, move |watch| {
+            snapload_structure::seas(structure, seeds, lines, &|progress| watch.go_on(progress))
+        })?;
+        let seas = found.map_err(of_work)?;
+        let page = note::seas_page(source(&self.name), &seas).map_err(of_program)?;
+        Ok((
+            seas.to_json(&self.name).to_string(),
+            seas.summary(&self.name),
+            page,
+        ))
+    }
+
+    /// Runs it on lines that stretch and on lines that do not.
+    fn elastic(
+        &self,
+        py: Python<'_>,
+        stiffer: f64,
+        every_s: f64,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Elastic> {
+        let structure = self.structure.clone();
+        let found = interruptible(py, progress, move |watch| {
+            let prepared = Prepared::new(structure)?;
+            both_models(prepared, stiffer, every_s, &|progress| {
+                watch.go_on(progress)
+            })
+        })?;
+        Ok(Elastic {
+            name: self.name.clone(),
+            found: found.map_err(of_work)?,
+        })
+    }
+}
+
+/// A page that was made from Python has no command that makes it again.
+fn source(name: &str) -> Source<'_> {
+    Source {
+        name,
+        command: "snapload.Structure in Python",
+        sha256: None,
+    }
+}
+
+/// Times, x, z, θ, and the tension of each line.
+type MotionColumns = (Vec<f64>, Vec<f64>, Vec<f64>, Vec<f64>, Vec<Vec<f64>>);
+
+/// A structure that was run.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct Assessment {
+    name: String,
+    found: snapload_structure::Assessment,
+}
+
+#[pymethods]
+impl Assessment {
+    fn json(&self) -> String {
+        self.found.to_json(&self.name).to_string()
+    }
+
+    fn summary(&self) -> String {
+        self.found.summary(&self.name)
+    }
+
+    /// The page for a design note, without a scan of other waves.
+    fn page(&self) -> PyResult<String> {
+        note::page(source(&self.name), &self.found, None).map_err(of_program)
+    }
+
+    /// The motion at times.
+    fn motion(&self, times_s: Vec<f64>) -> MotionColumns {
+        let looks = self.found.motion_at(&times_s);
+        (
+            times_s,
+            looks.iter().map(|look| look.place_m[0]).collect(),
+            looks.iter().map(|look| look.place_m[1]).collect(),
+            looks.iter().map(|look| look.theta_rad).collect(),
+            looks.into_iter().map(|look| look.tension_n).collect(),
+        )
+    }
+}
+
+/// The same case on both models of a line.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct Elastic {
+    name: String,
+    found: BothModels,
+}
+
+#[pymethods]
+impl Elastic {
+    fn json(&self) -> String {
+        self.found.to_json(&self.name).to_string()
+    }
+
+    fn summary(&self) -> String {
+        self.found.summary(&self.name)
+    }
+
+    /// The motion on lines that stretch, at the times that were kept.
+    fn motion(&self) -> MotionColumns {
+        let looks = &self.found.elastic.looks;
+        let scales = &self.found.sprung.model.scales;
+        let place = |k: usize| {
+            let places = looks
+                .iter()
+                .map(|look| scales.to_si([look.state.x, look.state.y])[k]);
+            places.collect()
+        };
+        (
+            looks.iter().map(|look| look.t_s).collect(),
+            place(0),
+            place(1),
+            looks.iter().map(|look| 0.0 - look.state.theta).collect(),
+            looks.iter().map(|look| look.tension_n.clone()).collect(),
+        )
+    }
+}

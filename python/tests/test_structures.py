@@ -1,0 +1,67 @@
+"""Structures in Python are what the command says of them."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import snapload
+
+ROOT = Path(__file__).parents[2]
+CYLINDER = ROOT / "docs" / "examples" / "cylinder.toml"
+
+
+def test_answers_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
+    changes = {"run.duration": 90, "line.2.length": 6.05, "wave.direction": "-x", "run.start": [0.1, -3.9]}
+    sets = [f"--set={key}={snapload._structure._written(value)}" for key, value in changes.items()]
+    structure = snapload.Structure.from_toml(CYLINDER, changes)
+    said = command_json("assess", str(CYLINDER), *sets, "--neighbours", "2")
+    assert structure.assess(neighbours=2).data == said
+    said = command_json("elastic", str(CYLINDER), *sets)
+    found = structure.elastic().data
+    for data in (said, found):
+        del data["took_s"], data["inextensible"]["took_s"]
+    assert found == said
+
+
+def test_seas_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
+    sea = ROOT / "docs" / "examples" / "cylinder-sea.toml"
+    said = command_json("seas", str(sea), "--set", "run.duration=600", "--seeds", "3", "--elastic")
+    found = snapload.Structure.from_toml(sea, {"run.duration": 600}).seas(seeds=3, elastic=True)
+    assert found.data == said
+    assert found.largest_tensions_n.values.tolist() == said["largest_tensions_n"]
+
+
+def test_motion_and_snaps_have_units() -> None:
+    answer = snapload.Structure.example().assess(neighbours=0)
+    motion = answer.motion(np.linspace(0, 600, 2001))
+    assert motion["x_m"].attrs["units"] == "m" and motion["tension_n"].attrs["units"] == "N"
+    # A line carries at most what it is said to hold, after the transient.
+    late = motion.sel(t_s=slice(60, None))["tension_n"].max("t_s")
+    assert (late.values <= answer.lines["held_tension_n"].values * (1 + 1e-9)).all()
+    snaps = answer.snaps
+    assert snaps["peak_n"].attrs["units"] == "N" and set(np.unique(snaps["line"])) == {1, 2}
+    pint = pytest.importorskip("cf_xarray.units").units
+    for data in (motion, snaps, answer.lines):
+        for variable in data.variables.values():
+            pint.Unit(variable.attrs.get("units", "1"))
+
+
+def test_moordyn_goes_both_ways(tmp_path: Path) -> None:
+    structure = snapload.Structure.example()
+    structure.to_moordyn(tmp_path / "lines.txt")
+    back = snapload.Structure.from_moordyn(tmp_path / "lines.txt")
+    assert back.assess(neighbours=0).standing == structure.assess(neighbours=0).standing
+
+
+def test_errors_name_the_key() -> None:
+    structure = snapload.Structure.example()
+    with pytest.raises(ValueError, match=r"body\.mass"):
+        structure.replace({"body.mass": 1e9})
+    with pytest.raises(TypeError, match="a number, a text"):
+        structure.replace({"body.mass": object()})
+    with pytest.raises(ValueError, match="allowed is one of wave"):
+        structure.without("body")
+    with pytest.raises(FileNotFoundError):
+        snapload.Structure.from_toml("nothing.toml")
