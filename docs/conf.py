@@ -35,8 +35,8 @@ exclude_patterns = ["README.md", "_build"]
 # Everything that is wrong is told, and the tests make an error of it.
 nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"^(?!snapload\.(?!_engine)).*")]
-# A variable of types has no page.
-nitpick_ignore = [("py:class", "snapload._scales.Result")]
+# A variable of types, and the keywords of a call, have no page.
+nitpick_ignore = [("py:class", "snapload._scales.Result"), ("py:class", "snapload._hydro.Asked")]
 
 # Mathematics is typeset in the browser by files of the site itself, so that it is there without a network.
 mathjax_path = "mathjax/tex-chtml.js"

@@ -1,9 +1,10 @@
 //! `snapload assess`: one structure in SI units, from its case to a verdict.
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
-use crate::structure_input::{Answers, StructureArgs, ending};
+use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use snapload::analysis::Progress;
-use snapload_structure::{STRUCTURE, assess, note};
+use snapload_structure::note::{self, Source};
+use snapload_structure::{STRUCTURE, assess};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
@@ -36,7 +37,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.keys {
         return print(&STRUCTURE.listing());
     }
-    let (name, structure) = args.input.read()?;
+    let ReadStructure {
+        name,
+        structure,
+        sha256,
+    } = args.input.read()?;
     if let Some(path) = &args.out {
         ending(path, &["html"])?;
     }
@@ -53,7 +58,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         };
         drop(bar);
         let command = args.input.command("assess");
-        let page = note::page(&name, &command, &assessment, scan.as_ref())
+        let source = Source {
+            name: &name,
+            command: &command,
+            sha256: Some(&sha256),
+        };
+        let page = note::page(source, &assessment, scan.as_ref())
             .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
         answers.write(|out| out.write_all(page.as_bytes()))?;
     }

@@ -1,7 +1,7 @@
 //! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
 use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::structure_input::{Answers, StructureArgs};
+use crate::structure_input::{Answers, ReadStructure, StructureArgs};
 use snapload::analysis::{Progress, Unfinished};
 use snapload_structure::{BothModels, Prepared, both_models};
 use std::io;
@@ -46,7 +46,9 @@ fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let (name, structure) = args.input.read()?;
+    let ReadStructure {
+        name, structure, ..
+    } = args.input.read()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
     let bar = Bar::new();

@@ -3,7 +3,7 @@ use crate::case_input::read_text;
 use crate::failure::{Failure, print};
 use crate::json::room_of;
 use crate::stage::Stage;
-use crate::structure_input::StructureArgs;
+use crate::structure_input::{ReadStructure, StructureArgs};
 use clap::Subcommand;
 use snapload_structure::{Structure, moordyn, told};
 use std::fmt::Write as _;
@@ -98,7 +98,9 @@ fn read(args: &Read) -> Result<(), Failure> {
 }
 
 fn write(args: &Write) -> Result<(), Failure> {
-    let (name, structure) = args.input.read()?;
+    let ReadStructure {
+        name, structure, ..
+    } = args.input.read()?;
     let text = moordyn::write(&name, &structure, args.segments)
         .map_err(|error| Failure::BadInput(format!("{name}: {error}")))?;
     match &args.out {

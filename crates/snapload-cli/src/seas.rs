@@ -1,8 +1,9 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
 use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::structure_input::{Answers, StructureArgs, ending};
-use snapload_structure::{SeaOutcome, Seas, end_words, note, seas};
+use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
+use snapload_structure::note::{self, Source};
+use snapload_structure::{Lines, SeaOutcome, Seas, end_words, seas};
 use std::io;
 use std::path::PathBuf;
 
@@ -17,6 +18,9 @@ pub(crate) struct Args {
     /// How many records are run
     #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     seeds: u32,
+    /// Take the lines as springs, which is slower; needed where they are too soft to snap at once
+    #[arg(long)]
+    elastic: bool,
     /// Write the answer as a page of HTML, or a row a record as CSV, by the name's ending
     #[arg(long, value_name = "FILE.html|FILE.csv")]
     out: Option<PathBuf>,
@@ -27,20 +31,35 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let (name, structure) = args.input.read()?;
+    let ReadStructure {
+        name,
+        structure,
+        sha256,
+    } = args.input.read()?;
     let out = args.out.as_deref();
     let ending = out.map(|path| ending(path, &["html", "csv"])).transpose()?;
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let bar = Bar::counting();
-    let result = seas(structure, args.seeds, &|progress| bar.show(progress))
+    let lines = match args.elastic {
+        true => Lines::Elastic,
+        false => Lines::Inextensible,
+    };
+    let result = seas(structure, args.seeds, lines, &|progress| bar.show(progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;
     drop(bar);
     match ending {
         None => {}
         Some("csv") => answers.write(|out| table(&result, out))?,
         Some(_) => {
-            let command = format!("{} --seeds {}", args.input.command("seas"), args.seeds);
-            let page = note::seas_page(&name, &command, &result)
+            let elastic = if args.elastic { " --elastic" } else { "" };
+            let verb = args.input.command("seas");
+            let command = format!("{verb} --seeds {}{elastic}", args.seeds);
+            let source = Source {
+                name: &name,
+                command: &command,
+                sha256: Some(&sha256),
+            };
+            let page = note::seas_page(source, &result)
                 .map_err(|error| Failure::Failed(format!("can not draw the page: {error}")))?;
             answers.write(|out| out.write_all(page.as_bytes()))?;
         }
@@ -59,10 +78,13 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         "fastest_snap_m_s",
         "peak_tension_n",
         "largest_tension_n",
+        "least_tension_n",
         "slack_fraction",
     ])?;
     for SeaOutcome { seed, outcome } in &seas.records {
         let slack = outcome.lines.iter().map(|line| line.slack_fraction);
+        let least = outcome.lines.iter().filter_map(|line| line.least_n);
+        let least = least.reduce(f64::min);
         let peak = outcome.peak_n().map(|peak| peak.to_string());
         table.write_record([
             seed.to_string(),
@@ -72,6 +94,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
             outcome.speed_m_s().to_string(),
             peak.unwrap_or_default(),
             outcome.largest_n().to_string(),
+            least.map(|least| least.to_string()).unwrap_or_default(),
             slack.fold(0.0, f64::max).to_string(),
         ])?;
     }

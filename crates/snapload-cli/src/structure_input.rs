@@ -4,11 +4,22 @@ use crate::failure::{Failure, print};
 use crate::json::{Json, is_same_file, room_of};
 use crate::stage::{Room, Stage};
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 use snapload::Entries;
 use snapload_structure::{STRUCTURE, Structure, told};
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
+
+/// A structure that was read.
+pub(crate) struct ReadStructure {
+    /// The name of its case.
+    pub(crate) name: String,
+    /// The structure.
+    pub(crate) structure: Structure,
+    /// SHA-256 of the case's file, as `sha256sum` prints it.
+    pub(crate) sha256: String,
+}
 
 /// Which structure.
 #[derive(clap::Args)]
@@ -22,8 +33,8 @@ pub(crate) struct StructureArgs {
 }
 
 impl StructureArgs {
-    /// Reads and checks the case; returns it with its name.
-    pub(crate) fn read(&self) -> Result<(String, Structure), Failure> {
+    /// Reads and checks the case.
+    pub(crate) fn read(&self) -> Result<ReadStructure, Failure> {
         let path: &Path = self.file.as_deref().ok_or_else(|| {
             Failure::bad_input(
                 "no case file; write snapload assess CASE.toml (docs/examples/cylinder.toml is one \
@@ -31,7 +42,8 @@ impl StructureArgs {
             )
         })?;
         let name = path.display().to_string();
-        let mut entries = Entries::parse(&STRUCTURE, &name, &read_text(path)?)?;
+        let text = read_text(path)?;
+        let mut entries = Entries::parse(&STRUCTURE, &name, &text)?;
         self.set.iter().try_for_each(|text| entries.set(text))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let structure = Structure::from_entries_beside(&entries, folder).map_err(|error| {
@@ -42,7 +54,12 @@ impl StructureArgs {
                 None => located.at(name.clone()),
             }
         });
-        Ok((name, structure?))
+        let sum = Sha256::digest(&text);
+        Ok(ReadStructure {
+            structure: structure?,
+            name,
+            sha256: sum.iter().map(|byte| format!("{byte:02x}")).collect(),
+        })
     }
 
     /// The command that reads it again.

@@ -23,6 +23,7 @@ pub use physics::elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_el
 pub use physics::equilibrium::{Equilibrium, equilibrium};
 pub use physics::gumbel::{Estimate, Gumbel, reduced_variate};
 pub use physics::model::{Groups, Model, Scales, force_per_acceleration};
+pub use physics::periods::{NaturalMode, NaturalPeriods};
 pub use physics::prepared::Prepared;
 pub use physics::sea::{Component, Spectrum, components};
 pub use physics::snap::{SLOWEST_M_S, Snap, snaps};
@@ -30,13 +31,15 @@ pub use physics::warnings::{Warning, warnings};
 pub use physics::waterline::Waterline;
 pub use physics::wave::{LinearWave, wave_number};
 pub use report::{Standing, Verdict, end_words};
-pub use runs::assess::{Assessment, NEIGHBOUR, assess, quantile};
+pub use runs::assess::{Assessment, ByRestitution, NEIGHBOUR, assess, quantile};
 pub use runs::both::{BothModels, both_models};
+pub use runs::design::{Answer, Check, Criterion};
+pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
-pub use runs::seas::{SeaOutcome, Seas, seas};
+pub use runs::seas::{Lines, SeaOutcome, Seas, seas};
 pub use schema::{STRUCTURE, is_structure};
 pub use structure::{
-    AddedMass, Afloat, BodySi, ByDefault, IrregularSea, LineSi, Outline, Site, SpectrumShape,
-    Structure, THREE_HOURS_S, Water, Wave,
+    AddedMass, Afloat, BodySi, ByDefault, DesignRule, IrregularSea, LineSi, Outline, Project, Site,
+    SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
 };
 pub use words::told;

@@ -12,6 +12,7 @@ const HEAVIEST: f64 = 1e13;
 const MASS: Kind = Kind::positive(HEAVIEST);
 const LENGTH: Kind = Kind::positive(LONGEST);
 const PLACE: Kind = Kind::Pair(LONGEST);
+const FACTOR: Kind = Kind::positive(100.0);
 const DIRECTION: Kind = Kind::Choice(&["+x", "-x"]);
 
 #[rustfmt::skip] // one row a key
@@ -107,10 +108,33 @@ const RUN: &[Key] = &[
     Key::new("max_snaps", "1", Kind::Count(1, 10_000_000), Count(1_000_000), "the run ends at more snaps than this"),
 ];
 
+#[rustfmt::skip] // one row a key
+const DESIGN: &[Key] = &[
+    Key::new("pretension_factor", "1", FACTOR, Derived("no check"), "partial factor on the tension at rest; goes with the next two"),
+    Key::new("environment_factor", "1", FACTOR, Derived("no check"), "partial factor on what the largest tension adds to that at rest"),
+    Key::new("strength_factor", "1", FACTOR, Derived("no check"), "characteristic strength over breaking_load"),
+    Key::new("least_share", "1", Kind::number(0.0, 1.0), Derived("no check"),
+        "the least tension of a line must be above this share of its tension at rest; 0: no line goes slack"),
+    Key::new("rest_factor", "1", FACTOR, Derived("no check"),
+        "must stay positive: rest_factor times the tension at rest, less dynamic_factor times what the least tension is below it"),
+    Key::new("dynamic_factor", "1", FACTOR, Derived("no check"), "see rest_factor, with which it goes"),
+    Key::new("force_share", "1", FACTOR, Derived("no check"),
+        "the vertical force of the waves must be at most this share of the net buoyancy"),
+];
+
+#[rustfmt::skip] // one row a key
+const PROJECT: &[Key] = &[
+    Key::new("name", "", Kind::Text, Derived("none"), "what the structure belongs to"),
+    Key::new("client", "", Kind::Text, Derived("none"), "for whom the note is"),
+    Key::new("author", "", Kind::Text, Derived("none"), "who answers for it"),
+    Key::new("date", "", Kind::Text, Derived("none"), "of the note, such as \"2026-05-04\""),
+];
+
 /// The case file of a structure.
 #[rustfmt::skip] // one row a table
 pub static STRUCTURE: Schema = Schema {
     tables: &[
+        Table::new("project", Heading::Optional, "what stands at the head of the page; nothing is computed from it", PROJECT),
         Table::new("body", Heading::One, "the moored body, seen from its side: buoyant and submerged, or afloat with [float]", BODY),
         Table::new("line", Heading::Many, "a mooring line; write [[line]] once for each, 1 to 16 of them", LINE),
         Table::new("site", Heading::One, "the place", SITE),
@@ -118,6 +142,8 @@ pub static STRUCTURE: Schema = Schema {
         Table::new("wave", Heading::Optional, "a regular wave; one of wave and sea may be given", WAVE),
         Table::new("sea", Heading::Optional, "an irregular, long-crested sea", SEA),
         Table::new("run", Heading::One, "what is computed", RUN),
+        Table::new("design", Heading::Optional,
+            "checks by the rule you design by; a check is made where its factors are given, and none of them has a default", DESIGN),
     ],
     example: "wave.height=2",
     form: "tables such as [body] and below each one `key = value` a line, such as `mass = 72453`",

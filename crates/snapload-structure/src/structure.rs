@@ -2,6 +2,7 @@
 
 mod added_mass;
 mod afloat;
+mod design;
 mod read;
 
 pub use added_mass::{AddedMass, ByDefault};
@@ -187,9 +188,52 @@ pub enum Water {
     Sea(IrregularSea),
 }
 
+/// What stands at the head of a note; what is not given is empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Project {
+    /// What the structure belongs to.
+    pub name: String,
+    /// For whom the note is.
+    pub client: String,
+    /// Who answers for it.
+    pub author: String,
+    /// Of the note.
+    pub date: String,
+}
+
+impl Project {
+    /// What is given: its key, its name on a page, and its text.
+    pub(crate) fn rows(&self) -> Vec<[&str; 3]> {
+        let all = [
+            ["name", "Project", &self.name],
+            ["client", "Client", &self.client],
+            ["author", "Author", &self.author],
+            ["date", "Date", &self.date],
+        ];
+        all.into_iter()
+            .filter(|[_, _, text]| !text.is_empty())
+            .collect()
+    }
+}
+
+/// Checks by the rule that a user designs by; each is made where its factors are given.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DesignRule {
+    /// Partial factors γ_pret and γ_env, and the characteristic strength over the breaking load.
+    pub strength: Option<[f64; 3]>,
+    /// The least tension over that at rest has to be above this.
+    pub least_share: Option<f64>,
+    /// γ₁ and γ₂ of γ₁ T_0 + γ₂ (T_min − T_0) > 0.
+    pub least_factors: Option<[f64; 2]>,
+    /// The vertical force of the waves over the net buoyancy is at most this.
+    pub force_share: Option<f64>,
+}
+
 /// A structure and what it is to go through.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {
+    /// What stands at the head of a note on it.
+    pub project: Project,
     /// The body.
     pub body: BodySi,
     /// The lines.
@@ -212,6 +256,8 @@ pub struct Structure {
     pub start_m: Option<[f64; 2]>,
     /// The run ends at more snaps than this.
     pub max_snaps: u64,
+    /// Checks by the rule that it is designed by.
+    pub design: DesignRule,
 }
 
 /// Three hours, the time for which a sea is taken to be stationary \[s\].

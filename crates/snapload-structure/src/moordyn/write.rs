@@ -17,6 +17,8 @@ const COURANT: f64 = 0.2;
 #[template(path = "moordyn.txt")]
 struct File<'a> {
     name: String,
+    /// The keys of the project that are given, with their texts.
+    project: Vec<[&'a str; 3]>,
     structure: &'a Structure,
     body: &'a BodySi,
     site: &'a Site,
@@ -64,6 +66,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         },
         own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
         name: name.replace("---", "-"),
+        project: structure.project.rows(),
         structure,
         body: &structure.body,
         site: &structure.site,

@@ -1,14 +1,18 @@
 //! The answer as a page for a design note: one file of HTML that needs nothing else. Its words
 //! stand in `templates/`.
 
+mod layout;
 mod plots;
 
 pub use crate::runs::scan::{Scan, scan};
 
 use crate::physics::gumbel::{Estimate, Gumbel};
+use crate::physics::periods::in_words;
 use crate::physics::snap::Snap;
+use crate::physics::warnings::Warning;
 use crate::report::{Standing, Verdict, end_words};
 use crate::runs::assess::Assessment;
+use crate::runs::design::Check;
 use crate::runs::scan::LENGTH;
 use crate::runs::seas::Seas;
 use crate::structure::{Outline, Structure, Water};
@@ -22,25 +26,39 @@ const STYLE: &str = include_str!("../../templates/note.css");
 /// The number of the hardest snaps that are listed.
 const LISTED: usize = 12;
 
+/// Where a note comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'a> {
+    /// The name of the case.
+    pub name: &'a str,
+    /// The command line that makes the note again.
+    pub command: &'a str,
+    /// SHA-256 of the case's file, as `sha256sum` prints it; none where there is no file.
+    pub sha256: Option<&'a str>,
+}
+
 #[derive(Template)]
 #[template(path = "note.html")]
 struct NotePage<'a> {
     title: &'static str,
-    name: &'a str,
-    command: &'a str,
+    source: Source<'a>,
+    warnings: &'a [Warning],
+    layout: Picture,
     class: &'static str,
     note: &'a Assessment,
     structure: &'a Structure,
     verdict: Verdict,
     utilisations: Vec<Option<f64>>,
     end: &'static str,
-    /// Path, snaps, tension and rotation, in this time.
+    /// Path, snaps, tension, rotation and the water's surface, in this time.
     plots: Vec<Picture>,
     window: [f64; 2],
     /// The hardest snaps that are judged, out of `all`.
     hardest: Vec<&'a Snap>,
     all: usize,
     horizon_s: f64,
+    /// The checks by the rule of the case, and the neighbours that agree with each.
+    checks: Vec<(Check, usize)>,
     /// The map of other waves, if there is one.
     scanned: Option<Picture>,
 }
@@ -49,8 +67,9 @@ struct NotePage<'a> {
 #[template(path = "sea-note.html")]
 struct SeaPage<'a> {
     title: &'static str,
-    name: &'a str,
-    command: &'a str,
+    source: Source<'a>,
+    warnings: &'a [Warning],
+    layout: Picture,
     class: &'static str,
     seas: &'a Seas,
     structure: &'a Structure,
@@ -59,13 +78,12 @@ struct SeaPage<'a> {
     plots: [Picture; 2],
 }
 
-/// The page. `command` is the command line that makes it again.
+/// The page.
 ///
 /// # Errors
 /// A [`FigureError`] if a plot can not be drawn.
 pub fn page(
-    name: &str,
-    command: &str,
+    source: Source<'_>,
     assessment: &Assessment,
     scan: Option<&Scan>,
 ) -> Result<String, FigureError> {
@@ -85,8 +103,9 @@ pub fn page(
     let scanned = scan.map(|scan| plots::of_scan(scan, &prepared.structure));
     let page = NotePage {
         title: "Mooring note",
-        name,
-        command,
+        source,
+        warnings: &assessment.warnings,
+        layout: layout::of(prepared)?,
         class: match verdict.standing {
             Standing::Holds => "holds",
             Standing::Breaks | Standing::Exceeds => "fails",
@@ -102,20 +121,22 @@ pub fn page(
         hardest,
         all,
         horizon_s: assessment.horizon_s().unwrap_or(f64::INFINITY),
+        checks: assessment.checks(),
         scanned: scanned.transpose()?,
     };
     Ok(page.to_string())
 }
 
-/// The page of many records of a sea. `command` is the command line that makes it again.
+/// The page of many records of a sea.
 ///
 /// # Errors
 /// A [`FigureError`] if a plot can not be drawn.
-pub fn seas_page(name: &str, command: &str, seas: &Seas) -> Result<String, FigureError> {
+pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError> {
     let page = SeaPage {
         title: "Sea note",
-        name,
-        command,
+        source,
+        warnings: &seas.warnings,
+        layout: layout::of(&seas.prepared)?,
         class: match seas.failing() {
             _ if seas.is_open() => "open",
             None => "open",

@@ -2,6 +2,7 @@
 
 use crate::physics::gumbel::reduced_variate;
 use crate::physics::snap::Snap;
+use crate::physics::wave::LinearWave;
 use crate::runs::assess::{Assessment, sorted};
 use crate::runs::scan::Scan;
 use crate::runs::seas::Seas;
@@ -14,6 +15,10 @@ use snapload_figures::{
 
 /// Points of a line over time.
 const POINTS: u32 = 12_000;
+/// Points of the water's surface over time.
+const SURFACE: u32 = 1200;
+/// Stretches of time of which only the hardest snap of each line is drawn.
+const STRETCHES: usize = 400;
 /// The number of wave periods in a closer look.
 const CLOSE: f64 = 6.0;
 /// An axis from zero on.
@@ -79,6 +84,7 @@ pub(super) fn of_run(assessment: &Assessment) -> Result<Vec<Picture>, FigureErro
         ("snaps", peaks(assessment)),
         ("tension", tension(assessment, window)),
         ("rotation", rotation(assessment, window)),
+        ("wave", surface(assessment, window)),
     ];
     let drawn = plots.into_iter();
     drawn
@@ -158,7 +164,8 @@ fn peaks(assessment: &Assessment) -> Plot {
     let counted = || assessment.snaps.iter().filter(|snap| snap.counts());
     for line in 0..structure.lines.len() {
         let of_line = counted().filter(|snap| snap.line == line);
-        let points = of_line.map(|snap| [snap.t_s, value(snap)]).collect();
+        let points = of_line.map(|snap| [snap.t_s, value(snap)]);
+        let points = hardest_of_each(points, assessment.outcome.end_s);
         let (shape, colour) = (
             [Shape::Cross, Shape::Circle][line % 2],
             INKS[line % INKS.len()],
@@ -178,6 +185,19 @@ fn peaks(assessment: &Assessment) -> Plot {
         plot.note = "no line snapped".to_owned();
     }
     plot
+}
+
+/// The highest point of each stretch of time, so that points of hours do not cover each other.
+fn hardest_of_each(points: impl Iterator<Item = Point>, end: f64) -> Vec<Point> {
+    let mut highest: Vec<Option<Point>> = vec![None; STRETCHES];
+    for point in points {
+        let stretch = (point[0] / end * STRETCHES as f64) as usize;
+        let kept = &mut highest[stretch.min(STRETCHES - 1)];
+        if kept.is_none_or(|kept| kept[1] < point[1]) {
+            *kept = Some(point);
+        }
+    }
+    highest.into_iter().flatten().collect()
 }
 
 fn tension(assessment: &Assessment, window: [f64; 2]) -> Plot {
@@ -218,6 +238,30 @@ fn rotation(assessment: &Assessment, window: [f64; 2]) -> Plot {
     let axes = [("*t* (s)", t), ("rotation (degrees)", Range::Auto)];
     let layers = vec![line(vec![points], Stroke::default(), "")];
     plot("Rotation of the body against time", axes, layers)
+}
+
+/// The surface of the water above the place of rest, in the waves of the case.
+fn surface(assessment: &Assessment, [from, to]: [f64; 2]) -> Plot {
+    let waves = &assessment.prepared.model.waves;
+    let height = |t: f64| -> f64 {
+        let one =
+            |wave: &LinearWave| wave.amplitude_m * (wave.omega_rad_s * t + wave.phase_rad).sin();
+        waves.iter().map(one).sum()
+    };
+    let times = (0..=SURFACE).map(|k| from + (to - from) * f64::from(k) / f64::from(SURFACE));
+    let points = times.map(|t| [t, height(t)]).collect();
+    let t = Range::Fixed(from, to);
+    let axes = [("*t* (s)", t), ("surface (m)", Range::Auto)];
+    let layers = vec![line(vec![points], Stroke::default(), "")];
+    let mut plot = plot(
+        "Surface of the water above the place of rest against time",
+        axes,
+        layers,
+    );
+    if waves.is_empty() {
+        plot.note = "still water".to_owned();
+    }
+    plot
 }
 
 /// The map of a scan.

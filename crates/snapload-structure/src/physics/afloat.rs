@@ -178,6 +178,7 @@ pub(super) fn rest_afloat(
                 tension_n: vec![0.0; lines.len()],
                 taut: Vec::new(),
                 indeterminate: false,
+                unstretched_n: None,
             };
             return Ok((equilibrium, Vec::new()));
         }
@@ -205,6 +206,7 @@ pub(super) fn rest_afloat(
         taut: place.taut,
         tension_n: place.tension_n,
         indeterminate: false,
+        unstretched_n: None,
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))
 }

@@ -36,8 +36,11 @@ pub struct Equilibrium {
     /// The lines that are just taut, by index, a slack one that touches included.
     pub taut: Vec<usize>,
     /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides
-    /// who carries what; the tensions are then those of the least sum of squares.
+    /// who carries what; without stiffness the tensions are then those of the least sum of squares.
     pub indeterminate: bool,
+    /// The tensions of lines that do not stretch, where lengths within the stretch of the lines change
+    /// who carries how much; `tension_n` are then those by stiffness \[N\].
+    pub unstretched_n: Option<Vec<f64>>,
 }
 
 /// Finds where the body rests.
@@ -83,6 +86,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         theta_rad: -best.theta,
         tension_n,
         indeterminate: dependent(system, &taut, &best),
+        unstretched_n: None,
         taut,
     })
 }
@@ -207,31 +211,54 @@ fn rest(system: &System, set: &[usize], start: State) -> Option<State> {
         && set.iter().all(closed)
         && at.theta.abs() < FRAC_PI_2
         && tensions(system, set, &at).1 < BALANCED
-        && stable(system, set, &at, &tension);
+        && SmallMotions::new(system, set, tension.as_slice(), &at).is_stable();
     rests.then_some(at)
 }
 
-/// Whether Σ T_i ∇(n_i, s_i) is not negative along the motions that keep the lines that pull taut.
-fn stable(system: &System, set: &[usize], at: &State, tension: &DVector<f64>) -> bool {
-    let mut curvature = Matrix3::zeros();
-    let mut held = Matrix3::zeros();
-    for (i, &line) in set.iter().enumerate().filter(|(i, _)| tension[*i] > 1e-6) {
-        curvature += row_gradient(system, line, at) * tension[i];
-        let normal = row(system, line, at);
-        held += normal * normal.transpose();
+/// The small motions of a body on lines that do not stretch.
+pub(super) struct SmallMotions {
+    /// Σ T_i ∇(n_i, s_i) over (x, y, θ), symmetric.
+    pub(super) curvature: Matrix3<f64>,
+    /// Directions that span the motions that keep taut every line that pulls.
+    free: Vec<Vector3<f64>>,
+}
+
+impl SmallMotions {
+    /// Of a body at a place, where these lines pull so hard; those with next to no tension hold
+    /// nothing.
+    pub(super) fn new(system: &System, lines: &[usize], tension: &[f64], at: &State) -> Self {
+        let mut curvature = Matrix3::zeros();
+        let mut held = Matrix3::zeros();
+        let pulling = lines.iter().zip(tension).filter(|(_, pull)| **pull > 1e-6);
+        for (&line, pull) in pulling {
+            curvature += row_gradient(system, line, at) * *pull;
+            let normal = row(system, line, at);
+            held += normal * normal.transpose();
+        }
+        // The free motions are the directions that no pulling line resists.
+        let frame = held.symmetric_eigen();
+        let free = (0..3).filter(|&k| frame.eigenvalues[k] < 1e-9);
+        let free = free.map(|k| frame.eigenvectors.column(k).into_owned());
+        Self {
+            curvature: (curvature + curvature.transpose()) * 0.5,
+            free: free.collect(),
+        }
     }
-    // The free motions are the directions that no pulling line resists.
-    let frame = held.symmetric_eigen();
-    let free: Vec<Vector3<f64>> = (0..3)
-        .filter(|&k| frame.eigenvalues[k] < 1e-9)
-        .map(|k| frame.eigenvectors.column(k).into_owned())
-        .collect();
-    let projected = DMatrix::from_fn(free.len(), free.len(), |i, j| {
-        let both = (curvature + curvature.transpose()) * 0.5;
-        free[i].dot(&(both * free[j]))
-    });
-    let curvatures = || projected.symmetric_eigen().eigenvalues;
-    free.is_empty() || curvatures().iter().all(|value| *value > -1e-6)
+
+    /// The free motions, one a column.
+    pub(super) fn basis(&self) -> DMatrix<f64> {
+        DMatrix::from_fn(3, self.free.len(), |i, j| self.free[j][i])
+    }
+
+    /// Whether the curvature is not negative along the free motions.
+    fn is_stable(&self) -> bool {
+        if self.free.is_empty() {
+            return true;
+        }
+        let basis = self.basis();
+        let curvatures = (basis.transpose() * self.curvature * basis).symmetric_eigen();
+        curvatures.eigenvalues.iter().all(|value| *value > -1e-6)
+    }
 }
 
 /// The tensions ≥ 0 of least sum of squares that balance the constant forces, and what is left unbalanced.

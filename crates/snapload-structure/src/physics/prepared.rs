@@ -1,6 +1,7 @@
 //! A structure with its place of rest and its model, ready to run.
 
 use super::afloat::{HeldMotion, model, rest_afloat};
+use super::elastic::springs;
 use super::equilibrium::{Equilibrium, equilibrium};
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
@@ -10,6 +11,9 @@ use snapload_hydro::periods_in_words;
 /// A body that is turned by less than this at rest is upright: its gaps are then off by rounding
 /// only \[rad\].
 const UPRIGHT: f64 = 1e-12;
+
+/// Tensions at rest that differ by more than this part of the largest are shared otherwise.
+const SHARED: f64 = 0.05;
 
 /// Structure, place of rest and model, ready to run.
 #[derive(Clone, Debug)]
@@ -36,12 +40,34 @@ impl Prepared {
             None => (equilibrium(&structure)?, Vec::new()),
         };
         let model = model_at_rest(&structure, &rest)?;
-        let prepared = Self {
+        let mut prepared = Self {
             held,
             ..Self::starting(structure, rest, model)
         };
         prepared.begin(1.0)?;
+        prepared.share_by_stiffness();
         Ok(prepared)
+    }
+
+    /// Takes the tensions at rest from the stiffness of the lines where that is known and lines that
+    /// do not stretch would share the load otherwise.
+    fn share_by_stiffness(&mut self) {
+        if self.structure.afloat.is_some() {
+            return;
+        }
+        let sprung = springs(self, 1.0).and_then(|springs| self.on_springs(&springs));
+        let Ok(sprung) = sprung else {
+            return;
+        };
+        let (rigid, by_stiffness) = (&self.rest.tension_n, sprung.rest.tension_n);
+        let largest = by_stiffness
+            .iter()
+            .fold(0.0_f64, |largest, pull| largest.max(*pull));
+        let differs = |(one, other): (&f64, &f64)| (one - other).abs() > SHARED * largest;
+        if rigid.iter().zip(&by_stiffness).any(differs) {
+            let unstretched = std::mem::replace(&mut self.rest.tension_n, by_stiffness);
+            self.rest.unstretched_n = Some(unstretched);
+        }
     }
 
     /// A structure with its place of rest and the model about it, at its start.
@@ -73,6 +99,15 @@ impl Prepared {
             structure,
             ..self.clone()
         })
+    }
+
+    /// The same structure with another coefficient of restitution; where it rests stays.
+    #[must_use]
+    pub(crate) fn with_restitution(&self, restitution: f64) -> Self {
+        let mut other = self.clone();
+        other.structure.restitution = restitution;
+        other.model.system.restitution = restitution;
+        other
     }
 
     /// The motion at its start, in waves that are so many times as high.

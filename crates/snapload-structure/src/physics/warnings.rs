@@ -87,7 +87,7 @@ pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
     let (top, above_floor) = (z + half, z - half + structure.site.depth_m);
     let half = body.height_m / 2.0;
     let mut found = vec![
-        broken(rest.indeterminate, "shared loads", [0.0; 2], ""),
+        shared_loads(rest),
         broken(top > 0.0, "submergence", [top, 0.0], ""),
         broken(top <= 0.0 && -top < half, "free surface", [-top, 0.0], ""),
         broken(above_floor < half, "floor", [above_floor, 0.0], ""),
@@ -174,6 +174,23 @@ pub(crate) fn limits_afloat(
         ),
     ];
     found.into_iter().flatten().collect()
+}
+
+/// The warning that the inextensible line does not know who carries how much at rest.
+fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
+    let kilo = |tensions: &[f64]| {
+        let each = tensions.iter().map(|pull| format!("{:.0}", pull / 1e3));
+        each.collect::<Vec<_>>().join("/")
+    };
+    let words = rest.unstretched_n.as_ref().map(|unstretched| {
+        format!(
+            "{} kN, and by their stiffness {} kN",
+            kilo(unstretched),
+            kilo(&rest.tension_n)
+        )
+    });
+    let is = rest.indeterminate || words.is_some();
+    broken(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
 }
 
 /// What can be computed and is hardly meant.

@@ -5,7 +5,7 @@ use crate::physics::elastic::damping_ratio;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::physics::waterline::Waterline;
-use crate::runs::assess::Assessment;
+use crate::runs::assess::{Assessment, quantile};
 use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
 use crate::runs::seas::Seas;
@@ -70,6 +70,11 @@ impl Assessment {
             row["utilisation"] = json!(utilisations[index]);
             row
         };
+        let checks = self.checks().into_iter().map(|(check, agreeing)| {
+            let mut row = json!(check);
+            row["neighbours_agreeing"] = json!(agreeing);
+            row
+        });
         let group = |index: usize| groups.wave.map(|wave| wave[index]);
         json!({
             "case": name,
@@ -80,13 +85,17 @@ impl Assessment {
                 "neighbours": self.neighbours.len(),
                 "peak_tension_quantiles_n": self.spread(),
             },
+            "by_restitution": self.by_restitution(),
+            "checks": checks.collect::<Vec<_>>(),
             "warnings": self.warnings,
             "rest": {
                 "x_m": rest.place_m[0], "z_m": rest.place_m[1], "theta_rad": rest.theta_rad,
                 "indeterminate": rest.indeterminate,
+                "unstretched_tension_n": rest.unstretched_n,
             },
             "body": body(structure),
             "afloat": afloat(&self.prepared, self.outcome.waterline.as_ref()),
+            "natural_periods": self.periods,
             "units": self.prepared.model.scales,
             "groups": {
                 "r": groups.r, "a": groups.a, "b": groups.b, "inertia": groups.inertia,
@@ -110,10 +119,19 @@ impl Seas {
                 "quantile_90": fit.quantile(0.9),
             })
         };
+        let [crests, troughs] = self.crests_and_troughs_n();
+        let quantiles = |sorted: &[f64]| {
+            let at = |part| quantile(sorted, part);
+            json!({
+                "waves": sorted.len(), "quantile_1": at(0.01), "median": at(0.5), "quantile_99": at(0.99),
+                "largest": sorted.last(), "smallest": sorted.first(),
+            })
+        };
         json!({
             "case": name,
             "body": body(&self.prepared.structure),
             "afloat": afloat(&self.prepared, None),
+            "lines": self.lines,
             "records": self.records.len(),
             "words": self.words(),
             "peak_tension_in_three_hours_n": self.peak_in_three_hours().map(gumbel),
@@ -125,6 +143,8 @@ impl Seas {
             "snaps_in_three_hours": self.snaps_in_three_hours(),
             "slack_fraction": self.slack_fractions(),
             "warnings": self.warnings,
+            "crests_n": quantiles(&crests),
+            "troughs_n": quantiles(&troughs),
             "largest_tensions_n": self.largest_n(),
             "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
             "fastest_m_s": self.speeds_m_s(),

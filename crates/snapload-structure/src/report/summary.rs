@@ -4,14 +4,16 @@ use super::verdict::end_words;
 use crate::physics::elastic::{Pull, Spring, damping_ratio};
 use crate::physics::equilibrium::Equilibrium;
 use crate::physics::model::Scales;
+use crate::physics::periods::{NaturalPeriods, in_words};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::{Assessment, quantile};
+use crate::runs::assess::{Assessment, ByRestitution, quantile};
 use crate::runs::both::BothModels;
+use crate::runs::design::Check;
 use crate::runs::outcome::Outcome;
-use crate::runs::seas::Seas;
+use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
 use crate::words::laid_out;
 use askama::Template;
@@ -28,9 +30,13 @@ struct AssessText<'a> {
     rest: &'a Equilibrium,
     scales: &'a Scales,
     wave: Option<(&'a LinearWave, [f64; 3])>,
+    periods: Option<&'a NaturalPeriods>,
     outcome: &'a Outcome,
     utilisations: Vec<Option<f64>>,
     end: &'static str,
+    rebound: String,
+    checks: Vec<(Check, usize)>,
+    neighbours: &'a usize,
     warnings: &'a [Warning],
     trust: String,
     verdict: String,
@@ -69,14 +75,36 @@ impl Assessment {
             rest: &prepared.rest,
             scales: &prepared.model.scales,
             wave: prepared.model.regular_wave(),
+            periods: self.periods.as_ref(),
             outcome: &self.outcome,
             utilisations: self.outcome.utilisations(&prepared.structure),
             end: end_words(self.outcome.stop),
+            rebound: rebound_words(&self.by_restitution()),
+            checks: self.checks(),
+            neighbours: &self.neighbours.len(),
             warnings: &self.warnings,
             trust: self.trust_words(),
             verdict: self.verdict().words,
         })
     }
+}
+
+/// What the verdict would rest on with less and with more restitution.
+fn rebound_words(rows: &[ByRestitution]) -> String {
+    let utilisations: Option<Vec<f64>> = rows.iter().map(|row| row.largest_utilisation).collect();
+    let (what, values) = match utilisations {
+        Some(values) => ("largest utilisation", values),
+        None => {
+            let speeds = rows.iter().map(|row| row.fastest_snap_m_s);
+            ("fastest snap (m/s)", speeds.collect())
+        }
+    };
+    let restitutions: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
+    let [values, restitutions] = [values, restitutions].map(|numbers| {
+        let all = numbers.iter().map(|number| format!("{number:.2}"));
+        all.collect::<Vec<_>>().join(", ")
+    });
+    format!("{what} {values} with a restitution of {restitutions}")
 }
 
 impl Seas {

@@ -1,7 +1,9 @@
 //! One structure, from its case to what an engineer asks: do the lines go slack, how hard do they
 //! snap, do they break?
 
+use super::design::{Check, force_check, line_checks};
 use super::outcome::{Outcome, Tally};
+use crate::physics::periods::NaturalPeriods;
 use crate::physics::prepared::Prepared;
 use crate::physics::sea::uniform;
 use crate::physics::snap::Snap;
@@ -9,6 +11,7 @@ use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_wa
 use crate::structure::{Structure, Water};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use serde::Serialize;
 use snapload::analysis::{
     Counter, OnProgress, Trust, TrustMonitor, Unfinished, in_parallel, record,
 };
@@ -18,6 +21,8 @@ use snapload::{Playback, Trajectory};
 const TOLERANCE: f64 = 1e-3;
 /// Neighbours are so far from the run, in parts of the waves' height.
 pub const NEIGHBOUR: f64 = 1e-6;
+/// The restitution of a line is hardly known better than this.
+const RESTITUTION: f64 = 0.2;
 /// Times between the start and the end at which the place of the body is looked at.
 const LOOKS: u32 = 20_000;
 
@@ -28,6 +33,8 @@ pub struct Assessment {
     pub prepared: Prepared,
     /// Rules of thumb that the case breaks.
     pub warnings: Vec<Warning>,
+    /// In which it swings by itself, submerged; of a floating body [`Prepared`] tells.
+    pub periods: Option<NaturalPeriods>,
     /// The motion.
     pub run: Trajectory,
     /// How far it can be trusted.
@@ -36,8 +43,21 @@ pub struct Assessment {
     pub snaps: Vec<Snap>,
     /// What it comes to.
     pub outcome: Outcome,
+    /// The same with less and with more restitution, each with its coefficient.
+    pub restitutions: Vec<(f64, Outcome)>,
     /// Neighbours of the run; empty in still water, where there are no waves to vary.
     pub neighbours: Vec<Outcome>,
+}
+
+/// What the verdict would rest on with some restitution.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ByRestitution {
+    /// e.
+    pub restitution: f64,
+    /// The largest utilisation of any line; none where that of one is not known.
+    pub largest_utilisation: Option<f64>,
+    /// The fastest snap of any line \[m/s\].
+    pub fastest_snap_m_s: f64,
 }
 
 /// Runs a structure with its neighbours.
@@ -62,18 +82,26 @@ pub fn assess(
     let outcome = tally.finish(run.end().t, run.end().reason);
     let still = matches!(prepared.structure.water, Water::Still);
     let count = if still { 0 } else { neighbours };
-    let counter = Counter::new("neighbours", 0, count.into(), on_progress);
-    let neighbours = in_parallel(count as usize, |index| {
-        let outcome = Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index as u32))?;
+    let coefficients = restitutions_about(prepared.structure.restitution);
+    let all = coefficients.len() + count as usize;
+    let counter = Counter::new("neighbours", 0, all as u64, on_progress);
+    let mut outcomes = in_parallel(all, |index| {
+        let outcome = match index.checked_sub(coefficients.len()) {
+            None => Outcome::of(&prepared.with_restitution(coefficients[index]), 1.0)?,
+            Some(index) => Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
+        };
         counter.add(1)?;
         Ok::<_, Unfinished>(outcome)
     })?;
+    let neighbours = outcomes.split_off(coefficients.len());
     let mut assessment = Assessment {
         warnings: warnings(&prepared.structure, &prepared.rest),
+        periods: NaturalPeriods::of(&prepared),
         run,
         trust: monitor.verdict(),
         snaps,
         outcome,
+        restitutions: coefficients.into_iter().zip(outcomes).collect(),
         neighbours,
         prepared,
     };
@@ -89,6 +117,15 @@ pub fn assess(
     Ok(assessment)
 }
 
+/// Less and more restitution than that of the case, as far as there is.
+fn restitutions_about(restitution: f64) -> Vec<f64> {
+    let others = [-RESTITUTION, RESTITUTION].map(|more| (restitution + more).clamp(0.0, 1.0));
+    others
+        .into_iter()
+        .filter(|other| *other != restitution)
+        .collect()
+}
+
 /// Evenly in [−1, 1), for each neighbour its own.
 fn side(index: u32) -> f64 {
     let mut generator = ChaCha8Rng::seed_from_u64(1);
@@ -101,6 +138,45 @@ impl Assessment {
     pub fn horizon_s(&self) -> Option<f64> {
         let time = self.prepared.model.scales.time_s;
         self.trust.horizon.map(|horizon| horizon.t * time)
+    }
+
+    /// What the verdict would rest on with less and with more restitution, the least first.
+    pub fn by_restitution(&self) -> Vec<ByRestitution> {
+        let structure = &self.prepared.structure;
+        let of = |restitution: f64, outcome: &Outcome| {
+            let all: Option<Vec<f64>> = outcome.utilisations(structure).into_iter().collect();
+            ByRestitution {
+                restitution,
+                largest_utilisation: all.map(|all| all.into_iter().fold(0.0, f64::max)),
+                fastest_snap_m_s: outcome.speed_m_s(),
+            }
+        };
+        let mut rows = vec![of(structure.restitution, &self.outcome)];
+        rows.extend(self.restitutions.iter().map(|(e, outcome)| of(*e, outcome)));
+        rows.sort_by(|a, b| a.restitution.total_cmp(&b.restitution));
+        rows
+    }
+
+    /// The checks by the rule of the case, and the neighbours that agree with each.
+    pub fn checks(&self) -> Vec<(Check, usize)> {
+        let open = self
+            .warnings
+            .iter()
+            .any(|warning| warning.decided_by.is_some());
+        let of = |outcome: &Outcome| line_checks(&self.prepared, outcome, open);
+        let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
+        let agreeing = |index: usize, check: &Check| {
+            let same = |other: &&Vec<Check>| other[index].answer == check.answer;
+            neighbours.iter().filter(same).count()
+        };
+        let lines = of(&self.outcome).into_iter().enumerate();
+        let lines = lines.map(|(index, check)| {
+            let count = agreeing(index, &check);
+            (check, count)
+        });
+        // The waves of neighbours are as high but for a millionth.
+        let force = force_check(&self.prepared).map(|check| (check, self.neighbours.len()));
+        lines.chain(force).collect()
     }
 
     /// The snaps that are judged: those that count, after the transient.

@@ -3,6 +3,9 @@
 
 pub(crate) mod assess;
 pub(crate) mod both;
+pub(crate) mod design;
+pub(crate) mod motion;
 pub(crate) mod outcome;
 pub(crate) mod scan;
 pub(crate) mod seas;
+pub(crate) mod sprung;

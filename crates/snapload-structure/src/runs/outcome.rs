@@ -3,6 +3,7 @@
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
 use crate::physics::waterline::Waterline;
+use crate::physics::waves_of_tension::WavesOfTension;
 use crate::structure::Structure;
 use serde::Serialize;
 use snapload::{CaseError, Simulation, Step, Stop};
@@ -24,8 +25,20 @@ pub struct LineOutcome {
     /// The largest tension while the line stays taut \[N\].
     #[serde(rename = "held_tension_n")]
     pub held_n: f64,
+    /// The smallest tension, 0 where it goes slack; none where the run ends before anything is judged \[N\].
+    #[serde(rename = "least_tension_n")]
+    pub least_n: Option<f64>,
     /// The part of the whole time without tension.
     pub slack_fraction: f64,
+}
+
+impl LineOutcome {
+    /// The larger of what it holds and what it carries in a snap; none where it snaps and that is not
+    /// known \[N\].
+    pub fn largest_n(&self) -> Option<f64> {
+        let no_snap = (self.snaps + self.jolts == 0).then_some(0.0);
+        Some(self.peak_n.or(no_snap)?.max(self.held_n))
+    }
 }
 
 /// What one run comes to.
@@ -45,6 +58,8 @@ pub struct Outcome {
     pub peaks_n: Vec<f64>,
     /// Their speeds \[m/s\].
     pub speeds_m_s: Vec<f64>,
+    /// Crest and trough of every wave of tension of every line \[N\].
+    pub waves_n: Vec<[f64; 2]>,
 }
 
 impl Outcome {
@@ -88,9 +103,7 @@ impl Outcome {
     /// The largest tension of each line over its breaking load, where that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {
-            let no_snap = (outcome.snaps + outcome.jolts == 0).then_some(0.0);
-            let peak = outcome.peak_n.or(no_snap)?;
-            Some(peak.max(outcome.held_n) / line.breaking_load_n?)
+            Some(outcome.largest_n()? / line.breaking_load_n?)
         };
         self.lines.iter().zip(&structure.lines).map(one).collect()
     }
@@ -106,6 +119,9 @@ pub(super) struct Tally<'a> {
     waterline: Option<Waterline>,
     peaks_n: Vec<f64>,
     speeds_m_s: Vec<f64>,
+    /// The wave of tension that each line is in, and those that are over.
+    waves: Vec<WavesOfTension>,
+    waves_n: Vec<[f64; 2]>,
 }
 
 impl<'a> Tally<'a> {
@@ -123,6 +139,13 @@ impl<'a> Tally<'a> {
                 .then_some(Waterline::NONE),
             peaks_n: Vec::new(),
             speeds_m_s: Vec::new(),
+            waves: prepared
+                .rest
+                .tension_n
+                .iter()
+                .map(|rest| WavesOfTension::new(*rest))
+                .collect(),
+            waves_n: Vec::new(),
         }
     }
 
@@ -138,9 +161,13 @@ impl<'a> Tally<'a> {
         let scales = &self.prepared.model.scales;
         let transient_s = self.prepared.structure.transient_s;
         if step.t_end * scales.time_s >= transient_s {
-            let tensions = simulation.largest_tensions(step);
-            for (line, tension) in self.lines.iter_mut().zip(tensions) {
-                line.held_n = line.held_n.max(tension * scales.force_n);
+            let ranges = simulation.tension_ranges(step);
+            for ((line, wave), range) in self.lines.iter_mut().zip(&mut self.waves).zip(ranges) {
+                // A line that is taut is not pushed: a tension below zero is rounding.
+                let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
+                self.waves_n.extend(wave.see([least, largest]));
+                line.held_n = line.held_n.max(largest);
+                line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
             }
         }
         let snaps = snaps_of_step(self.prepared, simulation, step);
@@ -161,6 +188,7 @@ impl<'a> Tally<'a> {
             self.speeds_m_s.push(snap.speed_m_s);
         }
         if let Some(peak) = snap.peak_n {
+            self.waves_n.extend(self.waves[snap.line].see([peak; 2]));
             line.peak_n = Some(line.peak_n.unwrap_or(0.0).max(peak));
             self.peaks_n.push(peak);
         }
@@ -186,6 +214,7 @@ impl<'a> Tally<'a> {
             waterline: self.waterline,
             peaks_n: self.peaks_n,
             speeds_m_s: self.speeds_m_s,
+            waves_n: self.waves_n,
         }
     }
 }

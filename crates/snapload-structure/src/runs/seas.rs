@@ -6,8 +6,10 @@ use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::physics::warnings::{Warning, limits_afloat, turning_warning, warnings};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
-use snapload::analysis::{Counter, OnProgress, Share, Unfinished, in_parallel};
+use serde::Serialize;
+use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};
 use snapload::{CaseError, Stop};
+use std::ops::ControlFlow;
 
 /// What one record comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,17 +27,34 @@ pub struct Seas {
     pub prepared: Prepared,
     /// Rules of thumb that the case breaks.
     pub warnings: Vec<Warning>,
+    /// The model of the lines.
+    pub lines: Lines,
     /// By seed.
     pub records: Vec<SeaOutcome>,
+}
+
+/// The model of the lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Lines {
+    /// They do not stretch, and snap.
+    Inextensible,
+    /// They are springs.
+    Elastic,
 }
 
 /// Runs a structure in `count` records of its sea, with the seed of the case and those that follow
 /// it.
 ///
 /// # Errors
-/// A [`CaseError`] if the case has no sea, or the structure rests nowhere, and
-/// [`Unfinished::Cancelled`].
-pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result<Seas, Unfinished> {
+/// A [`CaseError`] if the case has no sea, the structure rests nowhere, or lines that stretch have no
+/// stiffness, and [`Unfinished::Cancelled`].
+pub fn seas(
+    structure: Structure,
+    count: u32,
+    lines: Lines,
+    on_progress: OnProgress,
+) -> Result<Seas, Unfinished> {
     let Water::Sea(sea) = structure.water else {
         let allowed = "an irregular sea, to draw records from";
         let error = CaseError::value("[sea]", "(left out)", allowed).with_hint(
@@ -47,7 +66,16 @@ pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
-        let outcome = Outcome::of(&prepared.in_sea(IrregularSea { seed, ..sea })?, 1.0)?;
+        let record = prepared.in_sea(IrregularSea { seed, ..sea })?;
+        // Within a record nothing is counted, but it may be cancelled.
+        let within = |_: Progress| match counter.add(0) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        };
+        let outcome = match lines {
+            Lines::Inextensible => Outcome::of(&record, 1.0)?,
+            Lines::Elastic => Outcome::on_springs(&record, &within)?,
+        };
         counter.add(1)?;
         Ok::<_, Unfinished>(SeaOutcome { seed, outcome })
     })?;
@@ -60,8 +88,11 @@ pub fn seas(structure: Structure, count: u32, on_progress: OnProgress) -> Result
     let mut warnings = warnings(&prepared.structure, &prepared.rest);
     warnings.extend(turning_warning(&prepared.structure, turned));
     warnings.extend(limits_afloat(&prepared.structure, seen.as_ref(), turned));
+    // What lines that stretch decide they have decided.
+    warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     Ok(Seas {
         records,
+        lines,
         warnings,
         prepared,
     })
@@ -173,6 +204,17 @@ impl Seas {
             self.outcomes()
                 .flat_map(|outcome| outcome.speeds_m_s.iter().copied()),
         )
+    }
+
+    /// Crests and troughs of all waves of tension, each sorted \[N\].
+    pub fn crests_and_troughs_n(&self) -> [Vec<f64>; 2] {
+        [0, 1].map(|k| {
+            sorted(
+                self.outcomes()
+                    .flat_map(|outcome| &outcome.waves_n)
+                    .map(|wave| wave[k]),
+            )
+        })
     }
 
     /// Tensions of all snaps, sorted \[N\].

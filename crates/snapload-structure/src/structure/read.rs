@@ -2,6 +2,7 @@
 
 use crate::catalogue::{GRADES, Section, is_chain, section};
 use crate::schema::STRUCTURE;
+use crate::structure::design::{read_design, read_project};
 use crate::structure::{
     AddedMass, Afloat, BodySi, ByDefault, IrregularSea, LineSi, Outline, Site, SpectrumShape,
     Structure, THREE_HOURS_S, Water, Wave,
@@ -82,6 +83,7 @@ fn read(entries: &Entries, folder: &Path) -> Result<Structure, CaseError> {
             .with_hint("make run.duration longer, or transient shorter"));
     }
     let structure = Structure {
+        project: read_project(entries)?,
         body,
         lines,
         site,
@@ -93,6 +95,7 @@ fn read(entries: &Entries, folder: &Path) -> Result<Structure, CaseError> {
         transient_s: given.unwrap_or(transient.min(duration_s / 2.0)),
         start_m: run.get("start")?,
         max_snaps: run.need("max_snaps")?,
+        design: read_design(entries)?,
     };
     check(&structure)?;
     Ok(structure)

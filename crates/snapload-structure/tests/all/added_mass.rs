@@ -1,9 +1,10 @@
 //! The water that moves with a body: by axis, and in rotation.
 
+use crate::verdicts::source;
 use snapload::Playback;
 use snapload::analysis::unwatched;
 use snapload_structure::{
-    ElasticRun, Prepared, Structure, assess, both_models, run_elastic, springs,
+    ElasticRun, Prepared, Structure, assess, both_models, note, run_elastic, springs,
 };
 use std::f64::consts::PI;
 
@@ -47,7 +48,7 @@ fn a_rectangle_has_its_added_mass_from_the_table() {
     assert!(assessment.summary("pontoon").contains("DNV-RP-C205"));
     let json = assessment.to_json("pontoon");
     assert_eq!(json["body"]["added_mass_kg"][0], added.surge_kg);
-    let page = snapload_structure::note::page("pontoon", "", &assessment, None).unwrap();
+    let page = note::page(source("pontoon"), &assessment, None).unwrap();
     assert!(page.contains("DNV-RP-C205"));
 }
 

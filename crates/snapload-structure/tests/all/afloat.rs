@@ -1,12 +1,15 @@
 //! Structures that float: the coefficients of a panel code under the same keys and answers.
 
+use crate::verdicts::source;
 use snapload::analysis::unwatched;
 use snapload::{
     Body, Entries, Excitation, Exponential, Floating, FloatingUnits, Forcing, Playback, Rules,
     Simulation, State, System,
 };
 use snapload_hydro::{Given, Line, Report, Request, Weight, read, response_of_the_memory};
-use snapload_structure::{Prepared, STRUCTURE, Structure, assess, run_elastic, seas, springs};
+use snapload_structure::{
+    Lines, Prepared, STRUCTURE, Structure, assess, note, run_elastic, seas, springs,
+};
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -268,7 +271,7 @@ fn waves_from_either_side_are_mirror_images() {
 fn a_sea_is_answered_with_periods_and_limits() {
     let sea = "[sea]\nhs = 1.6\ntp = 5.5\ncomponents = 60";
     let text = case(-0.2, 2.0, 9.666, sea, "duration = 90");
-    let result = seas(structure(&text), 2, &unwatched);
+    let result = seas(structure(&text), 2, Lines::Inextensible, &unwatched);
     let result = result.unwrap();
     let summary = result.summary("case");
     assert!(
@@ -287,7 +290,7 @@ fn a_sea_is_answered_with_periods_and_limits() {
         .map(|motion| motion["freedom"].as_str())
         .collect();
     assert_eq!(freedoms, [Some("pitch"), Some("heave")]);
-    let page = snapload_structure::note::seas_page("case", "", &result).unwrap();
+    let page = note::seas_page(source("case"), &result).unwrap();
     assert!(page.contains("The floating body"));
 }
 

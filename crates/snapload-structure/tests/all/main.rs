@@ -6,6 +6,7 @@ mod added_mass;
 mod afloat;
 mod conversion;
 mod current;
+mod design;
 mod elastic;
 mod equilibrium;
 mod manual;

@@ -1,12 +1,22 @@
 //! What is said of a structure that an inextensible line does not describe, or that is hardly meant.
 
 use snapload::analysis::unwatched;
-use snapload_structure::{Standing, Structure, assess, seas};
+use snapload_structure::note::Source;
+use snapload_structure::{Lines, Prepared, Standing, Structure, Water, assess, both_models, seas};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
 
-fn structure(text: &str) -> Structure {
+/// Where a page of the tests comes from.
+pub(crate) fn source(name: &str) -> Source<'_> {
+    Source {
+        name,
+        command: "",
+        sha256: None,
+    }
+}
+
+pub(crate) fn structure(text: &str) -> Structure {
     Structure::parse("case", text).unwrap()
 }
 
@@ -43,13 +53,13 @@ fn soft_lines_leave_the_verdict_open() {
 #[test]
 fn a_sea_has_the_warnings_of_a_wave() {
     let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
-    let result = seas(structure(&text), 3, &unwatched).unwrap();
+    let result = seas(structure(&text), 3, Lines::Inextensible, &unwatched).unwrap();
     let assessment = assess(structure(&text), 0, &unwatched).unwrap();
     // That of the phase is known from one motion alone.
     let assessed = assessment.warnings.iter().filter(|w| w.rule != "phase");
     assert!(assessed.eq(&result.warnings) && result.is_open());
     let words = result.words();
-    assert!(words.contains("snapload elastic decides"), "{words}");
+    assert!(words.contains("snapload seas --elastic decides"), "{words}");
     assert!(!words.contains("probability"), "{words}");
     assert!(!words.contains("The largest tension"), "{words}");
     assert!(result.summary("case").contains("warning"));
@@ -61,7 +71,7 @@ fn a_sea_has_the_warnings_of_a_wave() {
 #[test]
 fn what_a_line_holds_is_among_the_largest() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
-    let result = seas(structure(&text), 4, &unwatched).unwrap();
+    let result = seas(structure(&text), 4, Lines::Inextensible, &unwatched).unwrap();
     let largest = result.largest_n().unwrap();
     for (record, largest) in result.records.iter().zip(largest) {
         let lines = &record.outcome.lines;
@@ -71,7 +81,7 @@ fn what_a_line_holds_is_among_the_largest() {
     }
     // Without waves that make lines slack there is no snap, and all is held.
     let calm = text.replace("hs = 1.2", "hs = 0.05");
-    let calm = seas(structure(&calm), 4, &unwatched).unwrap();
+    let calm = seas(structure(&calm), 4, Lines::Inextensible, &unwatched).unwrap();
     let held = calm.largest_n().unwrap();
     let rest = calm
         .prepared
@@ -94,7 +104,9 @@ fn what_a_line_holds_is_among_the_largest() {
 #[test]
 fn too_few_records_are_not_too_few_snaps() {
     let text = SEA.replace("[run]", "[run]\nduration = 300");
-    let words = seas(structure(&text), 2, &unwatched).unwrap().words();
+    let words = seas(structure(&text), 2, Lines::Inextensible, &unwatched)
+        .unwrap()
+        .words();
     assert!(words.contains("2 records are too few"), "{words}");
 }
 
@@ -125,4 +137,85 @@ fn a_run_that_ends_at_once_says_so() {
         "{}",
         verdict.words
     );
+}
+
+/// Soft lines as springs decide what inextensible ones leave open; the records are the same seas.
+#[test]
+fn a_sea_on_lines_that_stretch_decides() {
+    let text = soft(SEA).replace("[run]", "[run]\nduration = 300");
+    let result = seas(structure(&text), 3, Lines::Elastic, &unwatched).unwrap();
+    assert!(!result.is_open());
+    let one = &result.records[1];
+    let mut alone = structure(&text);
+    if let Water::Sea(sea) = &mut alone.water {
+        sea.seed = one.seed;
+    }
+    let prepared = Prepared::new(alone).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    for (line, peak) in both.elastic.peaks_n.iter().enumerate() {
+        assert_eq!(one.outcome.lines[line].largest_n(), Some(*peak));
+    }
+    let [crests, troughs] = result.crests_and_troughs_n();
+    let largest = result.largest_n().unwrap().into_iter().fold(0.0, f64::max);
+    assert!(crests.len() == troughs.len() && crests.len() > 20);
+    assert!(*crests.last().unwrap() <= largest && troughs[0] >= 0.0);
+}
+
+/// The verdict's run with the case's own restitution stands among those with less and more.
+#[test]
+fn the_restitution_is_varied() {
+    let text = EXAMPLE.replace("[run]", "[run]\nduration = 120");
+    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let rows = assessment.by_restitution();
+    let es: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
+    assert_eq!(es, [0.3, 0.5, 0.7]);
+    let alone = text.replace("restitution = 0.5", "restitution = 0.7");
+    let alone = assess(structure(&alone), 0, &unwatched).unwrap();
+    assert_eq!(rows[2].fastest_snap_m_s, alone.outcome.speed_m_s());
+    let rigid = text.replace("restitution = 0.5", "restitution = 1");
+    let rigid = assess(structure(&rigid), 0, &unwatched).unwrap();
+    assert_eq!(rigid.by_restitution().len(), 2);
+}
+
+/// Two lines side by side, one of them 5 mm shorter, carry by their stiffness what two springs do:
+/// s₁ = s₂ + δ and k₁ s₁ + k₂ s₂ = F. Lines that do not stretch would leave all to the shorter one.
+#[test]
+fn the_stretch_of_lines_shares_the_load_at_rest() {
+    let line = |length: f64| {
+        format!(
+            "[[line]]\nanchor = [0, -20]\nfairlead = [0, -5]\nlength = {length}\nstiffness = 3e6\n"
+        )
+    };
+    let text = format!(
+        "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nposition = [0, -5]\n{}{}\
+         [site]\ndepth = 21\n[run]\nrestitution = 0.5\n",
+        line(15.0),
+        line(15.005)
+    );
+    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let rest = &assessment.prepared.rest;
+    let force = assessment.prepared.structure.net_buoyancy_n();
+    let rigid = rest.unstretched_n.as_ref().unwrap();
+    assert!((rigid[0] - force).abs() < 1e-6 * force && rigid[1] == 0.0);
+    let (k1, k2) = (3e6 / 15.0, 3e6 / 15.005);
+    let second = (force - k1 * 0.005) / (k1 + k2);
+    let known = [k1 * (second + 0.005), k2 * second];
+    for (found, known) in rest.tension_n.iter().zip(known) {
+        assert!((found - known).abs() < 1e-7 * force, "{found} {known}");
+    }
+    let warning = assessment
+        .warnings
+        .iter()
+        .find(|w| w.rule == "shared loads")
+        .unwrap();
+    assert!(
+        warning.message.contains("would carry 3/0 kN"),
+        "{}",
+        warning.message
+    );
+    assert_eq!(assessment.verdict().standing, Standing::Open);
+    // Lines of one length share evenly on either model, and nothing is said.
+    let even = text.replace("15.005", "15");
+    let even = assess(structure(&even), 0, &unwatched).unwrap();
+    assert!(even.prepared.rest.unstretched_n.is_none());
 }

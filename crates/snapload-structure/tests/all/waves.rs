@@ -257,3 +257,51 @@ fn every_type_has_a_section_and_nothing_else_has() {
     );
     assert_eq!(section("spaghetti", 0.05, None), None);
 }
+
+/// A record of three hours has the moments of its spectrum back, and its crests are distributed as
+/// Rayleigh has it, P(crest > c) = exp(−8 (c/Hs)²), which long waves of many lengths nearly are.
+#[test]
+fn a_record_has_the_moments_and_crests_of_its_sea() {
+    let (mut square, mut slope, mut crests) = (0.0, 0.0, Vec::new());
+    let (step, count, seeds) = (0.25, 43_200, 8);
+    let spectrum = Spectrum::new(&sea(SpectrumShape::Jonswap(3.3), 1));
+    for seed in 1..=seeds {
+        let parts = components(&sea(SpectrumShape::Jonswap(3.3), seed));
+        // Each component turns by the same angle a step.
+        let mut turning: Vec<[f64; 4]> = parts
+            .iter()
+            .map(|part| {
+                let (sine, cosine) = part.phase_rad.sin_cos();
+                let (s, c) = (part.omega_rad_s * step).sin_cos();
+                [part.amplitude_m * sine, part.amplitude_m * cosine, s, c]
+            })
+            .collect();
+        let (mut before, mut crest) = (0.0_f64, 0.0_f64);
+        for _ in 0..count {
+            let (mut height, mut rate) = (0.0, 0.0);
+            for (wave, part) in turning.iter_mut().zip(&parts) {
+                let [sine, cosine, s, c] = *wave;
+                height += sine;
+                rate += part.omega_rad_s * cosine;
+                *wave = [sine * c + cosine * s, cosine * c - sine * s, s, c];
+            }
+            square += height * height;
+            slope += rate * rate;
+            if before > 0.0 && height <= 0.0 {
+                crests.push(crest);
+                crest = 0.0;
+            }
+            (before, crest) = (height, crest.max(height));
+        }
+    }
+    let looks = (count * seeds as usize) as f64;
+    let [m0, m2] = [square / looks, slope / looks];
+    assert!((4.0 * m0.sqrt() / 3.0 - 1.0).abs() < 0.01, "{m0}");
+    assert!((m2 / spectrum.moment(2) - 1.0).abs() < 0.03, "{m2}");
+    for part in [0.3_f64, 0.5, 0.7] {
+        let above = crests.iter().filter(|crest| **crest > part * 3.0).count();
+        let found = above as f64 / crests.len() as f64;
+        let known = (-8.0 * part * part).exp();
+        assert!((found - known).abs() < 0.02, "{part}: {found} {known}");
+    }
+}

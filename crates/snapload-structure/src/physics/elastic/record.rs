@@ -4,6 +4,7 @@ use super::body::SprungBody;
 use crate::physics::model::Scales;
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::number_of_line;
+use crate::physics::waves_of_tension::WavesOfTension;
 use serde::Serialize;
 use snapload::{State, TautSet};
 
@@ -49,8 +50,14 @@ pub struct ElasticRun {
     pub end_s: f64,
     /// The state then, in the engine's units.
     pub end: State,
+    /// The largest rotation either way \[rad\].
+    pub turned_rad: f64,
     /// The largest tension of each line after the transient \[N\].
     pub peaks_n: Vec<f64>,
+    /// The smallest, 0 where it goes slack; none where the run ends before \[N\].
+    pub least_n: Vec<Option<f64>>,
+    /// Crest and trough of every wave of tension of every line after the transient \[N\].
+    pub waves_n: Vec<[f64; 2]>,
 }
 
 impl ElasticRun {
@@ -69,6 +76,8 @@ pub(super) struct Record<'a> {
     next: f64,
     transient_s: f64,
     run: ElasticRun,
+    /// The wave of tension that each line is in.
+    waves: Vec<WavesOfTension>,
     /// The pull that each line is in, by its place among the pulls.
     open: Vec<Option<usize>>,
 }
@@ -84,8 +93,15 @@ impl<'a> Record<'a> {
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 peaks_n: vec![0.0; body.springs.len()],
+                least_n: vec![None; body.springs.len()],
                 ..ElasticRun::default()
             },
+            waves: prepared
+                .rest
+                .tension_n
+                .iter()
+                .map(|rest| WavesOfTension::new(*rest))
+                .collect(),
             open: vec![None; body.springs.len()],
         }
     }
@@ -98,12 +114,21 @@ impl<'a> Record<'a> {
     /// Takes note of a state on the way.
     pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
         let t_s = t * self.scales.time_s;
+        self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
+        if t_s >= self.transient_s {
+            for line in 0..self.open.len() {
+                let tension = match pulling.contains(line) {
+                    true => self.tension_n(line, state),
+                    false => 0.0,
+                };
+                let (peak, least) = (&mut self.run.peaks_n[line], &mut self.run.least_n[line]);
+                *peak = peak.max(tension);
+                *least = Some(least.map_or(tension, |least| least.min(tension)));
+                self.run.waves_n.extend(self.waves[line].see([tension; 2]));
+            }
+        }
         for line in pulling.iter() {
             let tension = self.tension_n(line, state);
-            if t_s >= self.transient_s {
-                let peak = &mut self.run.peaks_n[line];
-                *peak = peak.max(tension);
-            }
             if let Some(pull) = self.open[line].map(|place| &mut self.run.pulls[place])
                 && tension > pull.peak_n
             {

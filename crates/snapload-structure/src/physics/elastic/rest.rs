@@ -25,7 +25,7 @@ use snapload::{CaseError, State};
 const BALANCED: f64 = 1e-12;
 /// Steps of the search.
 const STEPS: usize = 400;
-/// Step of the differences that stand for second derivatives.
+/// Step of the differences that stand for derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
 /// What is added to the second derivatives at first, and at most.
 const DAMPING: [f64; 2] = [1e-6, 1e12];
@@ -54,6 +54,7 @@ impl Prepared {
             taut: taut.collect(),
             tension_n,
             indeterminate: false,
+            unstretched_n: None,
         };
         let structure = self.structure.clone();
         // From a start of its own it is compared with lines that do not stretch, in the same waves.
@@ -64,6 +65,17 @@ impl Prepared {
             None => Model::about(&structure, rest.place_m, &[]),
         };
         Ok(Self::starting(structure, rest, model))
+    }
+
+    /// How the force on a body that rests on springs, as [`Prepared::on_springs`] has it, changes
+    /// with its place: the second derivatives of V over (x, y, θ), in the engine's units.
+    pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
+        let body = SprungBody {
+            system: &self.model.system,
+            springs,
+        };
+        let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
+        curvature(&body, &at)
     }
 }
 
@@ -98,15 +110,27 @@ fn moved(at: &State, step: &Vector3<f64>) -> State {
     }
 }
 
-/// The second derivatives of V, by differences of the first.
+/// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the lines that
+/// are stretched. Only the rows are differentiated by differences, as a line may be stretched by less
+/// than their step.
 fn curvature(body: &SprungBody, at: &State) -> Matrix3<f64> {
-    let mut curvature = Matrix3::zeros();
-    for k in 0..3 {
-        let mut step = Vector3::zeros();
-        step[k] = DIFFERENCE;
-        let (_, ahead) = energy(body, &moved(at, &step));
-        let (_, behind) = energy(body, &moved(at, &-step));
-        curvature.set_column(k, &((ahead - behind) / (2.0 * DIFFERENCE)));
+    let water = body.system.floating.as_ref();
+    let mut curvature = water.map_or(Matrix3::zeros(), |water| Matrix3::from(water.stiffness));
+    for (line, spring) in body.springs.iter().enumerate() {
+        let (row, stretch) = body.row(line, at);
+        if stretch <= 0.0 {
+            continue;
+        }
+        let row = Vector3::from(row);
+        curvature += row * row.transpose() * spring.rate;
+        for k in 0..3 {
+            let mut step = Vector3::zeros();
+            step[k] = DIFFERENCE;
+            let [ahead, behind] = [step, -step].map(|step| body.row(line, &moved(at, &step)).0);
+            let slope = (Vector3::from(ahead) - Vector3::from(behind)) / (2.0 * DIFFERENCE);
+            let mut column = curvature.column_mut(k);
+            column += slope * (spring.rate * stretch);
+        }
     }
     (curvature + curvature.transpose()) * 0.5
 }
@@ -117,10 +141,12 @@ fn least_energy(body: &SprungBody, start: State) -> Result<State, CaseError> {
     let (mut least, mut gradient) = energy(body, &at);
     for _ in 0..STEPS {
         let scale = body.springs.iter().map(|spring| spring.rate).sum::<f64>();
-        if gradient.amax() <= BALANCED * scale.max(1.0) {
-            return Ok(at);
-        }
         let second = curvature(body, &at);
+        if gradient.amax() <= BALANCED * scale.max(1.0) {
+            // A last step of Newton's leaves only rounding.
+            let step = second.lu().solve(&-gradient);
+            return Ok(step.map_or(at, |step| moved(&at, &step)));
+        }
         loop {
             let damped = second + Matrix3::identity() * (damping * scale.max(1.0));
             let step = damped.lu().solve(&-gradient);

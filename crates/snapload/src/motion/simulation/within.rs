@@ -294,21 +294,25 @@ impl<T: Real> Simulation<T> {
             + bend * width * width * 0.125
     }
 
-    /// The largest tension of each cable along the latest step, as it is at seventeen instants
-    /// evenly spaced \[F\].
-    pub fn largest_tensions(&self, step: &Step<T>) -> [T; MAX_CABLES] {
+    /// The least and the largest tension of each cable along the latest step, as they are at
+    /// seventeen instants evenly spaced; 0 of a cable that is slack \[F\].
+    pub fn tension_ranges(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
         let s = step.t_end - step.t_start;
-        let mut largest = [T::ZERO; MAX_CABLES];
-        if step.taut.is_empty() {
-            return largest;
-        }
+        let mut ranges = [[T::ZERO; 2]; MAX_CABLES];
         for k in 0..=16 {
+            if step.taut.is_empty() {
+                break;
+            }
             let now = self.tensions_within(step, s * (f64::from(k) / 16.0));
             for cable in step.taut.iter() {
-                largest[cable] = largest[cable].max(now[cable]);
+                let [least, largest] = ranges[cable];
+                ranges[cable] = match k {
+                    0 => [now[cable]; 2],
+                    _ => [least.min(now[cable]), largest.max(now[cable])],
+                };
             }
         }
-        largest
+        ranges
     }
 
     /// The tension of each cable at the end of the latest step, before the event there \[F\].

@@ -1,0 +1,111 @@
+//! The drawing of a structure: body, lines, anchors and water, to scale.
+
+use crate::physics::prepared::Prepared;
+use crate::structure::Outline;
+use snapload_figures::{
+    Axis, Colour, Dash, FigureError, Layer, Mark, Picture, Plot, Point, Stroke, Width, draw,
+};
+use std::f64::consts::TAU;
+
+/// Corners of the polygon that a circle is drawn as.
+const CORNERS: u32 = 90;
+/// The water and the floor reach so far past the outermost things, in parts of the width.
+const MARGIN: f64 = 0.08;
+
+/// The structure at rest in still water, in metres.
+pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
+    let description = "The structure at rest: body, lines with their numbers at the anchors, still water and floor";
+    let axis = |label: &str| Axis {
+        label: label.to_owned(),
+        ..Axis::default()
+    };
+    let plot = Plot {
+        description: description.to_owned(),
+        x: axis("*x* (m)"),
+        y: axis("*z* (m)"),
+        equal_scale: true,
+        layers: layers(prepared),
+        ..Plot::default()
+    };
+    draw("layout", Width::Column, &[plot])
+}
+
+fn layers(prepared: &Prepared) -> Vec<Layer> {
+    let (structure, rest) = (&prepared.structure, &prepared.rest);
+    let outline: Vec<Point> = outline(prepared);
+    let outline = outline.into_iter().map(|point| placed(prepared, point));
+    let outline: Vec<Point> = outline.collect();
+    let spans: Vec<Vec<Point>> = spans(prepared);
+    let all = || spans.iter().flatten().chain(&outline).map(|point| point[0]);
+    let left = all().fold(f64::INFINITY, f64::min);
+    let right = all().fold(f64::NEG_INFINITY, f64::max);
+    let margin = MARGIN * (right - left);
+    let level = |z: f64| vec![vec![[left - margin, z], [right + margin, z]]];
+    let is_taut = |line: &usize| rest.taut.contains(line);
+    let (taut, slack): (Vec<usize>, Vec<usize>) = (0..spans.len()).partition(is_taut);
+    let drawn = |lines: &[usize]| lines.iter().map(|&line| spans[line].clone()).collect();
+    let mark = |(line, span): (usize, &Vec<Point>)| Mark {
+        at: span[0],
+        letter: (line + 1).to_string(),
+    };
+    let line = |pieces: Vec<Vec<Point>>, colour: Colour, width: f64, words: &str| {
+        let stroke = Stroke::new(colour, width, Dash::Solid);
+        Layer::Line(pieces, stroke, words.to_owned())
+    };
+    let floor = level(-structure.site.depth_m);
+    let mut layers = vec![
+        line(level(0.0), Colour::SKY_BLUE, 1.0, "still water"),
+        line(floor, Colour::BLACK, 1.5, "floor"),
+        line(drawn(&taut), Colour::VERMILION, 1.0, "line"),
+        line(vec![outline], Colour::BLUE, 1.2, "body"),
+        Layer::Letters(spans.iter().enumerate().map(mark).collect()),
+    ];
+    if !slack.is_empty() {
+        let stroke = Stroke::new(Colour::VERMILION, 0.7, Dash::Dashed);
+        let words = "line, slack at rest".to_owned();
+        layers.push(Layer::Line(drawn(&slack), stroke, words));
+    }
+    layers
+}
+
+/// Where a point of the unturned body, about its centre, is at rest.
+fn placed(prepared: &Prepared, [x, z]: Point) -> Point {
+    let rest = &prepared.rest;
+    let (sine, cosine) = rest.theta_rad.sin_cos();
+    let [x0, z0] = rest.place_m;
+    [x0 + cosine * x - sine * z, z0 + sine * x + cosine * z]
+}
+
+/// Anchor and fairlead of each line at rest.
+fn spans(prepared: &Prepared) -> Vec<Vec<Point>> {
+    let position = prepared.structure.body.position_m;
+    let lines = prepared.structure.lines.iter();
+    lines
+        .map(|line| {
+            let [x, z] = line.fairlead_m;
+            let fairlead = placed(prepared, [x - position[0], z - position[1]]);
+            vec![line.anchor_m, fairlead]
+        })
+        .collect()
+}
+
+/// The outline about the centre of the unturned body, closed.
+fn outline(prepared: &Prepared) -> Vec<Point> {
+    let body = &prepared.structure.body;
+    let [half_width, half_height] = [body.width_m / 2.0, body.height_m / 2.0];
+    match body.outline {
+        Outline::Circle => {
+            let angles = (0..=CORNERS).map(|k| TAU * f64::from(k) / f64::from(CORNERS));
+            angles
+                .map(|angle| [half_width * angle.cos(), half_width * angle.sin()])
+                .collect()
+        }
+        Outline::Rectangle => vec![
+            [-half_width, -half_height],
+            [half_width, -half_height],
+            [half_width, half_height],
+            [-half_width, half_height],
+            [-half_width, -half_height],
+        ],
+    }
+}

@@ -1,0 +1,148 @@
+//! Natural periods: small undamped motions about the place of rest in still water.
+//!
+//! ```text
+//! M q̈ + K q = 0,    K = Σ T_i ∇(n_i, s_i)  +  Σ k_i (n_i, s_i)ᵀ (n_i, s_i)
+//! ```
+//!
+//! over q = (x, y, θ), with the mass matrix M, the added mass included, and T_i and k_i the tension
+//! at rest and the spring rate of line i. The first sum is what the tension does as the lines turn,
+//! the second what the springs do. On lines that do not stretch the second is left out, and q is
+//! only along the motions that keep taut every line that pulls. From K v = ω² M v follow ω² and the
+//! mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
+
+use super::elastic::{Spring, springs};
+use super::equilibrium::SmallMotions;
+use super::prepared::Prepared;
+use nalgebra::{DMatrix, Matrix3};
+use serde::Serialize;
+
+/// A freedom that nothing brings back has less than this, in the engine's units.
+const LEAST_OMEGA_SQUARED: f64 = 1e-7;
+/// What counts in the name of a mode: this part of its kinetic energy, and more.
+const NAMED: f64 = 0.2;
+
+/// A small motion in which the body swings by itself.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NaturalMode {
+    /// Its period; none where nothing brings the body back \[s\].
+    pub period_s: Option<f64>,
+    /// Which way it goes: surge, heave, pitch, or two or three of them.
+    pub motion: String,
+    /// Its surge \[m\], heave \[m\] and pitch \[rad\], the largest of the three numbers being 1.
+    #[serde(rename = "surge_heave_pitch")]
+    pub mode: [f64; 3],
+}
+
+/// The natural periods on either model of a line, the longest first.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NaturalPeriods {
+    /// On lines that do not stretch: one for each freedom that the taut lines leave.
+    pub inextensible: Vec<NaturalMode>,
+    /// On lines that stretch, where their stiffness is known and the body rests on them.
+    pub elastic: Option<Vec<NaturalMode>>,
+}
+
+impl NaturalPeriods {
+    /// Of a submerged structure at rest in still water; the stiffness of a floating one is the
+    /// water's, too.
+    pub fn of(prepared: &Prepared) -> Option<Self> {
+        if prepared.structure.afloat.is_some() {
+            return None;
+        }
+        let elastic = springs(prepared, 1.0).ok().and_then(|springs| {
+            let sprung = prepared.on_springs(&springs).ok()?;
+            Some(on_springs(&sprung, &springs))
+        });
+        Some(Self {
+            inextensible: on_taut_lines(prepared),
+            elastic,
+        })
+    }
+}
+
+fn on_taut_lines(prepared: &Prepared) -> Vec<NaturalMode> {
+    let (rest, model) = (&prepared.rest, &prepared.model);
+    let at = model.at_rest(rest.place_m, rest.theta_rad);
+    let pulls: Vec<f64> = rest
+        .tension_n
+        .iter()
+        .map(|tension| tension / model.scales.force_n)
+        .collect();
+    let lines: Vec<usize> = (0..pulls.len()).collect();
+    let motions = SmallMotions::new(&model.system, &lines, &pulls, &at);
+    modes(prepared, &motions.curvature, &motions.basis())
+}
+
+fn on_springs(sprung: &Prepared, springs: &[Spring]) -> Vec<NaturalMode> {
+    let stiffness = sprung.stiffness_on(springs);
+    modes(sprung, &stiffness, &DMatrix::identity(3, 3))
+}
+
+/// The modes in words: `3.231 s (surge), 0.502 s (heave)`.
+pub(crate) fn in_words(modes: &[NaturalMode]) -> String {
+    let one = |mode: &NaturalMode| match mode.period_s {
+        Some(period) => format!("{period:.3} s ({})", mode.motion),
+        None => format!("none ({})", mode.motion),
+    };
+    match modes {
+        [] => "none, as the lines hold it fast".to_owned(),
+        modes => modes.iter().map(one).collect::<Vec<_>>().join(", "),
+    }
+}
+
+/// The modes of K within the motions that the columns of `basis` span, the slowest first.
+fn modes(prepared: &Prepared, stiffness: &Matrix3<f64>, basis: &DMatrix<f64>) -> Vec<NaturalMode> {
+    if basis.ncols() == 0 {
+        return Vec::new();
+    }
+    let mass = mass_matrix(prepared);
+    let within = |matrix: &Matrix3<f64>| basis.transpose() * matrix * basis;
+    // M = R Rᵀ makes of K v = ω² M v the eigenvalues of the symmetric R⁻¹ K R⁻ᵀ.
+    let Some(root) = within(&mass).cholesky() else {
+        return Vec::new();
+    };
+    let Some(inverse) = root.l().try_inverse() else {
+        return Vec::new();
+    };
+    let scaled = &inverse * within(stiffness) * inverse.transpose();
+    let frame = ((&scaled + scaled.transpose()) * 0.5).symmetric_eigen();
+    let mut order: Vec<usize> = (0..frame.eigenvalues.len()).collect();
+    order.sort_by(|&i, &j| frame.eigenvalues[i].total_cmp(&frame.eigenvalues[j]));
+    let one = |&index: &usize| {
+        let mode = basis * inverse.transpose() * frame.eigenvectors.column(index);
+        let squared = frame.eigenvalues[index];
+        let omega = (squared > LEAST_OMEGA_SQUARED).then(|| squared.sqrt());
+        let scales = &prepared.model.scales;
+        NaturalMode {
+            period_s: omega.map(|omega| std::f64::consts::TAU / omega * scales.time_s),
+            motion: motion(&mass, [mode[0], mode[1], mode[2]]),
+            mode: in_si([mode[0], mode[1], mode[2]], scales.length_m),
+        }
+    };
+    order.iter().map(one).collect()
+}
+
+/// M over (x, y, θ), in the engine's units.
+fn mass_matrix(prepared: &Prepared) -> Matrix3<f64> {
+    let body = &prepared.model.system.body;
+    let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| body.moved_by(e));
+    let inverse = Matrix3::from_fn(|row, column| columns[column][row]);
+    inverse.try_inverse().unwrap_or_else(Matrix3::zeros)
+}
+
+/// A mode in metres and radians with z up, its largest part 1.
+fn in_si([x, y, theta]: [f64; 3], length_m: f64) -> [f64; 3] {
+    let all = [x * length_m, -y * length_m, -theta];
+    let largest = all.into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let unit = largest.filter(|largest| *largest != 0.0).unwrap_or(1.0);
+    all.map(|part| part / unit)
+}
+
+/// The freedoms that hold a part of a mode's kinetic energy.
+fn motion(mass: &Matrix3<f64>, mode: [f64; 3]) -> String {
+    let energy = |k: usize| mass[(k, k)] * mode[k] * mode[k];
+    let all: f64 = (0..3).map(energy).sum();
+    let names = ["surge", "heave", "pitch"];
+    let named = (0..3).filter(|&k| energy(k) >= NAMED * all);
+    named.map(|k| names[k]).collect::<Vec<_>>().join(" and ")
+}

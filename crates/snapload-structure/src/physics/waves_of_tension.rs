@@ -1,0 +1,78 @@
+//! Waves of tension: the crests and troughs of what a line carries.
+//!
+//! A wave of tension runs from one rise through the tension at rest to the next, as a wave of the sea
+//! runs from one rise through the still water to the next. Its crest is the largest tension within it,
+//! that of a snap included, its trough the smallest, 0 where the line goes slack.
+
+/// Finds the waves of one line as its tension is told stretch by stretch.
+#[derive(Clone, Debug)]
+pub(crate) struct WavesOfTension {
+    rest_n: f64,
+    /// Whether the tension has been below that at rest since the last rise through it.
+    below: bool,
+    /// Crest and trough since the last rise; none before the first.
+    now: Option<[f64; 2]>,
+}
+
+impl WavesOfTension {
+    /// Of a line with this tension at rest.
+    pub(crate) fn new(rest_n: f64) -> Self {
+        Self {
+            rest_n,
+            below: false,
+            now: None,
+        }
+    }
+
+    /// Takes note of a stretch within which the tension was between two values, or of an instant;
+    /// tells crest and trough of a wave that ends there.
+    pub(crate) fn see(&mut self, [least, largest]: [f64; 2]) -> Option<[f64; 2]> {
+        let rises = self.below && largest > self.rest_n;
+        let mut ended = None;
+        if rises {
+            ended = self.now.replace([largest, f64::INFINITY]);
+        }
+        // What a stretch that rises has below the rest belongs to the wave before.
+        let least = if rises { least.max(self.rest_n) } else { least };
+        self.below = least < self.rest_n || (self.below && !rises);
+        if let Some([crest, trough]) = &mut self.now {
+            *crest = crest.max(largest);
+            *trough = trough.min(least);
+        }
+        ended
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::WavesOfTension;
+
+    /// A tension of 2 + sin t, told in short stretches, has crests of 3 and troughs of 1.
+    #[test]
+    fn a_sinusoid_has_its_crests_and_troughs() {
+        let mut waves = WavesOfTension::new(2.0);
+        let tension = |k: u32| 2.0 + (f64::from(k) * 0.01).sin();
+        let ended: Vec<[f64; 2]> = (0..4000)
+            .filter_map(|k| {
+                let (a, b) = (tension(k), tension(k + 1));
+                waves.see([a.min(b), a.max(b)])
+            })
+            .collect();
+        // 40/2π is 6.4 periods: the first rise is at 2π, as it begins above the rest.
+        assert_eq!(ended.len(), 5);
+        for [crest, trough] in ended {
+            assert!((crest - 3.0).abs() < 1e-4 && (trough - 1.0).abs() < 1e-4);
+        }
+    }
+
+    /// A line that goes slack and snaps has a trough of nothing and the peak of its snap for a crest.
+    #[test]
+    fn a_snap_is_a_crest() {
+        let mut waves = WavesOfTension::new(1.0);
+        let mut ended = Vec::new();
+        for stretch in [[0.0, 0.0], [5.0, 5.0], [0.8, 2.0], [0.0, 0.0], [3.0, 3.0]] {
+            ended.extend(waves.see(stretch));
+        }
+        assert_eq!(ended, [[5.0, 0.0]]);
+    }
+}

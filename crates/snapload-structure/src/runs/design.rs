@@ -1,0 +1,229 @@
+//! Checks by the rule that a user designs by.
+//!
+//! ```text
+//! strength:          (γ_pret T_0 + γ_env (T_max − T_0))/S_C ≤ 1,    S_C = strength_factor × breaking load
+//! no slack:          T_min/T_0 > least_share
+//! factored least:    γ₁ T_0 + γ₂ (T_min − T_0) > 0
+//! wave force:        max |f_z|/F ≤ force_share
+//! ```
+//!
+//! T_0 is a line's tension at rest, T_max the larger of what it holds and the peak of its snaps, T_min
+//! its least tension, 0 where it goes slack; f_z is the vertical force of the waves on the body at
+//! rest and F its net buoyancy. The forms are those of DNV-OS-E301 (position mooring), of DNV-ST-0119
+//! (tension legs of floating wind turbines) and of DNV-RP-N103 (slings); their factors are the
+//! user's, as editions and classes differ.
+
+use super::outcome::Outcome;
+use crate::physics::prepared::Prepared;
+use crate::structure::{Structure, Water};
+use serde::Serialize;
+use snapload::Harmonic;
+
+/// What is checked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Criterion {
+    /// The factored tension over the characteristic strength.
+    Strength,
+    /// The least tension over that at rest.
+    NoSlack,
+    /// The least tension, with factors, over the tension at rest.
+    FactoredLeast,
+    /// The vertical force of the waves over the net buoyancy.
+    WaveForce,
+}
+
+impl Criterion {
+    /// As a reader knows it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Strength => "factored tension over strength, at most",
+            Self::NoSlack => "least tension over that at rest, above",
+            Self::FactoredLeast => "factored least tension over that at rest, above",
+            Self::WaveForce => "vertical wave force over net buoyancy, at most",
+        }
+    }
+
+    fn passes(self, value: f64, limit: f64) -> bool {
+        match self {
+            Self::Strength | Self::WaveForce => value <= limit,
+            Self::NoSlack | Self::FactoredLeast => value > limit,
+        }
+    }
+}
+
+/// How a check came out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Answer {
+    /// It passes.
+    Passes,
+    /// It fails.
+    Fails,
+    /// A rule of thumb is broken that the tensions hang on.
+    Open,
+    /// A tension, a strength or a force is not known, or nothing is judged.
+    Unknown,
+}
+
+impl Answer {
+    /// As a reader knows it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Passes => "passes",
+            Self::Fails => "fails",
+            Self::Open => "open",
+            Self::Unknown => "not known",
+        }
+    }
+
+    /// The class of its colour on a page.
+    pub(crate) fn class(self) -> &'static str {
+        match self {
+            Self::Passes => "holds",
+            Self::Fails => "fails",
+            Self::Open | Self::Unknown => "open",
+        }
+    }
+}
+
+/// One criterion of one line, or of the body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Check {
+    /// What is checked.
+    pub criterion: Criterion,
+    /// The line, by number from 1; none for the body.
+    pub line: Option<usize>,
+    /// What it comes to.
+    pub value: Option<f64>,
+    /// What it is held against.
+    pub limit: f64,
+    /// How it came out.
+    pub answer: Answer,
+}
+
+impl Check {
+    /// Of a value; `open` is whether it is not to be relied on.
+    fn new(
+        criterion: Criterion,
+        line: Option<usize>,
+        value: Option<f64>,
+        limit: f64,
+        open: bool,
+    ) -> Self {
+        let answer = match value {
+            None => Answer::Unknown,
+            Some(_) if open => Answer::Open,
+            Some(value) if criterion.passes(value, limit) => Answer::Passes,
+            Some(_) => Answer::Fails,
+        };
+        Self {
+            criterion,
+            line,
+            value,
+            limit,
+            answer,
+        }
+    }
+}
+
+/// The checks of the lines by what a run comes to; `open` is whether its tensions are not to be
+/// relied on.
+pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
+    let structure = &prepared.structure;
+    let rule = structure.design;
+    let of_line = |line: usize| {
+        let tensions = Tensions::new(prepared, outcome, line);
+        let load_n = structure.lines[line].breaking_load_n;
+        let check =
+            |criterion, value, limit| Check::new(criterion, Some(line + 1), value, limit, open);
+        let least = tensions.least_part();
+        let strength = rule.strength.map(|factors| {
+            check(
+                Criterion::Strength,
+                tensions.over_strength(factors, load_n),
+                1.0,
+            )
+        });
+        let slack = rule
+            .least_share
+            .map(|share| check(Criterion::NoSlack, least, share));
+        let factored = rule.least_factors.map(|[rest, dynamic]| {
+            let value = least.map(|part| rest + dynamic * (part - 1.0));
+            check(Criterion::FactoredLeast, value, 0.0)
+        });
+        [strength, slack, factored]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+    };
+    (0..structure.lines.len()).flat_map(of_line).collect()
+}
+
+/// The check of the waves' force on the body, where there is one and there are waves.
+pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
+    let share = prepared.structure.design.force_share?;
+    let value = wave_force_part(prepared);
+    Some(Check::new(Criterion::WaveForce, None, value, share, false))
+}
+
+/// What one line carries.
+struct Tensions {
+    rest_n: f64,
+    largest_n: Option<f64>,
+    least_n: Option<f64>,
+}
+
+impl Tensions {
+    fn new(prepared: &Prepared, outcome: &Outcome, line: usize) -> Self {
+        let of_line = &outcome.lines[line];
+        Self {
+            rest_n: prepared.rest.tension_n[line],
+            largest_n: of_line.least_n.and_then(|_| of_line.largest_n()),
+            least_n: of_line.least_n,
+        }
+    }
+
+    fn over_strength(
+        &self,
+        [rest, environment, strength]: [f64; 3],
+        load_n: Option<f64>,
+    ) -> Option<f64> {
+        let largest = self.largest_n?.max(self.rest_n);
+        let factored = rest * self.rest_n + environment * (largest - self.rest_n);
+        Some(factored / (strength * load_n?))
+    }
+
+    /// T_min/T_0; none of a line that carries nothing at rest.
+    fn least_part(&self) -> Option<f64> {
+        let carries = self.rest_n > 0.0;
+        self.least_n
+            .filter(|_| carries)
+            .map(|least| least / self.rest_n)
+    }
+}
+
+/// Times at which the force of a sea is looked at in each of its peak periods.
+const LOOKS: f64 = 40.0;
+
+/// max |f_z|/F of the waves within the time that is judged; none in still water.
+fn wave_force_part(prepared: &Prepared) -> Option<f64> {
+    let Structure {
+        duration_s,
+        transient_s,
+        ..
+    } = prepared.structure;
+    let forcing = &prepared.model.system.forcing;
+    let step_s = match prepared.structure.water {
+        Water::Still => return None,
+        Water::Wave(_) => return forcing.harmonics.first().map(Harmonic::amplitude_y),
+        Water::Sea(sea) => sea.peak_period_s / LOOKS,
+    };
+    let looks = ((duration_s - transient_s) / step_s).ceil() as u64;
+    let forces = (0..=looks).map(|k| {
+        let t_s = (transient_s + k as f64 * step_s).min(duration_s);
+        let force = forcing.at(t_s / prepared.model.scales.time_s) - forcing.constant;
+        force.y.abs()
+    });
+    Some(forces.fold(0.0, f64::max))
+}

@@ -1,0 +1,60 @@
+//! What one run on lines that stretch comes to.
+
+use super::outcome::{LineOutcome, Outcome};
+use crate::physics::elastic::{ElasticRun, run_elastic, springs};
+use crate::physics::prepared::Prepared;
+use crate::physics::snap::SLOWEST_M_S;
+use snapload::Stop;
+use snapload::analysis::{OnProgress, Unfinished};
+use std::f64::consts::FRAC_PI_2;
+
+impl Outcome {
+    /// Runs a structure on lines that stretch, from its place of rest on them, and keeps what it
+    /// comes to. A snap is a pull that begins at [`SLOWEST_M_S`] or more.
+    ///
+    /// # Errors
+    /// A [`snapload::CaseError`] if a line has no stiffness or the body rests nowhere on them, and
+    /// [`Unfinished::Cancelled`].
+    pub fn on_springs(prepared: &Prepared, on_progress: OnProgress) -> Result<Self, Unfinished> {
+        let springs = springs(prepared, 1.0)?;
+        let sprung = prepared.on_springs(&springs)?;
+        let run = run_elastic(&sprung, &springs, f64::INFINITY, on_progress)?;
+        Ok(of_run(&sprung, run))
+    }
+}
+
+fn of_run(sprung: &Prepared, run: ElasticRun) -> Outcome {
+    let transient_s = sprung.structure.transient_s;
+    let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
+    let snapping =
+        || judged().filter(|pull| pull.from_s >= transient_s && pull.speed_m_s >= SLOWEST_M_S);
+    let of_line = |line: usize| {
+        let speeds = || {
+            snapping()
+                .filter(|pull| pull.line == line)
+                .map(|pull| pull.speed_m_s)
+        };
+        LineOutcome {
+            snaps: speeds().count() as u64,
+            speed_m_s: speeds().fold(0.0, f64::max),
+            jolts: 0,
+            peak_n: Some(run.peaks_n[line]),
+            held_n: run.peaks_n[line],
+            least_n: run.least_n[line],
+            slack_fraction: run.slack_fraction(line),
+        }
+    };
+    Outcome {
+        lines: (0..run.peaks_n.len()).map(of_line).collect(),
+        stop: match run.end.theta.abs() < FRAC_PI_2 {
+            true => Stop::EndTime,
+            false => Stop::RotationLimit,
+        },
+        end_s: run.end_s,
+        turned_rad: run.turned_rad,
+        waterline: None,
+        peaks_n: judged().map(|pull| pull.peak_n).collect(),
+        speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
+        waves_n: run.waves_n,
+    }
+}

@@ -1,0 +1,234 @@
+//! Natural periods against closed forms, and checks by the rule against their formulas.
+
+use crate::verdicts::structure;
+use snapload::analysis::unwatched;
+use snapload_structure::{
+    Answer, Assessment, Criterion, NaturalPeriods, Prepared, assess, springs,
+};
+use std::f64::consts::TAU;
+
+const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
+
+/// A body of 800 kg with its water, straight above its anchor, on two lines of 15 m that lie on each
+/// other and end `below` its centre.
+fn tethered(below: f64) -> Prepared {
+    let (fairlead, anchor) = (-5.0 - below, -20.0 - below);
+    let line = format!(
+        "[[line]]\nanchor = [0, {anchor}]\nfairlead = [0, {fairlead}]\nlength = 15\nstiffness = 3e6\n"
+    );
+    let text = format!(
+        "[body]\nmass = 500\nadded_mass = 300\ndisplaced_volume = 0.8\nwidth = 1\nmoment_of_inertia = 90\n\
+         position = [0, -5]\n{line}{line}[site]\ndepth = 30\n[run]\nrestitution = 0.5\n"
+    );
+    Prepared::new(structure(&text)).expect("a start")
+}
+
+fn periods_s(modes: &[snapload_structure::NaturalMode]) -> Vec<Option<f64>> {
+    modes.iter().map(|mode| mode.period_s).collect()
+}
+
+/// Held at its centre the body is a pendulum that hangs upwards, ω² = F/(M r), and may turn as it
+/// likes; on springs it also heaves at ω² = 2k/M, and the pendulum is longer by its stretch.
+#[test]
+fn a_body_held_at_its_centre_is_a_pendulum() {
+    let prepared = tethered(0.0);
+    let force = prepared.structure.net_buoyancy_n();
+    let found = NaturalPeriods::of(&prepared).expect("submerged");
+    let close = |found: Option<f64>, known: f64| {
+        assert!(
+            (found.expect("a period") / known - 1.0).abs() < 1e-7,
+            "{found:?} {known}"
+        );
+    };
+    assert_eq!(found.inextensible.len(), 2);
+    assert_eq!(found.inextensible[0].period_s, None);
+    assert_eq!(found.inextensible[0].motion, "pitch");
+    close(
+        found.inextensible[1].period_s,
+        TAU * (800.0 * 15.0 / force).sqrt(),
+    );
+    assert_eq!(found.inextensible[1].motion, "surge");
+    let rate = 2.0 * 3e6 / 15.0;
+    let elastic = found.elastic.expect("periods on springs");
+    assert_eq!(elastic[0].period_s, None);
+    close(
+        elastic[1].period_s,
+        TAU * (800.0 * (15.0 + force / rate) / force).sqrt(),
+    );
+    close(elastic[2].period_s, TAU * (800.0 / rate).sqrt());
+    assert_eq!(elastic[2].motion, "heave");
+}
+
+/// Held below its centre it is a double pendulum: with the angles φ of the line and θ of the body,
+///
+/// M r² φ̈ + M r h θ̈ = −F r φ,    M r h φ̈ + (I + M h²) θ̈ = −F h θ
+#[test]
+fn a_body_held_below_its_centre_is_a_double_pendulum() {
+    let (r, h, mass, inertia) = (15.0, 0.4, 800.0, 90.0);
+    let prepared = tethered(h);
+    let force = prepared.structure.net_buoyancy_n();
+    // det(K − ω² M) = a ω⁴ − b ω² + c
+    let a = mass * r * r * (inertia + mass * h * h) - (mass * r * h).powi(2);
+    let b = force * r * (inertia + mass * h * h) + force * h * mass * r * r;
+    let c = force * r * force * h;
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let known = [-1.0, 1.0].map(|sign| TAU / ((b + sign * root) / (2.0 * a)).sqrt());
+    let found = periods_s(
+        &NaturalPeriods::of(&prepared)
+            .expect("submerged")
+            .inextensible,
+    );
+    assert_eq!(found.len(), 2);
+    for (found, known) in found.iter().zip(known) {
+        assert!(
+            (found.expect("a period") / known - 1.0).abs() < 1e-7,
+            "{found:?} {known}"
+        );
+    }
+}
+
+/// The example's periods on its chains, found by a mooring engineer with a program of their own, and
+/// on lines a hundred thousand times as stiff that on lines that do not stretch.
+#[test]
+fn the_cylinder_swings_as_others_found() {
+    let prepared = Prepared::new(structure(CYLINDER)).expect("a start");
+    let found = NaturalPeriods::of(&prepared).expect("submerged");
+    let elastic = periods_s(&found.elastic.expect("periods on springs"));
+    assert!(
+        (elastic[0].expect("a period") - 3.231).abs() < 5e-4,
+        "{elastic:?}"
+    );
+    // In heave both lines do the same, each with k n_z² + (T/l) n_x².
+    let springs = springs(&prepared, 1.0).expect("springs");
+    let sprung = prepared.on_springs(&springs).expect("a place of rest");
+    let line = &prepared.structure.lines[0];
+    let centre = prepared.structure.body.position_m;
+    let span =
+        [0, 1].map(|k| sprung.rest.place_m[k] + line.fairlead_m[k] - centre[k] - line.anchor_m[k]);
+    let length = span[0].hypot(span[1]);
+    let [n_x, n_z] = span.map(|component| component / length);
+    let rate = line.spring_rate_n_m().expect("a rate");
+    let stiffness = 2.0 * (rate * n_z * n_z + sprung.rest.tension_n[0] / length * n_x * n_x);
+    let [_, moving] = prepared.structure.body.moving_mass_kg();
+    let heave = TAU * (moving / stiffness).sqrt();
+    assert!(
+        (elastic[2].expect("a period") / heave - 1.0).abs() < 1e-6,
+        "{elastic:?} {heave}"
+    );
+    let mut stiff = structure(CYLINDER);
+    for line in &mut stiff.lines {
+        line.stiffness_n = line.stiffness_n.map(|stiffness| 1e5 * stiffness);
+    }
+    let stiff = NaturalPeriods::of(&Prepared::new(stiff).expect("a start")).expect("submerged");
+    let [taut] = periods_s(&stiff.inextensible)[..] else {
+        panic!("two lines leave one freedom: {stiff:?}");
+    };
+    let slowest = periods_s(&stiff.elastic.expect("periods on springs"))[0];
+    assert!((taut.expect("a period") / slowest.expect("a period") - 1.0).abs() < 1e-5);
+}
+
+fn assessed(design: &str) -> Assessment {
+    let text = format!("{CYLINDER}\nduration = 120\n[design]\n{design}\n");
+    assess(structure(&text), 2, &unwatched).expect("an answer")
+}
+
+#[test]
+fn checks_are_what_their_formulas_say() {
+    let factors = "pretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
+                   least_share = 0.1\nrest_factor = 1.3\ndynamic_factor = 1.1\nforce_share = 0.9";
+    let assessment = assessed(factors);
+    let checks = assessment.checks();
+    assert_eq!(checks.len(), 7);
+    for (check, _) in &checks {
+        let value = check.value.expect("a value");
+        let Some(line) = check.line else {
+            // f_z is ν f_o in a regular wave.
+            let [f_o, nu, _] = assessment.prepared.model.groups.wave.expect("a wave");
+            assert!((value - f_o * nu).abs() < 1e-12 && check.answer == Answer::Passes);
+            continue;
+        };
+        let outcome = &assessment.outcome.lines[line - 1];
+        let rest = assessment.prepared.rest.tension_n[line - 1];
+        // This line goes slack, so that its least tension is nothing.
+        assert!(outcome.slack_fraction > 0.0 && outcome.least_n == Some(0.0));
+        let (known, passes) = match check.criterion {
+            Criterion::Strength => {
+                let largest = outcome.peak_n.expect("a peak").max(outcome.held_n);
+                let u = (1.2 * rest + 1.5 * (largest - rest)) / (0.95 * 1_319_000.0);
+                (u, u <= 1.0)
+            }
+            Criterion::NoSlack => (0.0, false),
+            Criterion::FactoredLeast => (1.3 - 1.1, true),
+            Criterion::WaveForce => panic!("a line has no such check"),
+        };
+        assert!(
+            (value - known).abs() < 1e-3 * known.max(1.0),
+            "{check:?} {known}"
+        );
+        assert_eq!(check.answer == Answer::Passes, passes, "{check:?}");
+    }
+}
+
+/// Without factors nothing is checked; a slack line fails the check that it be never slack.
+#[test]
+fn only_what_is_asked_for_is_checked() {
+    let text = format!("{CYLINDER}\nduration = 60\n");
+    let plain = assess(structure(&text), 0, &unwatched).expect("an answer");
+    assert!(plain.checks().is_empty());
+    let slack = assessed("least_share = 0");
+    assert!(
+        slack
+            .checks()
+            .iter()
+            .all(|(check, _)| check.answer == Answer::Fails)
+    );
+    let still = CYLINDER.replace("[wave]\nheight = 2\nperiod = 6\n", "");
+    let still = assess(
+        structure(&format!(
+            "{still}\n[design]\nleast_share = 0.9\nforce_share = 1\n"
+        )),
+        0,
+        &unwatched,
+    );
+    let still = still.expect("an answer");
+    let answers: Vec<Answer> = still
+        .checks()
+        .iter()
+        .map(|(check, _)| check.answer)
+        .collect();
+    assert_eq!(answers, [Answer::Passes, Answer::Passes, Answer::Unknown]);
+}
+
+/// On lines too soft to be taken as inextensible a check of tensions is left open.
+#[test]
+fn checks_of_soft_lines_are_open() {
+    let soft = CYLINDER.replace("type = \"studless chain\"", "type = \"polyester\"");
+    let text = format!("{soft}\nduration = 60\n[design]\nleast_share = 0\nforce_share = 0.1\n");
+    let open = assess(structure(&text), 0, &unwatched).expect("an answer");
+    let answers: Vec<Answer> = open
+        .checks()
+        .iter()
+        .map(|(check, _)| check.answer)
+        .collect();
+    assert_eq!(answers, [Answer::Open, Answer::Open, Answer::Fails]);
+}
+
+#[test]
+fn factors_that_go_together_are_given_together() {
+    for (given, missing) in [
+        ("pretension_factor = 1.2", "environment_factor"),
+        (
+            "environment_factor = 1.2\nstrength_factor = 1",
+            "pretension_factor",
+        ),
+        ("dynamic_factor = 1.2", "rest_factor"),
+    ] {
+        let text = format!("{CYLINDER}\n[design]\n{given}\n");
+        let error = snapload_structure::Structure::parse("case", &text).expect_err("a refusal");
+        let error = error.to_string();
+        assert!(
+            error.contains(missing) && error.contains("go together"),
+            "{error}"
+        );
+    }
+}
