@@ -1,12 +1,14 @@
 //! A body on lines that stretch: what they do at a state, and how it is accelerated.
 
 use super::law::Spring;
+use super::waves::Surroundings;
 use snapload::{State, System, TautSet};
 
 /// A body on springs.
 pub(super) struct SprungBody<'a> {
     pub(super) system: &'a System,
     pub(super) springs: &'a [Spring],
+    surroundings: Surroundings<'a>,
 }
 
 /// What one line does at one state.
@@ -23,7 +25,15 @@ pub(super) struct Stretch {
     pub(super) force: f64,
 }
 
-impl SprungBody<'_> {
+impl<'a> SprungBody<'a> {
+    pub(super) fn new(system: &'a System, springs: &'a [Spring]) -> Self {
+        Self {
+            system,
+            springs,
+            surroundings: Surroundings::new(system),
+        }
+    }
+
     pub(super) fn stretch(&self, line: usize, state: &State) -> Stretch {
         let cable = &self.system.cables[line];
         let span = cable.span(state).components();
@@ -91,7 +101,7 @@ impl SprungBody<'_> {
         memory_force: [f64; 3],
         pulling: TautSet,
     ) -> [f64; 3] {
-        let free = self.system.free_acceleration(t, state, memory_force);
+        let free = self.surroundings.free_acceleration(t, state, memory_force);
         pulling.iter().fold(free, |[x, y, theta], line| {
             let Stretch { n, arm, force, .. } = self.stretch(line, state);
             let pull = [force * n[0], force * n[1], force * arm];

@@ -5,6 +5,7 @@ mod law;
 mod motion;
 mod record;
 mod rest;
+mod waves;
 
 pub use law::{Spring, damping_ratio, springs};
 pub use motion::run_elastic;

@@ -231,10 +231,7 @@ pub fn run_elastic(
         let shown = springs.len().to_string();
         return Err(CaseError::value("springs", shown, "one for each line").into());
     }
-    let body = SprungBody {
-        system: &model.system,
-        springs,
-    };
+    let body = SprungBody::new(&model.system, springs);
     match model.system.memory_at_rest().len() {
         0 => run::<DRY>(prepared, &body, look_s, on_progress),
         1..=USUAL_MEMORY => run::<WET>(prepared, &body, look_s, on_progress),

@@ -37,10 +37,8 @@ impl Prepared {
     /// # Errors
     /// A [`CaseError`] if it rests nowhere on them.
     pub fn on_springs(&self, springs: &[Spring]) -> Result<Self, CaseError> {
-        let body = SprungBody {
-            system: &self.model.still(),
-            springs,
-        };
+        let still = self.model.still();
+        let body = SprungBody::new(&still, springs);
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         let rest = least_energy(&body, rest)?;
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
@@ -70,10 +68,7 @@ impl Prepared {
     /// How the force on a body that rests on springs, as [`Prepared::on_springs`] has it, changes
     /// with its place: the second derivatives of V over (x, y, θ), in the engine's units.
     pub(in crate::physics) fn stiffness_on(&self, springs: &[Spring]) -> Matrix3<f64> {
-        let body = SprungBody {
-            system: &self.model.system,
-            springs,
-        };
+        let body = SprungBody::new(&self.model.system, springs);
         let at = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         curvature(&body, &at)
     }
