@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         (rows, run.end().reason, run.end().t, Some(best))
     };
     let report = serde_json::json!({
-        "version": "0.1.0",
+        "version": "0.2.0",
         "impacts": rows,
         "end": { "kind": name(kind), "t": t },
         "seconds": seconds,

@@ -436,7 +436,10 @@ fn lists_help_and_completions() {
         &run(&["run", "--help"]),
         &["--set", "--sample", "Examples", "snapload run --case"],
     );
-    in_order(&run(&["--version"]), &["snapload 0.1.0"]);
+    in_order(
+        &run(&["--version"]),
+        &[concat!("snapload ", env!("CARGO_PKG_VERSION"))],
+    );
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         assert!(run(&["completions", shell]).contains("snapload"), "{shell}");
     }
