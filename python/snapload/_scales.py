@@ -55,7 +55,7 @@ class Scales:
 
     Notes
     -----
-    Structures that are given by their depth, waves and lines are for the command ``snapload assess``.
+    Structures that are given by their depth, waves and lines are for :class:`snapload.Structure`.
 
     Examples
     --------
