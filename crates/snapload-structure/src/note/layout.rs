@@ -3,7 +3,7 @@
 use crate::physics::prepared::Prepared;
 use crate::structure::Outline;
 use snapload_figures::{
-    Axis, Colour, Dash, FigureError, Layer, Mark, Picture, Plot, Point, Stroke, Width, draw,
+    Axis, Colour, Dash, FigureError, Layer, Mark, Picture, Plot, Point, Range, Stroke, Width, draw,
 };
 use std::f64::consts::TAU;
 
@@ -12,6 +12,9 @@ const CORNERS: u32 = 90;
 /// The water and the floor reach so far past the outermost things, in parts of the width.
 const MARGIN: f64 = 0.08;
 
+/// So much above the still water is drawn, in parts of its depth.
+const AIR: f64 = 0.06;
+
 /// The structure at rest in still water, in metres.
 pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
     let description = "The structure at rest: body, lines with their numbers at the anchors, still water and floor";
@@ -19,10 +22,15 @@ pub(super) fn of(prepared: &Prepared) -> Result<Picture, FigureError> {
         label: label.to_owned(),
         ..Axis::default()
     };
+    // So that the still water does not lie on the frame.
+    let air = AIR * prepared.structure.site.depth_m;
     let plot = Plot {
         description: description.to_owned(),
         x: axis("*x* (m)"),
-        y: axis("*z* (m)"),
+        y: Axis {
+            range: Range::AtLeast(-prepared.structure.site.depth_m, air),
+            ..axis("*z* (m)")
+        },
         equal_scale: true,
         layers: layers(prepared),
         ..Plot::default()
