@@ -1,4 +1,4 @@
-//! What [project] and [design] say.
+//! What `[project]` and `[design]` say.
 
 use crate::structure::{DesignRule, Project};
 use snapload::{CaseError, Entries, Fields};
