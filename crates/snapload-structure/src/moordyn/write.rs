@@ -18,7 +18,7 @@ const COURANT: f64 = 0.2;
 struct File<'a> {
     name: String,
     /// The keys of the project that are given, with their texts.
-    project: Vec<[&'a str; 3]>,
+    project: Vec<(&'a str, String)>,
     structure: &'a Structure,
     body: &'a BodySi,
     site: &'a Site,
@@ -32,6 +32,17 @@ struct File<'a> {
     /// Diameter, mass per length, stiffness and damping of each line.
     types: Vec<[f64; 4]>,
     step_s: f64,
+}
+
+/// The keys of the project with their texts, on one line each and without what would end a text in
+/// quotes.
+fn project(structure: &Structure) -> Vec<(&str, String)> {
+    let plain = |text: &str| -> String {
+        let one_line = text.chars().filter(|c| !c.is_control() && *c != '\\');
+        one_line.map(|c| if c == '"' { '\'' } else { c }).collect()
+    };
+    let rows = structure.project.rows().into_iter();
+    rows.map(|[key, _, text]| (key, plain(text))).collect()
 }
 
 /// A structure's case for MoorDyn, each line in `segments` segments.
@@ -66,7 +77,7 @@ pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String,
         },
         own_added_mass: !same || structure.body.added_mass.pitch_kg_m2 > 0.0,
         name: name.replace("---", "-"),
-        project: structure.project.rows(),
+        project: project(structure),
         structure,
         body: &structure.body,
         site: &structure.site,

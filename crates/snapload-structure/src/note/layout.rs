@@ -49,7 +49,7 @@ fn layers(prepared: &Prepared) -> Vec<Layer> {
     let right = all().fold(f64::NEG_INFINITY, f64::max);
     let margin = MARGIN * (right - left);
     let level = |z: f64| vec![vec![[left - margin, z], [right + margin, z]]];
-    let is_taut = |line: &usize| rest.taut.contains(line);
+    let is_taut = |line: &usize| rest.taut.contains(line) || rest.tension_n[*line] > 0.0;
     let (taut, slack): (Vec<usize>, Vec<usize>) = (0..spans.len()).partition(is_taut);
     let drawn = |lines: &[usize]| lines.iter().map(|&line| spans[line].clone()).collect();
     let mark = |(line, span): (usize, &Vec<Point>)| Mark {

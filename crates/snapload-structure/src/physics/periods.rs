@@ -85,7 +85,7 @@ pub(crate) fn in_words(modes: &[NaturalMode]) -> String {
         None => format!("none ({})", mode.motion),
     };
     match modes {
-        [] => "none, as the lines hold it fast".to_owned(),
+        [] => "no way, as the lines hold it fast,".to_owned(),
         modes => modes.iter().map(one).collect::<Vec<_>>().join(", "),
     }
 }

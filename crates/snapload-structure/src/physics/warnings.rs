@@ -5,7 +5,7 @@ use super::afloat::left_out;
 use super::equilibrium::Equilibrium;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
-use crate::structure::{Afloat, LineSi, Structure, Water};
+use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
 use crate::words::paragraph;
 use askama::Template;
 use serde::Serialize;
@@ -30,6 +30,8 @@ const LONG: f64 = 3.0;
 const LARGE_PITCH: f64 = 15.0;
 /// A body that turns further than this is held back by the water round it \[degrees\].
 const FREE_TURN: f64 = 60.0;
+/// Records that are judged for less than one part in so many of three hours say little of them.
+const SHORT: f64 = 12.0;
 /// A phase of the wave that is off by this much is no longer small \[rad\].
 const MOST_PHASE: f64 = 0.3;
 
@@ -277,6 +279,13 @@ pub(crate) fn phase_warning(structure: &Structure, z_m: f64, excursion_m: f64) -
     let phase = wave.wave_number_1_m * excursion_m;
     let numbers = [excursion_m, phase.to_degrees()];
     broken(phase > MOST_PHASE, "phase", numbers, "")
+}
+
+/// The warning that a distribution in three hours rests on records of much less.
+pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
+    let judged_s = structure.duration_s - structure.transient_s;
+    let times = THREE_HOURS_S / judged_s.max(1.0);
+    broken(times > SHORT, "short records", [judged_s, times], "")
 }
 
 /// The warning that a body turns so far that what resists its rotation counts, and nothing does.

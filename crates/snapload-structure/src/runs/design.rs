@@ -164,7 +164,9 @@ pub(crate) fn line_checks(prepared: &Prepared, outcome: &Outcome, open: bool) ->
 pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
-    Some(Check::new(Criterion::WaveForce, None, value, share, false))
+    // On lines that stretch much the body rests higher, where the waves are larger.
+    let open = prepared.rest.unstretched_n.is_some();
+    Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }
 
 /// What one line carries.
@@ -178,8 +180,12 @@ impl Tensions {
     fn new(prepared: &Prepared, outcome: &Outcome, line: usize) -> Self {
         let of_line = &outcome.lines[line];
         Self {
-            rest_n: prepared.rest.tension_n[line],
-            largest_n: of_line.least_n.and_then(|_| of_line.largest_n()),
+            // Both of lines that do not stretch, where those would share the load otherwise.
+            rest_n: match &prepared.rest.unstretched_n {
+                Some(unstretched) => unstretched[line],
+                None => prepared.rest.tension_n[line],
+            },
+            largest_n: of_line.largest_n(),
             least_n: of_line.least_n,
         }
     }

@@ -34,8 +34,9 @@ pub struct LineOutcome {
 
 impl LineOutcome {
     /// The larger of what it holds and what it carries in a snap; none where it snaps and that is not
-    /// known \[N\].
+    /// known, or nothing is judged \[N\].
     pub fn largest_n(&self) -> Option<f64> {
+        self.least_n?;
         let no_snap = (self.snaps + self.jolts == 0).then_some(0.0);
         Some(self.peak_n.or(no_snap)?.max(self.held_n))
     }

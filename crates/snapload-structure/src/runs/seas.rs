@@ -4,7 +4,7 @@ use super::assess::sorted;
 use super::outcome::Outcome;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
-use crate::physics::warnings::{Warning, limits_afloat, turning_warning, warnings};
+use crate::physics::warnings::{Warning, limits_afloat, short_records, turning_warning, warnings};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use serde::Serialize;
 use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};
@@ -86,6 +86,7 @@ pub fn seas(
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
     let mut warnings = warnings(&prepared.structure, &prepared.rest);
+    warnings.extend(short_records(&prepared.structure));
     warnings.extend(turning_warning(&prepared.structure, turned));
     warnings.extend(limits_afloat(&prepared.structure, seen.as_ref(), turned));
     // What lines that stretch decide they have decided.

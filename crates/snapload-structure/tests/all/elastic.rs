@@ -271,3 +271,31 @@ fn lines_share_what_they_hold_by_their_stiffness() {
         assert!(hair.abs() < 3.0, "{hair}");
     }
 }
+
+/// A line that is slack where the body rests on lines that do not stretch has the damper of its own
+/// effective mass, however long it is.
+#[test]
+fn a_slack_line_has_the_damper_of_its_mass() {
+    let damping = |length: f64| {
+        let prepared = prepared(
+            CYLINDER,
+            &[&format!("line.2.length={length}"), "line.1.length=6"],
+        );
+        let law = springs(&prepared, 1.0).expect("springs");
+        let rest = prepared
+            .model
+            .at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
+        let cable = &prepared.model.system.cables[1];
+        let span = cable.span(&rest).components();
+        let n = span.map(|part| part / span[0].hypot(span[1]));
+        let (sine, cosine) = rest.theta.sin_cos();
+        let lever = cable.lever(sine, cosine).components();
+        let arm = lever[0] * n[1] - lever[1] * n[0];
+        let w = 1.0 + arm * arm * prepared.model.system.body.inverse_inertia();
+        let known = 2.0 * damping_ratio(0.5) * (law[1].rate / w).sqrt();
+        (law[1].damping / known - 1.0).abs()
+    };
+    for length in [6.0, 6.5, 8.0] {
+        assert!(damping(length) < 1e-9, "{length}");
+    }
+}

@@ -423,3 +423,20 @@ proptest! {
         }
     }
 }
+
+/// Texts that look like something else come back as texts; what would end them does not stand in them.
+#[test]
+fn texts_of_a_project_come_back() {
+    let sets = [
+        "project.date=\"2026-11-23\"",
+        "project.name=\"true\"",
+        "project.client='Port of \"X\"'",
+    ];
+    let written = structure(CYLINDER, &sets);
+    let text = moordyn::write("case", &written, 1).unwrap();
+    let reading = moordyn::read("case", &text).unwrap();
+    let back = Structure::parse("case", &reading.entries.to_toml()).unwrap();
+    assert_eq!(back.project.date, "2026-11-23");
+    assert_eq!(back.project.name, "true");
+    assert_eq!(back.project.client, "Port of 'X'");
+}

@@ -69,7 +69,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 
 /// The lines of a structure as springs, `stiffer` times as stiff as they are, with dampers that
 /// give its restitution at the effective mass M/w that each line has to stop where the structure
-/// rests.
+/// rests on lines that do not stretch.
 ///
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
@@ -94,7 +94,10 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
         })?;
         let rate = rate * stiffer / unit;
         let normal = cable.normal(&rest);
-        let mass = 1.0 / model.system.body.inverse_effective_mass(&normal);
+        // The normal is the span over the line's length, and shorter than 1 where the line is slack.
+        let [x, y] = cable.span(&rest).components();
+        let along = x.hypot(y) / cable.length();
+        let mass = along * along / model.system.body.inverse_effective_mass(&normal);
         Ok(Spring {
             rate,
             damping: 2.0 * ratio * (rate * mass).sqrt(),
