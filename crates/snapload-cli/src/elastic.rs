@@ -1,7 +1,7 @@
 //! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
 use crate::bar::Bar;
 use crate::failure::Failure;
-use crate::structure_input::{Answers, ReadStructure, StructureArgs};
+use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use snapload::analysis::{Progress, Unfinished};
 use snapload_structure::{BothModels, Prepared, both_models};
 use std::io;
@@ -29,6 +29,9 @@ pub(crate) struct Args {
     json: Option<PathBuf>,
 }
 
+/// The most rows of the CSV.
+const MOST_ROWS: f64 = 1e7;
+
 fn times(text: &str) -> Result<f64, String> {
     within(text, 1e-6, 1e9)
 }
@@ -49,6 +52,18 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let ReadStructure {
         name, structure, ..
     } = args.input.read()?;
+    if let Some(path) = &args.out {
+        ending(path, &["csv"])?;
+    }
+    let rows = structure.duration_s / args.every;
+    if args.out.is_some() && rows > MOST_ROWS {
+        let message = format!(
+            "--every {}: {rows:.1e} rows; allowed are at most {MOST_ROWS:e}, every {:e} s or less often",
+            args.every,
+            structure.duration_s / MOST_ROWS
+        );
+        return Err(Failure::BadInput(message));
+    }
     let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
     let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
     let bar = Bar::new();

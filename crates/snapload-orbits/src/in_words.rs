@@ -112,17 +112,30 @@ pub fn basin_in_words(basin: &Basin) -> String {
     if basin.looked_beside {
         let _ = writeln!(text, "Undecided {}", m.undecided);
     }
-    for (name, value) in [("LIM", m.lim), ("IF", m.integrity_factor), ("IIM", m.iim)] {
-        if let Some(value) = value {
-            let _ = writeln!(text, "{name:<9} {value:.4}");
-        }
+    if let Some(lim) = m.lim {
+        let _ = writeln!(
+            text,
+            "Nearest   unsafe start {lim:.4} from the equilibrium (LIM)"
+        );
+    }
+    if let Some(radius) = m.integrity_factor {
+        let _ = writeln!(
+            text,
+            "Disc      of radius {radius:.4} without unsafe starts (IF)"
+        );
+    }
+    if let Some(speed) = m.iim {
+        let _ = writeln!(
+            text,
+            "Velocity  {speed:.4} is the least unsafe one there (IIM)"
+        );
     }
     text
 }
 
 /// An erosion.
 pub fn erosion_in_words(erosion: &Erosion) -> String {
-    let mut text = format!("{:<12} safe     LIM      IF\n", erosion.key);
+    let mut text = format!("{:<12} safe     nearest  disc\n", erosion.key);
     let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
     for (value, basin) in &erosion.points {
         let m = &basin.measures;

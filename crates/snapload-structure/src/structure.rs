@@ -229,6 +229,34 @@ pub struct DesignRule {
     pub force_share: Option<f64>,
 }
 
+impl DesignRule {
+    /// The keys that are given, with their values.
+    pub(crate) fn rows(&self) -> Vec<(&'static str, f64)> {
+        let Self {
+            strength,
+            least_share,
+            least_factors,
+            force_share,
+        } = *self;
+        let named = |keys: &[&'static str], values: &[f64]| -> Vec<(&'static str, f64)> {
+            keys.iter().copied().zip(values.iter().copied()).collect()
+        };
+        let groups = [
+            strength.map(|values| named(&Self::STRENGTH, &values)),
+            least_share.map(|value| named(&["least_share"], &[value])),
+            least_factors.map(|values| named(&Self::LEAST, &values)),
+            force_share.map(|value| named(&["force_share"], &[value])),
+        ];
+        groups.into_iter().flatten().flatten().collect()
+    }
+
+    /// The keys of `strength`, which are given together.
+    pub(crate) const STRENGTH: [&'static str; 3] =
+        ["pretension_factor", "environment_factor", "strength_factor"];
+    /// Those of `least_factors`.
+    pub(crate) const LEAST: [&'static str; 2] = ["rest_factor", "dynamic_factor"];
+}
+
 /// A structure and what it is to go through.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {

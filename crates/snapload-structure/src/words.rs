@@ -43,3 +43,30 @@ pub fn told(label: &str, words: &str) -> String {
     text.push('\n');
     text
 }
+
+/// Larger numbers are written with a power of ten.
+const LONGEST: f64 = 1e12;
+
+/// A number with so many decimals; what rounding leaves of none has no sign.
+pub(crate) fn decimals(value: &f64, digits: usize) -> String {
+    if value.abs() >= LONGEST {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.digits$}");
+    match text.strip_prefix('-') {
+        Some(magnitude) if magnitude.bytes().all(|b| matches!(b, b'0' | b'.')) => magnitude.into(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::decimals;
+
+    #[test]
+    fn rounding_leaves_no_sign_and_no_endless_digits() {
+        let written = [-0.0004, -0.0006, 0.0, -2.0, f64::INFINITY].map(|value| decimals(&value, 3));
+        assert_eq!(written, ["0.000", "-0.001", "0.000", "-2.000", "inf"]);
+        assert_eq!(decimals(&5.1e302, 1), "5.1e302");
+    }
+}

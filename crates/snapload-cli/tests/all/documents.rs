@@ -134,6 +134,31 @@ fn the_printed_pontoon_is_the_programs() {
     assert!(read("docs/pontoon.md").contains(case.trim_end()));
 }
 
+/// And of the same on lines that stretch, but for the time that it took.
+#[test]
+fn the_printed_pulls_are_the_programs() {
+    let mut program = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("snapload"));
+    let output = program
+        .current_dir(root())
+        .args([
+            "elastic",
+            "docs/examples/cylinder.toml",
+            "--set",
+            "run.duration=12",
+        ])
+        .output()
+        .expect("a run")
+        .stdout;
+    let output = String::from_utf8(output).expect("text");
+    let (head, rows) = output.split_once('\n').expect("rows");
+    let (before, _) = head.split_once("computed in").expect("a time");
+    let manual = read("docs/elastic.md");
+    assert!(
+        manual.contains(before) && manual.contains(rows),
+        "docs/elastic.md prints something else than\n{output}"
+    );
+}
+
 /// And of the structure that the manual works through.
 #[test]
 fn the_printed_assessment_is_the_programs() {

@@ -8,6 +8,7 @@ pub use crate::runs::scan::{Scan, scan};
 
 use crate::physics::gumbel::{Estimate, Gumbel};
 use crate::physics::periods::in_words;
+use crate::physics::prepared::Prepared;
 use crate::physics::snap::Snap;
 use crate::physics::warnings::Warning;
 use crate::report::{Standing, Verdict, end_words};
@@ -44,6 +45,7 @@ struct NotePage<'a> {
     source: Source<'a>,
     warnings: &'a [Warning],
     layout: Picture,
+    prepared: &'a Prepared,
     class: &'static str,
     note: &'a Assessment,
     structure: &'a Structure,
@@ -70,6 +72,7 @@ struct SeaPage<'a> {
     source: Source<'a>,
     warnings: &'a [Warning],
     layout: Picture,
+    prepared: &'a Prepared,
     class: &'static str,
     seas: &'a Seas,
     structure: &'a Structure,
@@ -106,6 +109,7 @@ pub fn page(
         source,
         warnings: &assessment.warnings,
         layout: layout::of(prepared)?,
+        prepared,
         class: match verdict.standing {
             Standing::Holds => "holds",
             Standing::Breaks | Standing::Exceeds => "fails",
@@ -137,6 +141,7 @@ pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError>
         source,
         warnings: &seas.warnings,
         layout: layout::of(&seas.prepared)?,
+        prepared: &seas.prepared,
         class: match seas.failing() {
             _ if seas.is_open() => "open",
             None => "open",

@@ -179,7 +179,9 @@ fn peaks(assessment: &Assessment) -> Plot {
     }
     layers.extend(limit.map(|load| horizontal(load, "breaks")));
     let t = Range::AtLeast(0.0, assessment.outcome.end_s);
-    let axes = [("*t* (s)", t), (label, FROM_ZERO)];
+    // The line at which one breaks is within the plot, whatever they carry.
+    let from_zero = Range::AtLeast(0.0, limit.unwrap_or(0.0));
+    let axes = [("*t* (s)", t), (label, from_zero)];
     let mut plot = plot("Estimated tension of each snap against time", axes, layers);
     if counted().next().is_none() {
         plot.note = "no line snapped".to_owned();

@@ -178,7 +178,7 @@ pub(super) fn rest_afloat(
                 tension_n: vec![0.0; lines.len()],
                 taut: Vec::new(),
                 indeterminate: false,
-                unstretched_n: None,
+                shared: None,
             };
             return Ok((equilibrium, Vec::new()));
         }
@@ -206,7 +206,7 @@ pub(super) fn rest_afloat(
         taut: place.taut,
         tension_n: place.tension_n,
         indeterminate: false,
-        unstretched_n: None,
+        shared: None,
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))
 }

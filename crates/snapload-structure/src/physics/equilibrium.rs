@@ -38,9 +38,18 @@ pub struct Equilibrium {
     /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides
     /// who carries what; without stiffness the tensions are then those of the least sum of squares.
     pub indeterminate: bool,
-    /// The tensions of lines that do not stretch, where lengths within the stretch of the lines change
-    /// who carries how much; `tension_n` are then those by stiffness \[N\].
-    pub unstretched_n: Option<Vec<f64>>,
+    /// Where lengths within the stretch of the lines change who carries how much: `tension_n` are then
+    /// those by stiffness.
+    pub shared: Option<Shared>,
+}
+
+/// What lines that do not stretch would carry, and where those that do hold the body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shared {
+    /// The tensions of lines that do not stretch \[N\].
+    pub unstretched_n: Vec<f64>,
+    /// Centre `[x, z]` on lines that stretch \[m\].
+    pub place_m: [f64; 2],
 }
 
 /// Finds where the body rests.
@@ -86,7 +95,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         theta_rad: -best.theta,
         tension_n,
         indeterminate: dependent(system, &taut, &best),
-        unstretched_n: None,
+        shared: None,
         taut,
     })
 }
@@ -139,7 +148,8 @@ fn row(system: &System, line: usize, at: &State) -> Vector3<f64> {
     Vector3::new(normal.n.x, normal.n.y, normal.arm)
 }
 
-fn moved(at: &State, step: &Vector3<f64>) -> State {
+/// A state with its place moved by a step.
+pub(super) fn moved(at: &State, step: &Vector3<f64>) -> State {
     State {
         x: at.x + step[0],
         y: at.y + step[1],

@@ -10,7 +10,7 @@
 //! only along the motions that keep taut every line that pulls. From K v = ω² M v follow ω² and the
 //! mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
-use super::elastic::{Spring, springs};
+use super::elastic::{Spring, undamped};
 use super::equilibrium::SmallMotions;
 use super::prepared::Prepared;
 use nalgebra::{DMatrix, Matrix3};
@@ -49,7 +49,7 @@ impl NaturalPeriods {
         if prepared.structure.afloat.is_some() {
             return None;
         }
-        let elastic = springs(prepared, 1.0).ok().and_then(|springs| {
+        let elastic = undamped(prepared, 1.0).ok().and_then(|springs| {
             let sprung = prepared.on_springs(&springs).ok()?;
             Some(on_springs(&sprung, &springs))
         });

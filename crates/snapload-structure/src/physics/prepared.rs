@@ -1,8 +1,8 @@
 //! A structure with its place of rest and its model, ready to run.
 
 use super::afloat::{HeldMotion, model, rest_afloat};
-use super::elastic::springs;
-use super::equilibrium::{Equilibrium, equilibrium};
+use super::elastic::undamped;
+use super::equilibrium::{Equilibrium, Shared, equilibrium};
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
@@ -55,7 +55,7 @@ impl Prepared {
         if self.structure.afloat.is_some() {
             return;
         }
-        let sprung = springs(self, 1.0).and_then(|springs| self.on_springs(&springs));
+        let sprung = undamped(self, 1.0).and_then(|springs| self.on_springs(&springs));
         let Ok(sprung) = sprung else {
             return;
         };
@@ -65,8 +65,10 @@ impl Prepared {
             .fold(0.0_f64, |largest, pull| largest.max(*pull));
         let differs = |(one, other): (&f64, &f64)| (one - other).abs() > SHARED * largest;
         if rigid.iter().zip(&by_stiffness).any(differs) {
-            let unstretched = std::mem::replace(&mut self.rest.tension_n, by_stiffness);
-            self.rest.unstretched_n = Some(unstretched);
+            self.rest.shared = Some(Shared {
+                unstretched_n: std::mem::replace(&mut self.rest.tension_n, by_stiffness),
+                place_m: sprung.rest.place_m,
+            });
         }
     }
 

@@ -6,7 +6,7 @@ use super::equilibrium::Equilibrium;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::words::paragraph;
+use crate::words::{decimals, paragraph};
 use askama::Template;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -184,11 +184,13 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
         let each = tensions.iter().map(|pull| format!("{:.0}", pull / 1e3));
         each.collect::<Vec<_>>().join("/")
     };
-    let words = rest.unstretched_n.as_ref().map(|unstretched| {
+    let words = rest.shared.as_ref().map(|shared| {
         format!(
-            "{} kN, and by their stiffness {} kN",
-            kilo(unstretched),
-            kilo(&rest.tension_n)
+            "{} kN at z = {:.3} m, and by their stiffness {} kN at z = {:.3} m",
+            kilo(&shared.unstretched_n),
+            rest.place_m[1],
+            kilo(&rest.tension_n),
+            shared.place_m[1]
         )
     });
     let is = rest.indeterminate || words.is_some();

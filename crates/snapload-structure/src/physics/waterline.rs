@@ -15,12 +15,14 @@ pub struct Waterline {
 }
 
 impl Waterline {
-    /// Before anything was seen.
-    pub(crate) const NONE: Self = Self {
-        heave_m: [f64::INFINITY, f64::NEG_INFINITY],
-        deck_m: f64::INFINITY,
-        bilge_m: f64::NEG_INFINITY,
-    };
+    /// Before anything was seen of a floating body; none of a submerged one.
+    pub(crate) fn before(structure: &Structure) -> Option<Self> {
+        structure.afloat.as_ref().map(|_| Self {
+            heave_m: [f64::INFINITY, f64::NEG_INFINITY],
+            deck_m: f64::INFINITY,
+            bilge_m: f64::NEG_INFINITY,
+        })
+    }
 
     /// Takes in another.
     #[must_use]

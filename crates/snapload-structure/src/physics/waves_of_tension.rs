@@ -4,6 +4,8 @@
 //! runs from one rise through the still water to the next. Its crest is the largest tension within it,
 //! that of a snap included, its trough the smallest, 0 where the line goes slack.
 
+use super::equilibrium::Equilibrium;
+
 /// Finds the waves of one line as its tension is told stretch by stretch.
 #[derive(Clone, Debug)]
 pub(crate) struct WavesOfTension {
@@ -15,8 +17,16 @@ pub(crate) struct WavesOfTension {
 }
 
 impl WavesOfTension {
+    /// Of every line of a body at rest.
+    pub(crate) fn of_lines(rest: &Equilibrium) -> Vec<Self> {
+        rest.tension_n
+            .iter()
+            .map(|rest_n| Self::new(*rest_n))
+            .collect()
+    }
+
     /// Of a line with this tension at rest.
-    pub(crate) fn new(rest_n: f64) -> Self {
+    fn new(rest_n: f64) -> Self {
         Self {
             rest_n,
             below: false,

@@ -11,6 +11,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::seas::Seas;
 use crate::structure::Structure;
 use serde_json::{Value, json};
+use snapload::Stop;
 use snapload_hydro::{FREEDOMS, Mode, Natural};
 
 /// What moves, and where what the case does not give is from.
@@ -91,7 +92,8 @@ impl Assessment {
             "rest": {
                 "x_m": rest.place_m[0], "z_m": rest.place_m[1], "theta_rad": rest.theta_rad,
                 "indeterminate": rest.indeterminate,
-                "unstretched_tension_n": rest.unstretched_n,
+                "unstretched_tension_n": rest.shared.as_ref().map(|shared| &shared.unstretched_n),
+                "stretched_m": rest.shared.as_ref().map(|shared| shared.place_m),
             },
             "body": body(structure),
             "afloat": afloat(&self.prepared, self.outcome.waterline.as_ref()),
@@ -180,6 +182,15 @@ impl BothModels {
             "stiffer": self.stiffer,
             "restitution": structure.restitution,
             "damping_ratio": damping_ratio(structure.restitution),
+            "end": {
+                "t_s": self.elastic.end_s,
+                "reason": end_words(self.elastic.stop.unwrap_or(Stop::EndTime)),
+            },
+            "rest": {
+                "x_m": self.sprung.rest.place_m[0], "z_m": self.sprung.rest.place_m[1],
+                "theta_rad": self.sprung.rest.theta_rad,
+            },
+            "warnings": self.warnings(),
             "end_s": self.elastic.end_s,
             "took_s": self.elastic_took_s,
             "lines": lines.collect::<Vec<_>>(),

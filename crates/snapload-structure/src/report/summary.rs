@@ -15,7 +15,7 @@ use crate::runs::design::Check;
 use crate::runs::outcome::Outcome;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::words::laid_out;
+use crate::words::{decimals, laid_out};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -56,6 +56,8 @@ struct SeasText<'a> {
 struct ElasticText<'a> {
     name: &'a str,
     both: &'a BothModels,
+    /// What ended it before its time.
+    end: Option<&'static str>,
     e: f64,
     zeta: f64,
     /// Spring rate, damping, part of the time slack on either model, and peak of each line.
@@ -150,6 +152,7 @@ impl BothModels {
         laid_out(&ElasticText {
             name,
             both: self,
+            end: self.elastic.stop.map(end_words),
             e,
             zeta: damping_ratio(e),
             lines: lines.collect(),
@@ -159,16 +162,23 @@ impl BothModels {
     }
 }
 
+/// Where a body rests, and how far turned.
+fn rest_words(rest: &Equilibrium) -> String {
+    let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
+    let turned = decimals(&rest.theta_rad.to_degrees(), 2);
+    format!("x = {x} m, z = {z} m, turned by {turned} degrees")
+}
+
 fn pull_words(pull: &Pull) -> String {
     let rebound = pull
         .rebound_m_s
         .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
     format!(
-        "  {:>4}{:>8.3}{:>8.3}{:>8.3}{:>8.0}{rebound:>6}",
+        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8.0}{rebound:>6}",
         pull.line + 1,
         pull.from_s,
         pull.to_s,
-        pull.speed_m_s,
+        decimals(&pull.speed_m_s, 3),
         pull.peak_n / 1e3
     )
 }

@@ -4,6 +4,7 @@ use super::outcome::add_slack;
 use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
+use crate::physics::warnings::{Warning, limits_afloat, turning_warning, warnings};
 use snapload::CaseError;
 use snapload::analysis::{OnProgress, Unfinished};
 use std::time::Instant;
@@ -61,6 +62,23 @@ pub fn both_models(
         slack_fraction,
         inextensible_took_s: clock.elapsed().as_secs_f64(),
     })
+}
+
+impl BothModels {
+    /// Rules of thumb that the case breaks, but for those that lines that stretch decide.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let (structure, run) = (&self.sprung.structure, &self.elastic);
+        warnings(structure, &self.sprung.rest)
+            .into_iter()
+            .chain(turning_warning(structure, run.turned_rad))
+            .chain(limits_afloat(
+                structure,
+                run.waterline.as_ref(),
+                run.turned_rad,
+            ))
+            .filter(|warning| warning.decided_by.is_none())
+            .collect()
+    }
 }
 
 /// The snaps of lines that do not stretch, and the part of the time in which each is slack.

@@ -165,7 +165,7 @@ pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
     let share = prepared.structure.design.force_share?;
     let value = wave_force_part(prepared);
     // On lines that stretch much the body rests higher, where the waves are larger.
-    let open = prepared.rest.unstretched_n.is_some();
+    let open = prepared.rest.shared.is_some();
     Some(Check::new(Criterion::WaveForce, None, value, share, open))
 }
 
@@ -181,8 +181,8 @@ impl Tensions {
         let of_line = &outcome.lines[line];
         Self {
             // Both of lines that do not stretch, where those would share the load otherwise.
-            rest_n: match &prepared.rest.unstretched_n {
-                Some(unstretched) => unstretched[line],
+            rest_n: match &prepared.rest.shared {
+                Some(shared) => shared.unstretched_n[line],
                 None => prepared.rest.tension_n[line],
             },
             largest_n: of_line.largest_n(),
@@ -212,8 +212,12 @@ impl Tensions {
 /// Times at which the force of a sea is looked at in each of its peak periods.
 const LOOKS: f64 = 40.0;
 
-/// max |f_z|/F of the waves within the time that is judged; none in still water.
+/// max |f_z|/F of the waves within the time that is judged; none in still water, and none of a
+/// floating body, which the waves lift by its waterplane.
 fn wave_force_part(prepared: &Prepared) -> Option<f64> {
+    if prepared.structure.afloat.is_some() {
+        return None;
+    }
     let Structure {
         duration_s,
         transient_s,

@@ -133,19 +133,10 @@ impl<'a> Tally<'a> {
             lines: vec![LineOutcome::default(); count],
             slack: vec![0.0; count],
             turned_rad: 0.0,
-            waterline: prepared
-                .structure
-                .afloat
-                .is_some()
-                .then_some(Waterline::NONE),
+            waterline: Waterline::before(&prepared.structure),
             peaks_n: Vec::new(),
             speeds_m_s: Vec::new(),
-            waves: prepared
-                .rest
-                .tension_n
-                .iter()
-                .map(|rest| WavesOfTension::new(*rest))
-                .collect(),
+            waves: WavesOfTension::of_lines(&prepared.rest),
             waves_n: Vec::new(),
         }
     }

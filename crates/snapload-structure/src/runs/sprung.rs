@@ -6,7 +6,6 @@ use crate::physics::prepared::Prepared;
 use crate::physics::snap::SLOWEST_M_S;
 use snapload::Stop;
 use snapload::analysis::{OnProgress, Unfinished};
-use std::f64::consts::FRAC_PI_2;
 
 impl Outcome {
     /// Runs a structure on lines that stretch, from its place of rest on them, and keeps what it
@@ -46,13 +45,10 @@ fn of_run(sprung: &Prepared, run: ElasticRun) -> Outcome {
     };
     Outcome {
         lines: (0..run.peaks_n.len()).map(of_line).collect(),
-        stop: match run.end.theta.abs() < FRAC_PI_2 {
-            true => Stop::EndTime,
-            false => Stop::RotationLimit,
-        },
+        stop: run.stop.unwrap_or(Stop::EndTime),
         end_s: run.end_s,
         turned_rad: run.turned_rad,
-        waterline: None,
+        waterline: run.waterline,
         peaks_n: judged().map(|pull| pull.peak_n).collect(),
         speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
         waves_n: run.waves_n,

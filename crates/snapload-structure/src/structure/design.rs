@@ -26,12 +26,9 @@ pub(super) fn read_design(entries: &Entries) -> Result<DesignRule, CaseError> {
     let fields = entries.table("design", 0);
     let given = |key| fields.get::<f64>(key);
     Ok(DesignRule {
-        strength: together(
-            fields,
-            ["pretension_factor", "environment_factor", "strength_factor"],
-        )?,
+        strength: together(fields, DesignRule::STRENGTH)?,
         least_share: given("least_share")?,
-        least_factors: together(fields, ["rest_factor", "dynamic_factor"])?,
+        least_factors: together(fields, DesignRule::LEAST)?,
         force_share: given("force_share")?,
     })
 }

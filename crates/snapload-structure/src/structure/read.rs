@@ -1,6 +1,6 @@
 //! How a structure comes out of the keys of a case.
 
-use crate::catalogue::{GRADES, Section, is_chain, section};
+use crate::catalogue::{GRADES, Section, TYPES, is_chain, section};
 use crate::schema::STRUCTURE;
 use crate::structure::design::{read_design, read_project};
 use crate::structure::{
@@ -225,7 +225,10 @@ fn read_section(fields: Fields<'_>) -> Result<Option<(String, Option<Section>)>,
     let left_out = |key, allowed: &str| Err(fields.refuse(key, "(left out)", allowed));
     let (kind, diameter) = match (kind, diameter) {
         (None, None) => return Ok(None),
-        (None, Some(_)) => return left_out("type", "a type, as diameter is given"),
+        (None, Some(_)) => {
+            let types = TYPES.join("\" or \"");
+            return left_out("type", &format!("\"{types}\", as diameter is given"));
+        }
         (Some(_), None) => {
             return left_out("diameter", "the diameter of the line, as its type is given");
         }

@@ -299,3 +299,31 @@ fn a_slack_line_has_the_damper_of_its_mass() {
         assert!(damping(length) < 1e-9, "{length}");
     }
 }
+
+/// A body that goes down on its lines ends where it touches the floor, as it does on lines that do not
+/// stretch.
+#[test]
+fn the_floor_ends_a_run() {
+    let waves = [
+        "wave.height=6",
+        "wave.period=9",
+        "site.depth=10",
+        "run.duration=200",
+    ];
+    let prepared = prepared(
+        &CYLINDER.replace("restitution = 0.5", "restitution = 1"),
+        &waves,
+    );
+    let law = springs(&prepared, 1.0).expect("springs");
+    let motion = run(&prepared, &law);
+    let stop = motion.stop.expect("an end before the time");
+    assert!(stop.exceeds() && motion.end_s < 200.0, "{stop:?}");
+    let bound = prepared.model.rules.upper_bound.expect("a floor");
+    let system = &prepared.model.system;
+    let below = motion
+        .looks
+        .iter()
+        .filter(|look| system.top(&look.state) > bound);
+    let last = motion.end_s - prepared.model.scales.time_s;
+    assert!(below.clone().all(|look| look.t_s > last), "{last}");
+}

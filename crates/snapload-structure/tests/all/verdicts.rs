@@ -198,7 +198,8 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     let assessment = assess(structure(&text), 0, &unwatched).unwrap();
     let rest = &assessment.prepared.rest;
     let force = assessment.prepared.structure.net_buoyancy_n();
-    let rigid = rest.unstretched_n.as_ref().unwrap();
+    let shared = rest.shared.as_ref().unwrap();
+    let rigid = &shared.unstretched_n;
     assert!((rigid[0] - force).abs() < 1e-6 * force && rigid[1] == 0.0);
     let (k1, k2) = (3e6 / 15.0, 3e6 / 15.005);
     let second = (force - k1 * 0.005) / (k1 + k2);
@@ -206,6 +207,18 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     for (found, known) in rest.tension_n.iter().zip(known) {
         assert!((found - known).abs() < 1e-7 * force, "{found} {known}");
     }
+    // Straight above the anchor, as high as the longer line is with its stretch.
+    let known = -20.0 + 15.005 + second;
+    assert!(
+        (shared.place_m[1] - known).abs() < 1e-9,
+        "{:?} {known}",
+        shared.place_m
+    );
+    // How it rests does not hang on what a snap gives back.
+    let dead = text.replace("restitution = 0.5", "restitution = 0");
+    let dead = assess(structure(&dead), 0, &unwatched).unwrap();
+    assert_eq!(dead.prepared.rest, *rest);
+    assert!(dead.periods.unwrap().elastic.is_some());
     let warning = assessment
         .warnings
         .iter()
@@ -220,5 +233,5 @@ fn the_stretch_of_lines_shares_the_load_at_rest() {
     // Lines of one length share evenly on either model, and nothing is said.
     let even = text.replace("15.005", "15");
     let even = assess(structure(&even), 0, &unwatched).unwrap();
-    assert!(even.prepared.rest.unstretched_n.is_none());
+    assert!(even.prepared.rest.shared.is_none());
 }

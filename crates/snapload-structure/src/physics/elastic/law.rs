@@ -1,6 +1,7 @@
 //! The law of one line that stretches: a spring with a damper beside it that can only pull.
 
 use crate::physics::prepared::Prepared;
+use crate::structure::LineSi;
 use snapload::CaseError;
 
 /// Less restitution takes a damper that is all there is of the line.
@@ -74,34 +75,50 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
 pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
-    let (structure, model) = (&prepared.structure, &prepared.model);
-    if structure.restitution < LEAST_RESTITUTION {
-        let shown = structure.restitution;
+    let (restitution, model) = (prepared.structure.restitution, &prepared.model);
+    if restitution < LEAST_RESTITUTION {
+        let shown = restitution;
         let allowed = format!("{LEAST_RESTITUTION} or more for lines that stretch");
         return Err(CaseError::value("run.restitution", shown, allowed).with_hint(
             "a damper for less pulls many times harder at first touch than the spring ever does",
         ));
     }
-    let ratio = damping_ratio(structure.restitution);
+    let ratio = damping_ratio(restitution);
     let rest = model.at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
-    let unit = model.scales.force_n / model.scales.length_m;
-    let spring = |(index, cable): (usize, &snapload::Cable)| {
-        let rate = structure.lines[index].spring_rate_n_m().ok_or_else(|| {
-            let key = format!("line.{}.stiffness", index + 1);
-            let allowed = "a stiffness, which a line that stretches needs";
-            CaseError::value(&key, "(left out)", allowed)
-                .with_hint("give stiffness (EA in N), spring_rate, or a type and diameter")
-        })?;
-        let rate = rate * stiffer / unit;
+    let damped = |(spring, cable): (Spring, &snapload::Cable)| {
         let normal = cable.normal(&rest);
         // The normal is the span over the line's length, and shorter than 1 where the line is slack.
         let [x, y] = cable.span(&rest).components();
         let along = x.hypot(y) / cable.length();
         let mass = along * along / model.system.body.inverse_effective_mass(&normal);
+        let damping = 2.0 * ratio * (spring.rate * mass).sqrt();
+        Spring { damping, ..spring }
+    };
+    let springs = undamped(prepared, stiffer)?.into_iter();
+    Ok(springs.zip(&model.system.cables).map(damped).collect())
+}
+
+/// The same without dampers, which a body at rest does not feel.
+///
+/// # Errors
+/// A [`CaseError`] if a line has no stiffness.
+pub(in crate::physics) fn undamped(
+    prepared: &Prepared,
+    stiffer: f64,
+) -> Result<Vec<Spring>, CaseError> {
+    let scales = &prepared.model.scales;
+    let unit = scales.force_n / scales.length_m;
+    let spring = |(number, line): (usize, &LineSi)| {
+        let rate = line.spring_rate_n_m().ok_or_else(|| {
+            let key = format!("line.{number}.stiffness");
+            let allowed = "a stiffness, which a line that stretches needs";
+            CaseError::value(&key, "(left out)", allowed)
+                .with_hint("give stiffness (EA in N), spring_rate, or a type and diameter")
+        })?;
         Ok(Spring {
-            rate,
-            damping: 2.0 * ratio * (rate * mass).sqrt(),
+            rate: rate * stiffer / unit,
+            damping: 0.0,
         })
     };
-    model.system.cables.iter().enumerate().map(spring).collect()
+    (1..).zip(&prepared.structure.lines).map(spring).collect()
 }

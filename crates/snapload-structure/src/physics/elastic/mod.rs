@@ -7,6 +7,7 @@ mod record;
 mod rest;
 mod waves;
 
+pub(super) use law::undamped;
 pub use law::{Spring, damping_ratio, springs};
 pub use motion::run_elastic;
 pub use record::{ElasticRun, Look, Pull};

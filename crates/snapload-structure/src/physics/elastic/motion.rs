@@ -16,7 +16,7 @@ use crate::physics::prepared::Prepared;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
-use snapload::{CaseError, State, TautSet};
+use snapload::{CaseError, State, Stop, TautSet};
 use std::f64::consts::FRAC_PI_2;
 
 /// Tolerance of a step, relative and absolute, in the engine's units.
@@ -257,7 +257,7 @@ fn run<const N: usize>(
     record.change(t, &state, TautSet::SLACK, pulling);
     record.see(t, &state, pulling);
     let end = prepared.model.rules.t_end;
-    while t < end && state.theta.abs() < FRAC_PI_2 {
+    while t < end && exceeded(prepared, &state).is_none() {
         Progress::new("lines that stretch", t, end).tell(on_progress)?;
         let longest_step = STEP / body.quickest(&state, pulling);
         let until = end.min(t + AT_A_TIME.min(TOGETHER * longest_step));
@@ -283,7 +283,21 @@ fn run<const N: usize>(
         record.see(t, &state, before);
         record.change(t, &state, before, pulling);
     }
-    Ok(record.finish(t, state))
+    let stop = exceeded(prepared, &state);
+    Ok(record.finish(t, state, stop))
+}
+
+/// The limit that a state is beyond, as for lines that do not stretch: half a turn either way, and
+/// the floor. It is asked for now and then, so that a run may end a little later than it should.
+fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
+    let (system, rules) = (&prepared.model.system, &prepared.model.rules);
+    if state.theta.abs() >= FRAC_PI_2 {
+        return Some(Stop::RotationLimit);
+    }
+    let bound = rules
+        .upper_bound
+        .filter(|bound| system.top(state) >= *bound);
+    bound.map(|_| Stop::UpperBound)
 }
 
 fn gave_up<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {

@@ -4,9 +4,11 @@ use super::body::SprungBody;
 use crate::physics::model::Scales;
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::number_of_line;
+use crate::physics::waterline::Waterline;
 use crate::physics::waves_of_tension::WavesOfTension;
+use crate::structure::Structure;
 use serde::Serialize;
-use snapload::{State, TautSet};
+use snapload::{MAX_CABLES, State, Stop, TautSet};
 
 /// A line that pulls for a while.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -50,8 +52,12 @@ pub struct ElasticRun {
     pub end_s: f64,
     /// The state then, in the engine's units.
     pub end: State,
+    /// What ended it before its time.
+    pub stop: Option<Stop>,
     /// The largest rotation either way \[rad\].
     pub turned_rad: f64,
+    /// How a floating body lay in the still water.
+    pub waterline: Option<Waterline>,
     /// The largest tension of each line after the transient \[N\].
     pub peaks_n: Vec<f64>,
     /// The smallest, 0 where it goes slack; none where the run ends before \[N\].
@@ -71,6 +77,7 @@ impl ElasticRun {
 /// Writes down a motion.
 pub(super) struct Record<'a> {
     scales: &'a Scales,
+    structure: &'a Structure,
     body: &'a SprungBody<'a>,
     look: f64,
     next: f64,
@@ -87,21 +94,18 @@ impl<'a> Record<'a> {
         let scales = &prepared.model.scales;
         Self {
             scales,
+            structure: &prepared.structure,
             body,
             look: look_s / scales.time_s,
             next: 0.0,
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
+                waterline: Waterline::before(&prepared.structure),
                 peaks_n: vec![0.0; body.springs.len()],
                 least_n: vec![None; body.springs.len()],
                 ..ElasticRun::default()
             },
-            waves: prepared
-                .rest
-                .tension_n
-                .iter()
-                .map(|rest| WavesOfTension::new(*rest))
-                .collect(),
+            waves: WavesOfTension::of_lines(&prepared.rest),
             open: vec![None; body.springs.len()],
         }
     }
@@ -115,20 +119,24 @@ impl<'a> Record<'a> {
     pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
         let t_s = t * self.scales.time_s;
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
+        if let Some(seen) = &mut self.run.waterline {
+            let [_, z] = self.scales.to_si([state.x, state.y]);
+            *seen = seen.with(&Waterline::at(self.structure, z, state.theta));
+        }
+        let mut tensions = [0.0; MAX_CABLES];
+        for line in pulling.iter() {
+            tensions[line] = self.tension_n(line, state);
+        }
+        let tensions = &tensions[..self.open.len()];
         if t_s >= self.transient_s {
-            for line in 0..self.open.len() {
-                let tension = match pulling.contains(line) {
-                    true => self.tension_n(line, state),
-                    false => 0.0,
-                };
+            for (line, &tension) in tensions.iter().enumerate() {
                 let (peak, least) = (&mut self.run.peaks_n[line], &mut self.run.least_n[line]);
                 *peak = peak.max(tension);
                 *least = Some(least.map_or(tension, |least| least.min(tension)));
                 self.run.waves_n.extend(self.waves[line].see([tension; 2]));
             }
         }
-        for line in pulling.iter() {
-            let tension = self.tension_n(line, state);
+        for (line, &tension) in tensions.iter().enumerate() {
             if let Some(pull) = self.open[line].map(|place| &mut self.run.pulls[place])
                 && tension > pull.peak_n
             {
@@ -136,15 +144,10 @@ impl<'a> Record<'a> {
             }
         }
         if t >= self.next {
-            let tension = |line| match pulling.contains(line) {
-                true => self.tension_n(line, state),
-                false => 0.0,
-            };
-            let tension_n = (0..self.open.len()).map(tension).collect();
             self.run.looks.push(Look {
                 t_s,
                 state: *state,
-                tension_n,
+                tension_n: tensions.to_vec(),
             });
             self.next = t + self.look;
         }
@@ -180,7 +183,8 @@ impl<'a> Record<'a> {
     }
 
     /// Ends the record; what pulls then pulls to the end.
-    pub(super) fn finish(mut self, t: f64, state: State) -> ElasticRun {
+    pub(super) fn finish(mut self, t: f64, state: State, stop: Option<Stop>) -> ElasticRun {
+        self.run.stop = stop;
         self.run.end_s = t * self.scales.time_s;
         self.run.end = state;
         for place in self.open.into_iter().flatten() {

@@ -15,7 +15,7 @@
 
 use super::body::SprungBody;
 use super::law::Spring;
-use crate::physics::equilibrium::Equilibrium;
+use crate::physics::equilibrium::{Equilibrium, moved};
 use crate::physics::model::Model;
 use crate::physics::prepared::Prepared;
 use nalgebra::{Matrix3, Vector3};
@@ -52,7 +52,7 @@ impl Prepared {
             taut: taut.collect(),
             tension_n,
             indeterminate: false,
-            unstretched_n: None,
+            shared: None,
         };
         let structure = self.structure.clone();
         // From a start of its own it is compared with lines that do not stretch, in the same waves.
@@ -94,15 +94,6 @@ fn energy(body: &SprungBody, at: &State) -> (f64, Vector3<f64>) {
         }
     }
     (energy, gradient)
-}
-
-fn moved(at: &State, step: &Vector3<f64>) -> State {
-    State {
-        x: at.x + step[0],
-        y: at.y + step[1],
-        theta: at.theta + step[2],
-        ..*at
-    }
 }
 
 /// The second derivatives of V, Σ k_i ((n_i, s_i)ᵀ(n_i, s_i) + δ_i ∇(n_i, s_i)) over the lines that
