@@ -1,6 +1,7 @@
 //! `snapload assess`: one structure in SI units, from its case to a verdict.
 use crate::bar::Bar;
 use crate::failure::{Failure, print};
+use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use snapload::analysis::Progress;
 use snapload_structure::note::{self, Source};
@@ -21,9 +22,8 @@ pub(crate) struct Args {
     /// Write the note as one self-contained page of HTML
     #[arg(long, value_name = "NOTE.html")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// Neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
     #[arg(long, value_name = "NUMBER", default_value_t = 40, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     neighbours: u32,
@@ -45,7 +45,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.out {
         ending(path, &["html"])?;
     }
-    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let assessment = assess(structure, args.neighbours, &on_progress)

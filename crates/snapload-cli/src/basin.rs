@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, axis, names, numbers};
 use serde::Serialize;
@@ -45,9 +45,8 @@ pub(crate) struct Args {
     /// Write a table with a row a cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// Which case, which window, and which values of a third key.
@@ -62,9 +61,8 @@ pub(crate) struct ErosionArgs {
     /// Write a table with a row a value, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 #[derive(clap::Args)]
@@ -126,7 +124,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, base, window) = args.window.read()?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     if args.kind == "attractor" {
@@ -161,7 +159,7 @@ pub(crate) fn run_erosion(args: &ErosionArgs) -> Result<(), Failure> {
     let (key, values) = axis("--over", &args.over)?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let erosion = Erosion::of(&window, key, &values, !args.window.no_trust, &on_progress)?;

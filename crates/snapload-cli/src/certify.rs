@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input, read_up_to};
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::{Json, JsonArgs};
 use crate::stage::Stage;
 use serde::Serialize;
 use snapload::analysis::Progress;
@@ -46,9 +46,8 @@ pub(crate) struct Args {
     /// Write the certificate to a file
     #[arg(long, value_name = "FILE.cert")]
     out: Option<PathBuf>,
-    /// Write the certificate, or what --check finds, as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// Go on where a cable stays taut: a unit of time of such motion takes some tenths of a second
     #[arg(long, conflicts_with = "check")]
     taut: bool,
@@ -73,7 +72,7 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     let case = exact(&input)?;
     let mut stage = Stage::default();
     let out = Json::open(&mut stage, args.out.as_deref())?;
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let begun = Instant::now();
     let bar = Bar::new();
     let t_end = input.case.parameters().t_end;
@@ -154,7 +153,7 @@ struct Row<'a> {
 
 fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
     let mut stage = Stage::default();
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let begun = Instant::now();
     let verdict = match read_up_to(path, LARGEST, "larger than 1 GiB") {
         Ok(text) => check(&text),

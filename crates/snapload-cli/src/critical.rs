@@ -3,7 +3,7 @@
 use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::uncertainty::UncertaintyArgs;
 use serde::Serialize;
@@ -12,7 +12,6 @@ use snapload::{CaseError, Value};
 use snapload_report::{CriticalRow, Probability};
 use snapload_study::Axis;
 use std::fmt::Write;
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 The critical force is the smallest f_o = step, 2 step, ... whose run stops at the rotation limit or the
@@ -50,9 +49,8 @@ pub(crate) struct Args {
     ensemble: Option<u32>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// Runs it.
@@ -67,7 +65,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let scan = ForceScan::new(args.step, args.max)
         .map_err(|error| Failure::BadInput(format!("--{error}")))?;
     let mut stage = Stage::default();
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let answer = match &args.over {

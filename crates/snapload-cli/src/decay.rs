@@ -1,6 +1,7 @@
 //! `snapload decay`: a floating body let go in still water.
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, triple};
+use crate::json::JsonArgs;
 use crate::structure_input::Answers;
 use serde::Serialize;
 use snapload_hydro::{Decay, FREEDOMS, Swing, decay, swings};
@@ -30,9 +31,8 @@ pub(crate) struct Args {
     /// Write the motion as a table (CSV)
     #[arg(long, value_name = "DECAY.csv")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 #[derive(Serialize)]
@@ -57,7 +57,7 @@ struct SwingRow {
 
 /// Does it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
     let name = args.input.name();
     let bad = |error| Failure::bad_input(error).with_prefix(&name);
     let report = args.input.report(Vec::new(), None)?;

@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::section::StretchArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, axis, names, numbers};
@@ -41,9 +41,8 @@ pub(crate) struct Args {
     /// Write a table of all section points, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 #[derive(Serialize)]
@@ -64,7 +63,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let stretch = args.stretch.read()?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let found = diagram(&parameters, key, &values, &stretch, &on_progress)?;

@@ -1,6 +1,7 @@
 //! `snapload elastic`: one structure on lines that stretch, beside the same on lines that do not.
 use crate::bar::Bar;
 use crate::failure::Failure;
+use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use snapload::analysis::{Progress, Unfinished};
 use snapload_structure::{BothModels, Prepared, both_models};
@@ -24,9 +25,8 @@ pub(crate) struct Args {
     /// Time between two rows of the CSV, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds)]
     every: f64,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// The most rows of the CSV.
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         );
         return Err(Failure::BadInput(message));
     }
-    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
     let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);

@@ -1,6 +1,7 @@
 //! `snapload hydro`: a look at the coefficients of a floating body.
 use crate::failure::Failure;
 use crate::hydro_input::{HydroArgs, line, triple};
+use crate::json::JsonArgs;
 use crate::structure_input::Answers;
 use serde::Serialize;
 use snapload_hydro::{FREEDOMS, Line, Report, page};
@@ -33,9 +34,8 @@ pub(crate) struct Args {
     /// Write the answer as one self-contained page of HTML, with pictures
     #[arg(long, value_name = "PAGE.html")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// The root mean square of each freedom in a sea.
@@ -57,7 +57,7 @@ struct Answer<'a> {
 
 /// Does it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
     let report = args.input.report(args.line.clone(), args.force)?;
     let sea = args.sea(&report)?;
     if args.out.is_some() {

@@ -8,6 +8,21 @@ use snapload_study::parent_of;
 use std::io::{BufWriter, StdoutLock, Write};
 use std::path::{Path, PathBuf};
 
+/// Where the answer goes as JSON.
+#[derive(clap::Args)]
+pub(crate) struct JsonArgs {
+    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
+    #[arg(long, value_name = "FILE|-")]
+    pub(crate) json: Option<PathBuf>,
+}
+
+impl JsonArgs {
+    /// Opens the place.
+    pub(crate) fn open(&self, stage: &mut Stage) -> Result<Json, Failure> {
+        Json::open(stage, self.json.as_deref())
+    }
+}
+
 /// The place that `--json` names.
 pub(crate) enum Json {
     /// It was not given.

@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::stage::Stage;
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
@@ -13,7 +13,6 @@ use snapload_orbits::{
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 An orbit is a motion that repeats itself after whole periods of the forcing. It is closed to rounding by
@@ -45,9 +44,8 @@ pub(crate) struct Args {
     /// Which random starts
     #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
     seed: u64,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// Where an orbit is looked for.
@@ -107,7 +105,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (start, mut wanted) = args.near.read(&parameters)?;
     wanted.struck = args.symbol.as_deref().map(cables).transpose()?;
     let mut stage = Stage::default();
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
     let written = if let Some(starts) = args.find {
         let row = many(args, &parameters, (starts, &wanted), &mut text)?;

@@ -3,7 +3,7 @@ use crate::bar::Bar;
 use crate::case_input::{CaseArgs, Input};
 use crate::certify::exact;
 use crate::failure::{Failure, print};
-use crate::json::{Json, refuse_directory};
+use crate::json::{Json, JsonArgs, refuse_directory};
 use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
@@ -38,9 +38,8 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Write the run as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
     /// Write tables (CSV), run.json and pictures into a directory, created if absent
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -61,7 +60,7 @@ pub(crate) struct Args {
 
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    if args.sample.is_some() && args.json.is_none() && args.out.is_none() {
+    if args.sample.is_some() && args.json.json.is_none() && args.out.is_none() {
         return Err(Failure::bad_input(
             "--sample asks for the motion, but nothing is to be written; add --json FILE or --out DIR",
         ));
@@ -170,7 +169,7 @@ const FILES: [&str; 5] = [
 impl Outputs {
     fn open(args: &Args) -> Result<Self, Failure> {
         let mut stage = Stage::default();
-        let json = Json::open(&mut stage, args.json.as_deref())?;
+        let json = args.json.open(&mut stage)?;
         let directory = match &args.out {
             None => None,
             Some(directory) => {

@@ -1,6 +1,7 @@
 //! `snapload seas`: many records of one irregular sea, as distributions.
 use crate::bar::Bar;
 use crate::failure::Failure;
+use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use snapload_structure::note::{self, Source};
 use snapload_structure::{Lines, SeaOutcome, Seas, end_words, seas};
@@ -24,9 +25,8 @@ pub(crate) struct Args {
     /// Write the answer as a page of HTML, or a row a record as CSV, by the name's ending
     #[arg(long, value_name = "FILE.html|FILE.csv")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// Runs it.
@@ -38,7 +38,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     } = args.input.read()?;
     let out = args.out.as_deref();
     let ending = out.map(|path| ending(path, &["html", "csv"])).transpose()?;
-    let mut answers = Answers::open(args.json.as_deref(), args.out.as_deref())?;
+    let mut answers = Answers::open(&args.json, args.out.as_deref())?;
     let bar = Bar::counting();
     let lines = match args.elastic {
         true => Lines::Elastic,

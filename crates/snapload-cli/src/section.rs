@@ -2,7 +2,7 @@
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
 use serde::Serialize;
@@ -34,9 +34,8 @@ pub(crate) struct Args {
     /// Write the points as a table, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// How long a motion is followed.
@@ -90,7 +89,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let parameters = input.case.parameters();
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let section = Section::of(parameters, &stretch, &|progress: Progress| {
         bar.show(progress)

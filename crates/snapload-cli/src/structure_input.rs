@@ -1,7 +1,7 @@
 //! What the verbs for structures have in common: which case, and where the answers go.
 use crate::case_input::read_text;
 use crate::failure::{Failure, print};
-use crate::json::{Json, is_same_file, room_of};
+use crate::json::{Json, JsonArgs, is_same_file, room_of};
 use crate::stage::{Room, Stage};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -95,9 +95,9 @@ pub(crate) struct Answers {
 
 impl Answers {
     /// Opens the places, so that a bad one is known before anything is computed.
-    pub(crate) fn open(json: Option<&Path>, out: Option<&Path>) -> Result<Self, Failure> {
+    pub(crate) fn open(json: &JsonArgs, out: Option<&Path>) -> Result<Self, Failure> {
         let mut stage = Stage::default();
-        let json = Json::open(&mut stage, json)?;
+        let json = json.open(&mut stage)?;
         let file = match out {
             Some(path) => Some((room_of(&mut stage, path)?, path.to_owned())),
             None => None,

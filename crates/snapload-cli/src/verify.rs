@@ -2,13 +2,12 @@
 use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
-use crate::json::Json;
+use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::uncertainty::ToleranceArgs;
 use snapload::analysis::{MOST_DIGITS, Progress, verify};
 use snapload_report::{Verified, case_in_words};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 The case is run twice, as usual and with 76 digits or more, through slack flight, impacts and the stop
@@ -33,9 +32,8 @@ pub(crate) struct Args {
     digits: u32,
     #[command(flatten)]
     tolerance: ToleranceArgs,
-    /// Write the answer as JSON to a file; - is standard output, which then gets nothing else
-    #[arg(long, value_name = "FILE|-")]
-    json: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArgs,
 }
 
 /// Runs it.
@@ -43,7 +41,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
     let tolerance = args.tolerance.read()?;
     let mut stage = Stage::default();
-    let json = Json::open(&mut stage, args.json.as_deref())?;
+    let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let found = verify(&input.case, args.digits, tolerance, &on_progress)?;
