@@ -7,11 +7,9 @@ use crate::orbit::NearArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
 use serde::Serialize;
-use snapload::analysis::{Progress, START_KEYS};
+use snapload::analysis::{OnProgress, Progress, START_KEYS};
 use snapload::{Parameters, Value, key_named};
-use snapload_orbits::{
-    Along, Branch, BranchRow, Kind, Moored, Orbit, branch_in_words, of_attractor,
-};
+use snapload_orbits::{Along, Branch, BranchEvent, BranchRow, Kind, Moored, branch_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
 use std::fmt::Write;
@@ -21,13 +19,17 @@ const EXAMPLES: &str = "\
 The orbit near --start, or the one that the motion of the case comes to, is followed in both directions by
 pseudo-arclength, round folds, with its sequence of events held. Folds, period doublings, Neimark-Sacker points,
 grazes, corners, lost tensions and limits are located; every point is run, and `admissible` says whether a body
-has it.
+has it. With --switch the branch that is born at a period doubling is followed instead, of orbits of twice the
+length; given again, that of four times the length, and so on.
 
 Examples:
   snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
       --along f_o=1.2:4 --json -
   snapload branch --set omega=3 --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666 \\
-      --along f_o=0.25:0.35 --out branch.parquet";
+      --along f_o=0.25:0.35 --out branch.parquet
+  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
+      --along f_o=1.2:2 --step 0.002 --switch period_doubling --json -
+      the orbits of two periods that are born at f_o = 1.6805";
 
 /// Which case, which orbit, which key.
 #[derive(clap::Args)]
@@ -40,6 +42,10 @@ pub(crate) struct Args {
     /// The key that changes, and between which values
     #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
     along: String,
+    /// Go over to the branch of twice the length that is born at a period doubling: the nearest one along the
+    /// branch, or the N-th of those that are told without this option; may be repeated
+    #[arg(long, value_name = "period_doubling[:N]")]
+    switch: Vec<String>,
     /// Length of the first step, in the space of state, times of events, and the key
     #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
     step: f64,
@@ -68,7 +74,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
     let (key, along) = along(args, &parameters)?;
     let kinds = kinds(&args.events)?;
-    let (start, wanted) = args.near.read(&parameters)?;
+    let switches: Vec<_> = args
+        .switch
+        .iter()
+        .map(|text| switch(text))
+        .collect::<Result<_, _>>()?;
+    args.near.read(&parameters)?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
     let json = args.json.open(&mut stage)?;
@@ -76,13 +87,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let on_progress = |progress: Progress| bar.show(progress);
     let family = Moored::case(parameters, [Some(key), None]);
     let at = Moored::values(&parameters, [Some(key), None]);
-    let start = match start {
-        Some(start) => Ok(start),
-        None => of_attractor(&parameters, &wanted, &on_progress)?.map(|orbit| orbit.z),
-    };
-    let orbit = start.and_then(|start| Orbit::find(&family, at, &start, &wanted));
-    let orbit = orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))?;
-    let mut branch = Branch::of(&family, &orbit, &along, &on_progress)?;
+    let orbit = args.near.orbit(&family, at, &parameters, &on_progress)?;
+    let branch = Branch::of(&family, &orbit, &along, &on_progress)?;
+    let (mut branch, from) = switched(&family, branch, &switches, &along, &on_progress)?;
     drop(bar);
     branch
         .events
@@ -90,17 +97,48 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     table.stage(&mut stage, &columns(key, &branch))?;
     let row = Answer {
         case: CaseEcho(&parameters),
-        branch: BranchRow::new(key, &branch),
+        branch: BranchRow::new(key, &branch, &from),
     };
     let Some(written) = json.write(stage, &row)? else {
         return Ok(());
     };
     let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    for event in &from {
+        let kind = event.kind.name().replace('_', " ");
+        let _ = writeln!(
+            text,
+            "From      the {kind} at {key} = {:.12}",
+            event.value[0]
+        );
+    }
     text.push_str(&branch_in_words(key, &branch));
     for path in written {
         let _ = writeln!(text, "Written   {}", path.display());
     }
     print(&text)
+}
+
+/// The branch after going over at period doublings, and these.
+fn switched(
+    family: &Moored,
+    mut branch: Branch,
+    switches: &[Option<usize>],
+    along: &Along,
+    on_progress: OnProgress,
+) -> Result<(Branch, Vec<BranchEvent>), Failure> {
+    let mut from = Vec::new();
+    for number in switches {
+        let event = branch.event(Kind::PeriodDoubling, *number);
+        let event = event.map_err(|why| Failure::Failed(format!("--switch: {why}")))?;
+        let event = event.clone();
+        let born = Branch::of_doubling(family, &event, along, on_progress)?;
+        branch = born.ok_or_else(|| {
+            let message = "--switch: no direction of a branch of twice the length is found there";
+            Failure::Failed(message.to_owned())
+        })?;
+        from.push(event);
+    }
+    Ok((branch, from))
 }
 
 /// The key, and how it is followed.
@@ -139,6 +177,23 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, Along), 
         most: args.points as usize,
     };
     Ok((key, along))
+}
+
+/// Which period doubling; none says the nearest.
+fn switch(text: &str) -> Result<Option<usize>, Failure> {
+    let (kind, number) = match text.split_once(':') {
+        Some((kind, number)) => (kind, Some(number)),
+        None => (text, None),
+    };
+    let count = number.map(|number| number.trim().parse().ok().filter(|n| *n > 0));
+    match (kind.trim(), count) {
+        ("period_doubling", None) => Ok(None),
+        ("period_doubling", Some(Some(count))) => Ok(Some(count)),
+        _ => Err(Failure::BadInput(format!(
+            "--switch {text:?}: write period_doubling, or period_doubling:N with N = 1, 2, ... for the N-th one \
+             of the branch"
+        ))),
+    }
 }
 
 /// The kinds that are told; none says all.

@@ -5,7 +5,7 @@ use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::stage::Stage;
 use serde::Serialize;
-use snapload::analysis::{Progress, START_KEYS};
+use snapload::analysis::{OnProgress, Progress, START_KEYS};
 use snapload::{Parameters, Value, parse_value};
 use snapload_orbits::{
     Moored, Orbit, OrbitRow, Point, Wanted, distance, find_orbits, of_attractor, orbit_in_words,
@@ -79,6 +79,26 @@ impl NearArgs {
         let start = self.start.as_deref();
         let start = start.map(|text| start_at(text, parameters)).transpose()?;
         Ok((start, wanted))
+    }
+
+    /// The orbit near the start, or that of the attractor, among those of a family.
+    pub(crate) fn orbit(
+        &self,
+        family: &Moored,
+        at: [f64; 2],
+        parameters: &Parameters,
+        on_progress: OnProgress,
+    ) -> Result<Orbit, Failure> {
+        let (start, mut wanted) = self.read(parameters)?;
+        let start = match start {
+            Some(start) => Ok(start),
+            None => of_attractor(parameters, &wanted, on_progress)?.map(|orbit| {
+                wanted.periods = Some(orbit.periods);
+                orbit.z
+            }),
+        };
+        let orbit = start.and_then(|start| Orbit::find(family, at, &start, &wanted));
+        orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
 use crate::hybrid::{Family, Point};
-use crate::orbit::Orbit;
+use crate::orbit::{NoOrbit, Orbit};
 use crate::switch::doubled;
 use crate::tracer::{Segment, Tracer, Unknowns};
 use nalgebra::DVector;
@@ -112,6 +112,33 @@ impl Branch {
 }
 
 impl Branch {
+    /// Of the events of a kind the one that is nearest along the branch to the orbit that it was begun
+    /// with, or the one with a number, counted from 1 as they stand in the list.
+    ///
+    /// # Errors
+    /// [`NoOrbit`] says which ones there are.
+    pub fn event(&self, kind: Kind, number: Option<usize>) -> Result<&BranchEvent, NoOrbit> {
+        let all: Vec<&BranchEvent> = self.events.iter().filter(|e| e.kind == kind).collect();
+        let found = match number {
+            Some(number) => number.checked_sub(1).and_then(|k| all.get(k).copied()),
+            None => all
+                .iter()
+                .copied()
+                .min_by(|a, b| a.arclength.abs().total_cmp(&b.arclength.abs())),
+        };
+        found.ok_or_else(|| {
+            let name = kind.name().replace('_', " ");
+            let values: Vec<String> = all.iter().map(|e| format!("{:.6}", e.value[0])).collect();
+            NoOrbit(match values.len() {
+                0 => format!("the branch has no {name} in its range; widen it"),
+                count => format!(
+                    "of the kind {name} the branch has {count} in its range, at {}",
+                    values.join(", ")
+                ),
+            })
+        })
+    }
+
     /// The branch of twice the length that is born at a period doubling; none where its direction is
     /// not found. Only one of its halves is followed, as the other is the same a lap later.
     ///
@@ -172,7 +199,11 @@ fn joined(orbit: &Orbit, backward: Side, forward: Side) -> Branch {
     let mut points: Vec<_> = backward.points.into_iter().rev().map(turned).collect();
     points.push(point(orbit.clone(), 0.0));
     points.extend(forward.points);
-    let mut events: Vec<_> = backward.events.into_iter().rev().collect();
+    let turned = |mut event: BranchEvent| {
+        event.arclength = -event.arclength;
+        event
+    };
+    let mut events: Vec<_> = backward.events.into_iter().rev().map(turned).collect();
     events.extend(forward.events);
     Branch {
         points,
@@ -225,8 +256,8 @@ impl Walk<'_> {
                 tangent: &tangent,
                 length: step,
             };
+            let ended = self.take_events(&segment, [&tests, &reached], arclength, &mut side);
             arclength += step;
-            let ended = self.take_events(&segment, &tests, &reached, &mut side);
             let ended = ended.or_else(|| {
                 side.end.at = found.at[0];
                 self.left(&found, arclength, start, orbit)
@@ -260,8 +291,8 @@ impl Walk<'_> {
     fn take_events<F: Family>(
         &self,
         segment: &Segment<F>,
-        before: &[(Test, f64)],
-        after: &[(Test, f64)],
+        [before, after]: [&[(Test, f64)]; 2],
+        arclength: f64,
         side: &mut Side,
     ) -> Option<String> {
         let mut found: Vec<BranchEvent> = Vec::new();
@@ -272,7 +303,8 @@ impl Walk<'_> {
         }
         let [low, high] = self.along.range;
         found.sort_by(|a, b| a.sigma.total_cmp(&b.sigma));
-        for event in found {
+        for mut event in found {
+            event.arclength = arclength + event.sigma;
             let within = (low..=high).contains(&event.value[0]);
             let (kind, virtually) = (event.kind, event.is_own_snap);
             if within {

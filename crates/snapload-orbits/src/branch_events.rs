@@ -75,6 +75,8 @@ pub struct BranchEvent {
     pub sqrt_coefficient: Option<f64>,
     /// Whether a snap of the sequence grazes, and not a contact beside it.
     pub is_own_snap: bool,
+    /// The length along the branch from the orbit that it was begun with.
+    pub arclength: f64,
     /// The place between the points.
     pub(crate) sigma: f64,
 }
@@ -212,6 +214,7 @@ pub(crate) fn located<F: Family>(
         normal_acceleration: bend,
         sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
         is_own_snap: test == Test::Speed,
+        arclength: sigma,
         sigma,
         orbit,
     })

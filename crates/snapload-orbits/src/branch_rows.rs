@@ -11,6 +11,7 @@ use std::fmt::Write;
 #[derive(Serialize)]
 pub struct BranchRow {
     along: &'static str,
+    from: Vec<EventRow>,
     points: Vec<PointRow>,
     events: Vec<EventRow>,
     ends: Vec<EndRow>,
@@ -40,6 +41,7 @@ struct EventRow {
     sqrt_coefficient: Option<f64>,
     multipliers: Vec<[f64; 2]>,
     admissible: bool,
+    arclength: f64,
 }
 
 #[derive(Serialize)]
@@ -49,14 +51,15 @@ struct EndRow {
 }
 
 impl BranchRow {
-    /// Of a branch along a key.
-    pub fn new(along: &'static str, branch: &Branch) -> Self {
+    /// Of a branch along a key, that was come to by events of others, the last of which it begins at.
+    pub fn new(along: &'static str, branch: &Branch, from: &[BranchEvent]) -> Self {
         let end = |end: &BranchEnd| EndRow {
             at: end.at,
             because: end.because.clone(),
         };
         Self {
             along,
+            from: from.iter().map(EventRow::new).collect(),
             points: branch.points.iter().map(PointRow::new).collect(),
             events: branch.events.iter().map(EventRow::new).collect(),
             ends: branch.ends.iter().map(end).collect(),
@@ -93,6 +96,7 @@ impl EventRow {
             sqrt_coefficient: event.sqrt_coefficient,
             multipliers: event.orbit.multipliers.values.clone(),
             admissible: event.orbit.is_admissible(),
+            arclength: event.arclength,
         }
     }
 }

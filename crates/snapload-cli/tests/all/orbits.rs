@@ -109,6 +109,84 @@ fn a_branch_has_its_fold() {
     assert_eq!(branch["ends"].as_array().unwrap().len(), 2);
 }
 
+/// At its birth an orbit of two periods has the squares of the multipliers, and the parameter goes
+/// with the square of how far its two laps are apart.
+#[test]
+fn a_branch_goes_over_at_a_doubling() {
+    let args = [
+        "--along",
+        "f_o=1.2:2",
+        "--switch",
+        "period_doubling",
+        "--step",
+        "0.002",
+    ];
+    let branch = json("branch", &args);
+    let from = branch["from"].as_array().unwrap();
+    assert_eq!(from.len(), 1);
+    assert_eq!(from[0]["kind"], "period_doubling");
+    // 50 digits by an independent program, rounded.
+    let born = 1.680507876014799;
+    assert!((number(&from[0]["value"]) - born).abs() < 1e-9);
+    assert_eq!(branch["ends"][0]["because"], "the period doubling");
+    let points = branch["points"].as_array().unwrap();
+    let first = number(&points[0]["multipliers"][0][0]);
+    assert!(
+        (first - 3.550_316_587_225_957_f64.powi(2)).abs() < 1e-6,
+        "{first}"
+    );
+    let mut ratios = Vec::new();
+    for point in &points[1..4] {
+        assert_eq!(point["symbol"].as_array().unwrap().len(), 4);
+        assert!(number(&point["return_error"]) < 1e-11);
+        let pairs = point["section"].as_array().unwrap().iter();
+        let pairs = pairs.zip(from[0]["state"].as_array().unwrap());
+        let square: f64 = pairs.map(|(a, b)| (number(a) - number(b)).powi(2)).sum();
+        ratios.push((number(&point["value"]) - born) / square);
+    }
+    assert!(ratios[0] > 0.0, "{ratios:?}");
+    assert!((ratios[1] / ratios[0] - 1.0).abs() < 0.1, "{ratios:?}");
+}
+
+/// An attractor of two periods is followed as such.
+#[test]
+fn a_branch_begins_with_the_period_of_the_attractor() {
+    let keys = ["r=1.976", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.8"];
+    let set = keys.iter().flat_map(|key| ["--set", key]);
+    let args: Vec<&str> = set.chain(["--along", "f_o=1.75:1.85"]).collect();
+    let branch = json("branch", &args);
+    let points = branch["points"].as_array().unwrap();
+    assert!(points.iter().all(|point| point["admissible"] == true));
+    // One snap a period, as the reference's diagram has it.
+    assert_eq!(points[0]["symbol"].as_array().unwrap().len(), 2);
+    assert_eq!(points[0]["stable"], true);
+}
+
+#[test]
+fn a_doubling_that_is_not_there_is_refused() {
+    let one = "of the kind period doubling the branch has 1 in its range, at 1.680508";
+    for (switches, code, why) in [
+        (&["fold"][..], 2, "write period_doubling"),
+        (&["period_doubling:0"], 2, "write period_doubling"),
+        (&["period_doubling:2"], 1, one),
+        (
+            &["period_doubling:1"; 2],
+            1,
+            "the branch has no period doubling",
+        ),
+    ] {
+        let d = directory();
+        snapload(d.path())
+            .arg("branch")
+            .args(&VOLLEY[..VOLLEY.len() - 1])
+            .args(["--along", "f_o=1.2:1.75"])
+            .args(switches.iter().flat_map(|switch| ["--switch", switch]))
+            .assert()
+            .code(code)
+            .stderr(contains(why));
+    }
+}
+
 #[test]
 fn a_section_knows_its_period() {
     let section = json("section", &["--periods", "1000", "--keep", "500"]);
