@@ -4,12 +4,16 @@ use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::orbit::NearArgs;
+use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::stage::Stage;
-use crate::table::{TableFile, numbers};
+use crate::table::{TableFile, names};
 use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress, START_KEYS};
 use snapload::{Parameters, Value, key_named};
-use snapload_orbits::{Along, Branch, BranchEvent, BranchRow, Kind, Moored, branch_in_words};
+use snapload_figures::Layer;
+use snapload_orbits::{
+    Along, Branch, BranchEvent, BranchRow, Kind, Moored, Orbit, branch_in_words,
+};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
 use std::fmt::Write;
@@ -24,7 +28,7 @@ length; given again, that of four times the length, and so on.
 
 Examples:
   snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
-      --along f_o=1.2:4 --json -
+      --along f_o=1.2:4 --plot branch.svg --json -
   snapload branch --set omega=3 --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666 \\
       --along f_o=0.25:0.35 --out branch.parquet
   snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
@@ -59,6 +63,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
     json: JsonArgs,
 }
 
@@ -82,6 +88,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     args.near.read(&parameters)?;
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let known = [&[key][..], &OF_ORBITS].concat();
+    let plot = args.plot.open(&mut stage, [key, "y"], &known)?;
     let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
@@ -95,6 +103,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .events
         .retain(|event| kinds.is_empty() || kinds.contains(&event.kind.name()));
     table.stage(&mut stage, &columns(key, &branch))?;
+    if let Some(plot) = plot {
+        let layers = layers(key, &branch, &plot);
+        plot.stage(&mut stage, &case_in_words(&name, &parameters), layers)?;
+    }
     let row = Answer {
         case: CaseEcho(&parameters),
         branch: BranchRow::new(key, &branch, &from),
@@ -214,24 +226,74 @@ fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
     text.split(',').map(kind).collect()
 }
 
+/// What of an orbit is a number, by its column.
+const OF_ORBITS: [&str; 11] = [
+    "arclength",
+    "x",
+    "y",
+    "theta",
+    "vx",
+    "vy",
+    "vtheta",
+    "largest_multiplier",
+    "least_v_n",
+    "y_max",
+    "theta_max",
+];
+
+fn of_orbit(column: &str, key: &str, orbit: &Orbit, arclength: f64) -> f64 {
+    let place = START_KEYS.iter().position(|name| *name == column);
+    match (column, place) {
+        _ if column == key => orbit.at[0],
+        (_, Some(place)) => orbit.z[place],
+        ("arclength", _) => arclength,
+        ("largest_multiplier", _) => orbit.multipliers.largest(),
+        ("least_v_n", _) => orbit.survey.least_speed.map_or(f64::NAN, |snap| snap.value),
+        ("y_max", _) => orbit.survey.y_max,
+        ("theta_max", _) => orbit.survey.theta_max,
+        _ => f64::NAN,
+    }
+}
+
 fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     let points = || branch.points.iter();
-    let mut columns = vec![
-        ("arclength", numbers(points().map(|point| point.arclength))),
-        (key, numbers(points().map(|point| point.orbit.at[0]))),
-    ];
-    for (i, name) in START_KEYS
-        .into_iter()
-        .enumerate()
-        .filter(|(_, name)| *name != key)
-    {
-        columns.push((name, numbers(points().map(|point| point.orbit.z[i]))));
-    }
-    let largest = points().map(|point| point.orbit.multipliers.largest());
-    columns.push(("largest_multiplier", numbers(largest)));
+    let number = |column: &'static str| {
+        let values = points().map(|p| of_orbit(column, key, &p.orbit, p.arclength));
+        let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
+        (column, Values::Numbers(values.collect()))
+    };
+    let others = OF_ORBITS.into_iter().filter(|column| *column != key);
+    let mut columns: Vec<_> = others.map(number).collect();
+    columns.insert(1, number(key));
     let symbols = points().map(|point| Some(point.orbit.lap.sequence.symbol().join(" ").into()));
     columns.push(("symbol", Values::Words(symbols.collect())));
+    let stability = points().map(|point| Some(point.orbit.stability().name()));
+    columns.push(("stability", names(stability)));
     let real = points().map(|point| Some(point.orbit.is_admissible()));
     columns.push(("admissible", Values::Flags(real.collect())));
     columns
+}
+
+/// The branch in the order of its arclength, special points among the others.
+fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
+    let [x, y] = &plot.axes;
+    let drawn = |orbit, arclength, event| {
+        let at = [x, y].map(|column| of_orbit(column, key, orbit, arclength));
+        (arclength, Drawn { at, orbit, event })
+    };
+    let points = branch
+        .points
+        .iter()
+        .map(|p| drawn(&p.orbit, p.arclength, None));
+    let events = branch.events.iter();
+    let events = events.map(|event| drawn(&event.orbit, event.arclength, Some(event)));
+    let mut all: Vec<_> = points.chain(events).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let all: Vec<Drawn> = all.into_iter().map(|(_, drawn)| drawn).collect();
+    // Where an event passes the section the velocity there jumps.
+    let jumps = plot
+        .axes
+        .iter()
+        .any(|column| ["vx", "vy", "vtheta"].contains(&column.as_str()));
+    branch_layers(&all, jumps)
 }

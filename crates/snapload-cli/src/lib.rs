@@ -32,6 +32,7 @@ mod merge;
 #[cfg(feature = "structure")]
 mod moordyn;
 mod orbit;
+mod orbit_picture;
 mod pictures;
 #[cfg(feature = "reproduce")]
 mod reproduce;

@@ -3,11 +3,13 @@ use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
+use crate::orbit_picture::{PlotArgs, PlotFile};
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
-use snapload_orbits::{Section, SectionRow, Stretch, section_in_words};
+use snapload_figures::{Colour, Layer, Shape};
+use snapload_orbits::{ImpactPoint, MOST_KEPT, Section, SectionRow, Stretch, section_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
 use std::fmt::Write;
@@ -16,12 +18,18 @@ use std::path::PathBuf;
 const EXAMPLES: &str = "\
 The state at t = (phase + k) T, T the period of the forcing, once the transient is over; with it the period of
 the motion, if it has one, and its Lyapunov exponents with their standard errors. The stops by settling are off.
+With --at impacts the table and the picture have a point an impact instead: when, at which phase of the forcing,
+which cable, at which v_n, and the state just before and after.
 
 Examples:
-  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6
-      a point mass whose motion never repeats itself
+  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
+      --set x=0 --set y=0.4 --set vx=0.1 --plot torus.svg
+      a point mass whose motion never repeats itself, as a closed curve
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
-      a table of the last 50 points";
+      a table of the last 50 points
+  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
+      --set x=0 --set y=0.4 --set vx=0.1 --at impacts --out impacts.parquet --plot impacts.svg
+      v_n of each impact against the phase of the forcing";
 
 /// Which case, and how long.
 #[derive(clap::Args)]
@@ -31,9 +39,14 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     stretch: StretchArgs,
+    /// Where the points are: once a period of the forcing, or at impacts
+    #[arg(long, default_value = "periods", value_parser = ["periods", "impacts"])]
+    at: String,
     /// Write the points as a table, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArgs,
     #[command(flatten)]
     json: JsonArgs,
 }
@@ -71,6 +84,7 @@ impl StretchArgs {
             skip,
             keep: self.keep,
             exponents: true,
+            impacts: false,
         })
     }
 }
@@ -85,17 +99,36 @@ struct Answer<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
-    let stretch = args.stretch.read()?;
+    let stretch = Stretch {
+        impacts: args.at == "impacts",
+        ..args.stretch.read()?
+    };
     let parameters = input.case.parameters();
     let mut stage = Stage::default();
     let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let (usual, known) = match stretch.impacts {
+        true => (["phase", "v_n"], &OF_IMPACTS[..]),
+        false => (["x", "vx"], &START_KEYS[..]),
+    };
+    let plot = args.plot.open(&mut stage, usual, known)?;
     let json = args.json.open(&mut stage)?;
     let bar = Bar::new();
     let section = Section::of(parameters, &stretch, &|progress: Progress| {
         bar.show(progress)
     })?;
     drop(bar);
-    table.stage(&mut stage, &columns(&section))?;
+    let impacts = kept(&section)?;
+    match impacts {
+        Some(impacts) => table.stage(&mut stage, &impact_columns(impacts))?,
+        None => table.stage(&mut stage, &columns(&section))?,
+    }
+    if let Some(plot) = plot {
+        let layers = match impacts {
+            Some(impacts) => impact_layers(impacts, &plot),
+            None => section_layers(&section, &plot),
+        };
+        plot.stage(&mut stage, &case_in_words(&input.name, parameters), layers)?;
+    }
     let row = Answer {
         case: CaseEcho(parameters),
         section: SectionRow::new(&section, stretch.phase),
@@ -109,6 +142,96 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let _ = writeln!(text, "Written   {}", path.display());
     }
     print(&text)
+}
+
+/// The impacts, where they were asked for.
+fn kept(section: &Section) -> Result<Option<&[ImpactPoint]>, Failure> {
+    match &section.impacts {
+        Some(kept) if kept.left_out > 0 => Err(Failure::BadInput(format!(
+            "--at impacts: {} impacts, and at most {MOST_KEPT} are kept; write a smaller --keep",
+            kept.points.len() as u64 + kept.left_out
+        ))),
+        kept => Ok(kept.as_ref().map(|kept| &kept.points[..])),
+    }
+}
+
+/// What of an impact is a number, by its column.
+const OF_IMPACTS: [&str; 13] = [
+    "t",
+    "phase",
+    "v_n",
+    "impulse",
+    "x",
+    "y",
+    "theta",
+    "vx_before",
+    "vy_before",
+    "vtheta_before",
+    "vx_after",
+    "vy_after",
+    "vtheta_after",
+];
+
+fn of_impact(impact: &ImpactPoint, column: &str) -> f64 {
+    let (key, state) = match column.strip_suffix("_after") {
+        Some(key) => (key, &impact.after),
+        None => (column.trim_end_matches("_before"), &impact.before),
+    };
+    match column {
+        "t" => impact.t,
+        "phase" => impact.phase,
+        "v_n" => impact.v_n,
+        "impulse" => impact.impulse,
+        _ => {
+            let place = START_KEYS.iter().position(|name| *name == key);
+            place.map_or(f64::NAN, |place| state[place])
+        }
+    }
+}
+
+fn impact_columns(impacts: &[ImpactPoint]) -> Vec<(&'static str, Values)> {
+    let cables = impacts.iter().map(|impact| Some(impact.cable as i64));
+    let number = |name| numbers(impacts.iter().map(|impact| of_impact(impact, name)));
+    let mut columns: Vec<_> = OF_IMPACTS
+        .iter()
+        .map(|name| (*name, number(name)))
+        .collect();
+    columns.insert(2, ("cable", Values::Counts(cables.collect())));
+    columns
+}
+
+fn impact_layers(impacts: &[ImpactPoint], plot: &PlotFile) -> Vec<Layer> {
+    let [x, y] = &plot.axes;
+    let drawn = [
+        (1, Shape::Cross, Colour::BLUE),
+        (2, Shape::Circle, Colour::VERMILION),
+    ];
+    let layer = |(cable, shape, colour)| {
+        let of_cable = impacts.iter().filter(|impact| impact.cable == cable);
+        let points: Vec<_> = of_cable
+            .map(|impact| [of_impact(impact, x), of_impact(impact, y)])
+            .collect();
+        let words = format!("cable {cable}");
+        (!points.is_empty()).then(|| Layer::Markers(points, shape, colour, words))
+    };
+    drawn.into_iter().filter_map(layer).collect()
+}
+
+fn section_layers(section: &Section, plot: &PlotFile) -> Vec<Layer> {
+    let place = |name: &String| START_KEYS.iter().position(|key| key == name);
+    let [Some(x), Some(y)] = plot.axes.each_ref().map(place) else {
+        return Vec::new();
+    };
+    let points: Vec<_> = section.points.iter().map(|z| [z[x], z[y]]).collect();
+    if points.is_empty() {
+        return Vec::new();
+    }
+    vec![Layer::Markers(
+        points,
+        Shape::Circle,
+        Colour::BLACK,
+        String::new(),
+    )]
 }
 
 fn columns(section: &Section) -> Vec<(&'static str, Values)> {

@@ -69,6 +69,7 @@ impl Attraction {
             skip: transient,
             keep: LOOKED_AT,
             exponents: false,
+            impacts: false,
         };
         let counter = Counter::new("cells", 0, window.count() as u64, on_progress);
         let met = in_parallel(window.count(), |k| {

@@ -26,6 +26,7 @@ pub fn of_attractor(
         skip: TRANSIENT,
         keep: LOOKED_AT,
         exponents: true,
+        impacts: false,
     };
     let section = Section::of(parameters, &stretch, on_progress)?;
     if let Some(stop) = section.stop {

@@ -4,19 +4,13 @@ use crate::attraction::Attraction;
 use crate::basin::Basin;
 use crate::diagram::At;
 use crate::erosion::Erosion;
-use crate::multipliers::Stability;
 use crate::orbit::{Orbit, words};
 use crate::section::Section;
 use std::fmt::Write;
 
 /// An orbit.
 pub fn orbit_in_words(orbit: &Orbit) -> String {
-    let stability = match orbit.stability() {
-        Stability::Stable => "stable",
-        Stability::Unstable => "unstable",
-        Stability::Neutral => "neutral",
-        Stability::Superstable => "superstable",
-    };
+    let stability = orbit.stability().name();
     let mut text = format!(
         "Orbit     {} of {}, t = {:.6}: {}\n",
         stability,
@@ -74,6 +68,18 @@ pub fn section_in_words(section: &Section) -> String {
     };
     let all: Vec<String> = section.exponents.iter().map(exponent).collect();
     let _ = writeln!(text, "Exponents {}", all.join(", "));
+    if let Some(kept) = &section.impacts {
+        let velocities = || kept.points.iter().map(|impact| impact.v_n);
+        let hardest = velocities().fold(0.0, f64::max);
+        let softest = velocities().fold(f64::INFINITY, f64::min);
+        let _ = match kept.points.len() {
+            0 => writeln!(text, "Impacts   none"),
+            count => writeln!(
+                text,
+                "Impacts   {count}, v_n from {softest:.6} to {hardest:.6}"
+            ),
+        };
+    }
     text
 }
 

@@ -31,6 +31,7 @@ mod diagram;
 mod distances;
 mod erosion;
 mod hybrid;
+mod impact_map;
 mod in_words;
 mod lap;
 mod moored;
@@ -57,6 +58,7 @@ pub use hybrid::{
     DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, values,
     variable,
 };
+pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use in_words::{
     attraction_in_words, basin_in_words, diagram_in_words, erosion_in_words, orbit_in_words,
     section_in_words,

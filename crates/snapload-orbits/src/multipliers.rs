@@ -39,6 +39,18 @@ pub enum Stability {
     Superstable,
 }
 
+impl Stability {
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Neutral => "neutral",
+            Self::Superstable => "superstable",
+        }
+    }
+}
+
 impl Multipliers {
     /// |μ| of the largest.
     pub fn largest(&self) -> f64 {

@@ -5,6 +5,7 @@ use crate::basin::Basin;
 use crate::diagram::At;
 use crate::erosion::Erosion;
 use crate::hybrid::Point;
+use crate::impact_map::ImpactPoint;
 use crate::multipliers::Stability;
 use crate::orbit::Orbit;
 use crate::section::Section;
@@ -176,6 +177,8 @@ pub struct SectionRow {
     theta_max: f64,
     stop: Option<StopRow>,
     points: Vec<PointRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    impacts: Option<Vec<ImpactPoint>>,
 }
 
 #[derive(Serialize)]
@@ -223,6 +226,7 @@ impl SectionRow {
             points: points
                 .map(|(state, k)| PointRow { k, state: *state })
                 .collect(),
+            impacts: section.impacts.as_ref().map(|kept| kept.points.clone()),
         }
     }
 }

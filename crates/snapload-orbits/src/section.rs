@@ -1,6 +1,7 @@
 //! Stroboscopic sections of long motions, and diagrams of them against a key.
 
 use crate::hybrid::Point;
+use crate::impact_map::Impacts;
 use snapload::analysis::{Cancelled, Frame, OnProgress, Progress};
 use snapload::{CaseError, Held, Parameters, Simulation, State, Step, Stop, Tangent};
 
@@ -13,6 +14,8 @@ pub struct Section {
     pub first: u64,
     /// Snaps in the kept periods.
     pub snaps: u64,
+    /// The same one by one, where they were asked for.
+    pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
     /// error; empty where they were not asked for. One that contact closes is −∞.
     pub exponents: Vec<[f64; 2]>,
@@ -37,6 +40,8 @@ pub struct Stretch {
     pub keep: u64,
     /// Whether exponents are computed.
     pub exponents: bool,
+    /// Whether impacts are kept one by one.
+    pub impacts: bool,
 }
 
 /// A motion that repeats itself is known by section points this near to each other, over so many
@@ -108,6 +113,7 @@ impl Section {
                 points: Vec::new(),
                 first: stretch.skip,
                 snaps: 0,
+                impacts: stretch.impacts.then(Impacts::default),
                 exponents: Vec::new(),
                 end: (*z, t),
                 y_max: z[1],
@@ -181,6 +187,9 @@ impl Follow {
             if step.t_end > kept_from {
                 let snaps = step.impacts().filter(|impact| impact.v_n > 0.0);
                 self.section.snaps += snaps.count() as u64;
+                if let Some(impacts) = &mut self.section.impacts {
+                    impacts.take(&step, self.period);
+                }
             }
             if let Some(tangent) = &self.tangent {
                 self.frame.follow(&tangent.of_step(&simulation, &step));

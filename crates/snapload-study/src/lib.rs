@@ -35,7 +35,7 @@ pub use list::List;
 pub use metadata::{Identity, Shard};
 pub use parquet_file::{Holds, Values};
 #[cfg(feature = "pictures")]
-pub use picture::StudyPicture;
+pub use picture::{StudyPicture, key_label};
 pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;

@@ -202,7 +202,8 @@ fn shades(at: &[f64], cells: &[Cell]) -> Vec<Layer> {
     runs.filter_map(shade).collect()
 }
 
-fn key_label(name: &str) -> String {
+/// The symbol of a key with its unit, for an axis; the name itself where there is no such key.
+pub fn key_label(name: &str) -> String {
     let Ok(key) = key_named(name) else {
         return name.to_owned();
     };

@@ -211,6 +211,85 @@ fn a_section_knows_its_period() {
     assert_eq!(diagram["rows"][1]["restarted"], false);
 }
 
+/// The impacts of a stable motion are the events of its orbit, which is closed by Newton's method.
+#[test]
+fn the_section_at_impacts_is_that_of_the_orbit() {
+    let section = json("section", &["--at", "impacts", "--keep", "10"]);
+    let impacts = section["impacts"].as_array().unwrap();
+    assert_eq!(impacts.len(), 20);
+    let orbit = json("orbit", &[]);
+    let (events, period) = (
+        orbit["events"].as_array().unwrap(),
+        number(&orbit["period"]["t"]),
+    );
+    for (impact, event) in impacts.iter().zip(events.iter().cycle()) {
+        assert_eq!(impact["cable"], event["cable"]);
+        let off = ["v_n", "impulse"].map(|key| (number(&impact[key]) - number(&event[key])).abs());
+        assert!(off[0] < 1e-9 && off[1] < 1e-9, "{off:?}");
+        assert!((number(&impact["phase"]) - number(&event["t"]) / period).abs() < 1e-9);
+        let [before, after] = ["before", "after"].map(|key| impact[key].as_array().unwrap());
+        // For a unit mass the velocity jumps by the impulse.
+        let jump = |i: usize| number(&after[i]) - number(&before[i]);
+        assert_eq!([jump(0), jump(1), jump(2)], [0.0; 3]);
+        assert!((jump(3).hypot(jump(4)) - number(&impact["impulse"])).abs() < 1e-12);
+    }
+    assert!(json("section", &[])["impacts"].is_null());
+}
+
+#[test]
+fn sections_and_branches_are_drawn() {
+    let d = directory();
+    let run = |args: &[&str]| {
+        let mut command = snapload(d.path());
+        command.arg(args[0]).args(&VOLLEY[..VOLLEY.len() - 1]);
+        command.args(&args[1..]).assert()
+    };
+    let branch = [
+        "branch",
+        "--along",
+        "f_o=1.2:4",
+        "--plot",
+        "b.svg",
+        "--show",
+        "y_max",
+    ];
+    run(&branch).success().stdout(contains("b.svg"));
+    let picture = std::fs::read_to_string(d.path().join("b.svg")).unwrap();
+    for word in [
+        "stable",
+        "unstable",
+        "no body has it",
+        "fold",
+        "corner",
+        "bound",
+        "y max",
+    ] {
+        assert!(picture.contains(&format!(">{word}<")), "{word}");
+    }
+    let impacts = [
+        "section", "--at", "impacts", "--plot", "i.svg", "--out", "i.csv",
+    ];
+    run(&impacts).success();
+    let picture = std::fs::read_to_string(d.path().join("i.svg")).unwrap();
+    assert!(picture.contains("cable 1") && picture.contains("cable 2"));
+    let table = std::fs::read_to_string(d.path().join("i.csv")).unwrap();
+    assert!(
+        table.starts_with("t,phase,cable,v_n,impulse,x,y,theta,vx_before,"),
+        "{table}"
+    );
+    assert_eq!(table.lines().count(), 201);
+    run(&["section", "--plot", "s.png", "--show", "vy"]).success();
+    let picture = std::fs::read(d.path().join("s.png")).unwrap();
+    assert!(picture.starts_with(b"\x89PNG"));
+    let refused = ["section", "--plot", "s.svg", "--show", "v_n"];
+    run(&refused)
+        .code(2)
+        .stderr(contains("one or two of the columns x, y"));
+    run(&["section", "--plot", "s.pdf"])
+        .code(2)
+        .stderr(contains(".svg or .png"));
+}
+
 #[test]
 fn a_basin_tells_of_its_cells() {
     let d = directory();

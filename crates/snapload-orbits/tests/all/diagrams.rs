@@ -23,6 +23,7 @@ fn the_attractor_is_followed_as_in_the_reference() {
         skip: reference["transient"].as_u64().unwrap(),
         keep: reference["kept"].as_u64().unwrap(),
         exponents: true,
+        impacts: false,
     };
     let found = diagram(&base, "f_o", &values, &stretch, &unwatched).unwrap();
     for (at, row) in found.iter().zip(rows) {

@@ -1,0 +1,212 @@
+//! `--plot` and `--show` of sections, branches and curves.
+use crate::failure::Failure;
+use crate::json::{folder_for, refuse_directory};
+use crate::stage::{Room, Stage};
+use snapload_figures::{
+    Axis, Colour, Dash, FigureError, Layer, Mark, PNG_SCALE, Plot, Point, Range, Stroke, Width,
+    draw,
+};
+use snapload_orbits::{BranchEvent, Kind, Orbit, Stability};
+use snapload_study::key_label;
+use std::path::PathBuf;
+
+/// Which picture, and where it goes.
+#[derive(clap::Args)]
+pub(crate) struct PlotArgs {
+    /// Draw a picture, FILE.svg or FILE.png
+    #[arg(long, value_name = "FILE.svg|png")]
+    plot: Option<PathBuf>,
+    /// What is drawn: a column of numbers of the table upwards, or one to the right and one upwards
+    #[arg(long, value_name = "COLUMN[,COLUMN]", requires = "plot")]
+    show: Option<String>,
+}
+
+/// A picture that is to be drawn.
+pub(crate) struct PlotFile {
+    room: Room,
+    path: PathBuf,
+    /// The columns to the right and upwards.
+    pub(crate) axes: [String; 2],
+}
+
+impl PlotArgs {
+    /// Opens the place, and checks the columns, so that a bad one is known before anything is
+    /// computed; none where no picture is wanted.
+    pub(crate) fn open(
+        &self,
+        stage: &mut Stage,
+        usual: [&str; 2],
+        known: &[&str],
+    ) -> Result<Option<PlotFile>, Failure> {
+        let Some(path) = &self.plot else {
+            return Ok(None);
+        };
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if !matches!(ending, Some("svg" | "png")) {
+            let path = path.display();
+            let message = format!("--plot {path}: write a name that ends in .svg or .png");
+            return Err(Failure::BadInput(message));
+        }
+        refuse_directory(path)?;
+        let shown = self.show.as_deref().unwrap_or_default();
+        let words: Vec<&str> = shown.split(',').map(str::trim).collect();
+        let axes = match words[..] {
+            [""] => usual,
+            [upwards] => [usual[0], upwards],
+            [right, upwards] => [right, upwards],
+            _ => return Err(no_columns(shown, known)),
+        };
+        if !axes.iter().all(|name| known.contains(name)) {
+            return Err(no_columns(shown, known));
+        }
+        Ok(Some(PlotFile {
+            room: stage.open(&folder_for(path))?,
+            path: path.clone(),
+            axes: axes.map(str::to_owned),
+        }))
+    }
+}
+
+fn no_columns(shown: &str, known: &[&str]) -> Failure {
+    Failure::BadInput(format!(
+        "--show {shown:?}: write one or two of the columns {}, with a comma between two",
+        known.join(", ")
+    ))
+}
+
+impl PlotFile {
+    /// Draws the layers and stages the picture.
+    pub(crate) fn stage(
+        self,
+        stage: &mut Stage,
+        title: &str,
+        layers: Vec<Layer>,
+    ) -> Result<(), Failure> {
+        let cannot = |error: FigureError| {
+            Failure::Failed(format!("--plot: the picture can not be drawn: {error}"))
+        };
+        let [x, y] = &self.axes;
+        let empty = layers.is_empty();
+        let plot = Plot {
+            title: title.to_owned(),
+            description: format!("{y} against {x}"),
+            x: Axis::new(label(x), range(x)),
+            y: Axis::new(label(y), range(y)),
+            layers,
+            note: if empty { "nothing to draw" } else { "" }.to_owned(),
+            ..Plot::default()
+        };
+        let picture = draw("orbits", Width::Page, &[plot]).map_err(cannot)?;
+        let png = self.path.extension().is_some_and(|ending| ending == "png");
+        let bytes = match png {
+            true => picture.png(PNG_SCALE).map_err(cannot)?,
+            false => picture.svg().as_bytes().to_vec(),
+        };
+        stage.write(self.room, self.path, |out| out.write_all(&bytes))
+    }
+}
+
+/// A phase is shown over the whole period.
+fn range(column: &str) -> Range {
+    match column {
+        "phase" => Range::Fixed(0.0, 1.0),
+        _ => Range::Auto,
+    }
+}
+
+/// What stands along an axis.
+fn label(column: &str) -> String {
+    match column {
+        "v_n" => "*v*ₙ (nondimensional)".to_owned(),
+        "least_v_n" => "least *v*ₙ (nondimensional)".to_owned(),
+        "phase" => "phase of the forcing, *t*/*T*".to_owned(),
+        "vx_before" | "vy_before" | "vtheta_before" => {
+            let key = column.trim_end_matches("_before");
+            format!("{} before the impact", key_label(key))
+        }
+        other => key_label(other).replace('_', " "),
+    }
+}
+
+/// An orbit on a branch, as it is drawn.
+pub(crate) struct Drawn<'a> {
+    /// Where.
+    pub(crate) at: Point,
+    pub(crate) orbit: &'a Orbit,
+    /// The special point that it is, if it is one.
+    pub(crate) event: Option<&'a BranchEvent>,
+}
+
+/// How orbits of each sort are drawn.
+const SORTS: [(&str, Stroke); 4] = [
+    ("stable", Stroke::new(Colour::BLACK, 1.3, Dash::Solid)),
+    ("neutral", Stroke::new(Colour::GREEN, 1.0, Dash::Solid)),
+    ("unstable", Stroke::new(Colour::BLUE, 0.9, Dash::Dashed)),
+    (
+        "no body has it",
+        Stroke::new(Colour::VERMILION, 0.8, Dash::Dotted),
+    ),
+];
+
+fn sort(orbit: &Orbit) -> usize {
+    match orbit.stability() {
+        _ if !orbit.is_admissible() => 3,
+        Stability::Stable | Stability::Superstable => 0,
+        Stability::Neutral => 1,
+        Stability::Unstable => 2,
+    }
+}
+
+/// A branch as a line, which is broken where `jumps` and changes with the sort of orbit, and its
+/// special points by name.
+pub(crate) fn branch_layers(all: &[Drawn], jumps: bool) -> Vec<Layer> {
+    let mut pieces: [Vec<Vec<Point>>; 4] = Default::default();
+    let mut last = None;
+    for pair in all.windows(2) {
+        let [from, to] = [&pair[0], &pair[1]];
+        // A special point lies on the border of two sorts.
+        let regular = [to, from].into_iter().find(|drawn| drawn.event.is_none());
+        let other = regular.map_or(last.unwrap_or(3), |drawn| sort(drawn.orbit));
+        let symbols = [from, to].map(|drawn| drawn.orbit.lap.sequence.symbol());
+        if jumps && symbols[0] != symbols[1] {
+            last = None;
+            continue;
+        }
+        let lines = &mut pieces[other];
+        match lines.last_mut().filter(|_| last == Some(other)) {
+            Some(line) => line.push(to.at),
+            None => lines.push(vec![from.at, to.at]),
+        }
+        last = Some(other);
+    }
+    let mut layers = Vec::new();
+    for (lines, (words, stroke)) in pieces.into_iter().zip(SORTS) {
+        if !lines.is_empty() {
+            layers.push(Layer::Line(lines, stroke, words.to_owned()));
+        }
+    }
+    let events = all
+        .iter()
+        .filter_map(|drawn| drawn.event.map(|event| (event, drawn.at)));
+    let marks: Vec<Mark> = events
+        .map(|(event, at)| Mark::new(short(event.kind), at))
+        .collect();
+    if !marks.is_empty() {
+        layers.push(Layer::Letters(marks));
+    }
+    layers
+}
+
+/// The name of a special point beside its dot.
+fn short(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Fold => "fold",
+        Kind::PeriodDoubling => "doubling",
+        Kind::NeimarkSacker => "torus",
+        Kind::Graze => "graze",
+        Kind::Corner => "corner",
+        Kind::TensionLost => "slack",
+        Kind::RotationLimit => "rotation",
+        Kind::UpperBound => "bound",
+    }
+}
