@@ -24,7 +24,7 @@ which cable, at which v_n, and the state just before and after.
 Examples:
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
       --set x=0 --set y=0.4 --set vx=0.1 --plot torus.svg
-      a point mass whose motion never repeats itself, as a closed curve
+      a point mass whose motion never repeats itself: its points lie on closed curves
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
       a table of the last 50 points
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
@@ -212,7 +212,7 @@ fn impact_layers(impacts: &[ImpactPoint], plot: &PlotFile) -> Vec<Layer> {
             .map(|impact| [of_impact(impact, x), of_impact(impact, y)])
             .collect();
         let words = format!("cable {cable}");
-        (!points.is_empty()).then(|| Layer::Markers(points, shape, colour, words))
+        (!points.is_empty()).then_some(Layer::Markers(points, shape, colour, words))
     };
     drawn.into_iter().filter_map(layer).collect()
 }

@@ -59,7 +59,7 @@ pub fn section_in_words(section: &Section) -> String {
         None => writeln!(
             text,
             "Repeats   itself with no period up to {}",
-            crate::LONGEST_PERIOD
+            section.longest_period()
         ),
     };
     let exponent = |[mean, error]: &[f64; 2]| match mean.is_finite() {

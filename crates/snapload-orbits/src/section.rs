@@ -129,13 +129,21 @@ impl Section {
     pub fn period(&self) -> Option<usize> {
         let points = &self.points;
         let repeats = |n: &usize| {
-            let laps = points.len().saturating_sub(1) / n;
-            laps >= LAPS.min((points.len() / 2).max(1)) && {
-                let from = points.len() - n * LAPS.min(laps);
-                (from..points.len()).all(|k| crate::distance(&points[k], &points[k - n]) <= SAME)
-            }
+            let from = points.len() - n * self.laps();
+            (from..points.len()).all(|k| crate::distance(&points[k], &points[k - n]) <= SAME)
         };
-        (1..=LONGEST_PERIOD).find(repeats)
+        (1..=self.longest_period()).find(repeats)
+    }
+
+    /// The longest period that it could be seen to have, with so many points.
+    pub fn longest_period(&self) -> usize {
+        let laps = self.laps();
+        (self.points.len() / (laps + 1)).min(LONGEST_PERIOD)
+    }
+
+    /// How many laps have to come back.
+    fn laps(&self) -> usize {
+        LAPS.min((self.points.len() / 2).max(1))
     }
 }
 

@@ -208,8 +208,12 @@ pub fn key_label(name: &str) -> String {
         return name.to_owned();
     };
     // As the report's figures have it: the f of f_o alone in italics.
-    let symbol = match key.symbol.split_once("_o") {
-        Some((letter, "")) => format!("*{letter}*ₒ"),
+    let symbol = match (key.symbol.split_once("_o"), key.name) {
+        (Some((letter, "")), _) => format!("*{letter}*ₒ"),
+        // The font of pictures has no letters with dots.
+        (_, "vx") => "d*x*/d*t*".to_owned(),
+        (_, "vy") => "d*y*/d*t*".to_owned(),
+        (_, "vtheta") => "d*θ*/d*t*".to_owned(),
         _ => format!("*{}*", key.symbol),
     };
     with_unit(&symbol, key.unit)

@@ -236,6 +236,26 @@ fn the_section_at_impacts_is_that_of_the_orbit() {
     assert!(json("section", &[])["impacts"].is_null());
 }
 
+/// A torus has no period, however few its points: a period is told after eight laps of it.
+#[test]
+fn a_motion_without_a_period_is_told_as_one() {
+    let keys = [
+        "r=1.976",
+        "e=0.71",
+        "nu=0.87",
+        "omega=4.847",
+        "f_o=1.6",
+        "x=0",
+        "y=0.4",
+        "vx=0.1",
+    ];
+    let set: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
+    for keep in ["1", "5", "100", "300"] {
+        let section = json("section", &[&set[..], &["--keep", keep]].concat());
+        assert!(section["period"].is_null(), "{keep}: {}", section["period"]);
+    }
+}
+
 #[test]
 fn sections_and_branches_are_drawn() {
     let d = directory();
