@@ -18,12 +18,14 @@ from typing import get_type_hints
 
 from ._assessed import Assessment, Elastic, Seas
 from ._axes import evenly
+from ._base_orbit import Admissible, NoOrbitError
 from ._case import Case, cases
 from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._hydro import Hydro
 from ._neighbours import Ensemble, Share, ensemble
+from ._orbit import Orbit, SystemOrbit, find_orbits
 from ._parts import Body, Cable, Forcing, Sinusoid
 from ._reproduce import reproduce
 from ._run import Run
@@ -37,6 +39,7 @@ from ._told import End, Norms, Outcome, Trust
 from ._verify import Verification, verify
 
 __all__ = [
+    "Admissible",
     "Assessment",
     "Body",
     "Cable",
@@ -48,7 +51,9 @@ __all__ = [
     "Ensemble",
     "Forcing",
     "Hydro",
+    "NoOrbitError",
     "Norms",
+    "Orbit",
     "Outcome",
     "Run",
     "Scales",
@@ -57,6 +62,7 @@ __all__ = [
     "Sinusoid",
     "Structure",
     "System",
+    "SystemOrbit",
     "SystemRun",
     "Table",
     "Trust",
@@ -66,6 +72,7 @@ __all__ = [
     "critical_force",
     "ensemble",
     "evenly",
+    "find_orbits",
     "merge",
     "open_study",
     "reproduce",

@@ -12,6 +12,7 @@ from typing import Any, Self, Unpack
 from . import _engine
 from ._check import Uncertainty, number, plain, whole
 from ._keys import PARAMETERS, Keys, KeyValues
+from ._orbit import HasOrbits
 from ._run import Options, Run
 from ._signature import with_keys
 
@@ -19,7 +20,7 @@ from ._signature import with_keys
 _SHOWN = ("r", "e", "a", "b", "f_o", "nu", "omega")
 
 
-class Case(KeyValues):
+class Case(KeyValues, HasOrbits):
     """A breakwater on two cables: body, cables, waves, start and stop rules, checked once.
 
     Parameters

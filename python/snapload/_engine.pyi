@@ -4,6 +4,7 @@ from typing import Any
 
 __version__: str
 MAX_CABLES: int
+ATTRACTOR_PERIODS: int
 MOST_DIGITS: int
 
 class Case:
@@ -101,6 +102,56 @@ def certify(run: Run, progress: Callable[[int], object] | None, /) -> str: ...
 def verify(
     case: Case, digits: int, tolerance: float, progress: Callable[[int], object] | None, /
 ) -> tuple[str, str]: ...
+
+class Orbit:
+    def json(self) -> str: ...
+    def summary(self) -> str: ...
+    def attracts(self) -> bool: ...
+    def case(self) -> Case | None: ...
+    def distance(self, state: list[float], /) -> float: ...
+    def begins(self) -> list[float]: ...
+    def curve(self, pieces: float, /) -> bytearray: ...
+
+class Branch:
+    def json(self) -> str: ...
+    def summary(self) -> str: ...
+    def point(self, place: int, /) -> Orbit: ...
+    def event(self, place: int, /) -> Orbit: ...
+    def doubled(
+        self, place: int, range: object, step: float, points: int, progress: Callable[[int], object] | None, /
+    ) -> Branch | None: ...
+
+def orbit(
+    case: Case,
+    start: dict[str, Any] | None,
+    periods: int | None,
+    symbol: list[int] | None,
+    phase: float,
+    progress: Callable[[int], object] | None,
+    /,
+) -> tuple[Orbit | None, str]: ...
+def orbit_of_system(
+    system: System, start: list[float], periods: int | None, symbol: list[int] | None, phase: float, /
+) -> tuple[Orbit | None, str]: ...
+def find_orbits(
+    case: Case,
+    starts: int,
+    seed: int,
+    periods: int | None,
+    symbol: list[int] | None,
+    phase: float,
+    progress: Callable[[int], object] | None,
+    /,
+) -> list[Orbit]: ...
+def continuation(
+    orbit: Orbit,
+    key: str,
+    range: object,
+    step: float,
+    points: int,
+    progress: Callable[[int], object] | None,
+    /,
+) -> Branch: ...
 def critical_force(case: Case, step: float, max: float, /) -> str: ...
 def critical_force_over(
     study: Study, step: float, max: float, progress: Callable[[int], object] | None, /

@@ -19,7 +19,12 @@ from ._parts import Body, Cable, Forcing, put, several, within
 from ._system_keys import changed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import xarray
+
+    from ._base_orbit import Start
+    from ._orbit import SystemOrbit
 else:
     xarray = Later("xarray")
 
@@ -235,6 +240,55 @@ class System:
             return SystemRun(self, None, _engine.run_system(self._begun, None, 0.0))
         options = self._doubts(uncertainty), number("tolerance", tolerance)
         return SystemRun(self, options, _engine.run_system(self._begun, *options))
+
+    def orbit(
+        self,
+        start: Start | None = None,
+        *,
+        periods: int | None = None,
+        symbol: Iterable[int | str] | None = None,
+        phase: float = 0.0,
+    ) -> SystemOrbit:
+        """Find the periodic orbit near a start, closed to rounding.
+
+        Parameters
+        ----------
+        start : dict of str to float, or array_like of six, optional
+            The state at the section near which the orbit is; values left out are the system's own.
+        periods : int, optional
+            Length in periods of the first sinusoid; 1 if left out.
+        symbol : iterable of int, optional
+            The cables that snap, in their order; any if left out.
+        phase : float
+            Time of the section, in periods.
+
+        Returns
+        -------
+        SystemOrbit
+            The orbit, with its multipliers, and whether a body can have it.
+
+        Raises
+        ------
+        NoOrbitError
+            If there is none; the words say what there is instead.
+        ValueError
+            If an option is out of its range, or the forces do not repeat themselves.
+
+        See Also
+        --------
+        snapload.Case.orbit : The same of a case.
+
+        Examples
+        --------
+        >>> import math, snapload
+        >>> rope, shaken = snapload.Cable((0, 5), 5), snapload.Sinusoid((0, 1.2), 3, phase=(0, -math.pi / 2))
+        >>> ball = snapload.System(snapload.Body(), [rope], snapload.Forcing((0, -1), [shaken]), 0.5)
+        >>> ball.orbit({"y": 0.2, "vy": -1.3}).admissible.yes
+        True
+        """
+        from ._orbit import orbit_of_system
+
+        return orbit_of_system(self, start, periods, symbol, phase)
 
     def _doubts(self, uncertainty: Uncertainty) -> list[float]:
         """How far each value of the start may be off."""

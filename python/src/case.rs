@@ -24,11 +24,7 @@ impl Case {
         name: String,
         entries: impl IntoIterator<Item = (&'static str, Value)>,
     ) -> Result<Self, CaseError> {
-        let mut given: Vec<(&'static str, Value)> = Vec::new();
-        for (key, value) in entries {
-            given.retain(|(known, _)| *known != key);
-            given.push((key, value));
-        }
+        let given = latest(entries);
         let parameters = Parameters::from_entries(given.iter().cloned())?;
         let case = Arc::new(snapload::Case::new(parameters)?);
         Ok(Self { name, given, case })
@@ -37,6 +33,24 @@ impl Case {
     pub(crate) fn parameters(&self) -> &Parameters {
         self.case.parameters()
     }
+
+    /// Its parameters with other values of some keys; the start need not be legal.
+    pub(crate) fn parameters_with(
+        &self,
+        entries: Vec<(&'static str, Value)>,
+    ) -> Result<Parameters, CaseError> {
+        Parameters::from_entries(latest(self.given.iter().cloned().chain(entries)))
+    }
+}
+
+/// The last value of each key.
+fn latest(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Vec<(&'static str, Value)> {
+    let mut given: Vec<(&'static str, Value)> = Vec::new();
+    for (key, value) in entries {
+        given.retain(|(known, _)| *known != key);
+        given.push((key, value));
+    }
+    given
 }
 
 #[pymethods]

@@ -8,6 +8,7 @@ mod critical;
 mod errors;
 mod hydro;
 mod interrupt;
+mod orbit;
 mod pool;
 mod run;
 mod schema;
@@ -34,6 +35,8 @@ mod _engine {
     #[pymodule_export]
     use super::hydro::hydro;
     #[pymodule_export]
+    use super::orbit::{Branch, Orbit, continuation, find_orbits, orbit, orbit_of_system};
+    #[pymodule_export]
     use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases};
@@ -50,6 +53,7 @@ mod _engine {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("MAX_CABLES", snapload::MAX_CABLES)?;
+        module.add("ATTRACTOR_PERIODS", snapload_orbits::ATTRACTOR_PERIODS)?;
         module.add("MOST_DIGITS", snapload::analysis::MOST_DIGITS)
     }
 }

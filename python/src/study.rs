@@ -180,7 +180,8 @@ fn closed() -> PyErr {
     of_program("this file is no longer in the making")
 }
 
-fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
+/// The values along one axis, a list or the text `first:last:n`.
+pub(crate) fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     if let Ok(text) = values.extract::<String>() {
         return Axis::written(key, &text).map_err(of_study);
     }
@@ -189,7 +190,8 @@ fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
     Axis::listed(key, values).map_err(of_study)
 }
 
-fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<Side> {
+/// The ends of one side of a box, a pair or the text `low:high`.
+pub(crate) fn side(key: &str, ends: &Bound<'_, PyAny>) -> PyResult<Side> {
     if let Ok(text) = ends.extract::<String>() {
         return Side::written(key, &text).map_err(of_study);
     }

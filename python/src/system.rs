@@ -152,6 +152,13 @@ impl System {
     }
 }
 
+impl System {
+    /// Its parts and what ends a run.
+    pub(crate) fn parts(&self) -> (snapload::System, Rules) {
+        (self.begun.system().clone(), *self.begun.rules())
+    }
+}
+
 /// An illegal start in the words of the keys.
 fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
     let place = format!("{}, {}, {}", start.x, start.y, start.theta);

@@ -8,8 +8,8 @@ use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::stage::Stage;
 use crate::table::{TableFile, names};
 use serde::Serialize;
+use snapload::Parameters;
 use snapload::analysis::{OnProgress, Progress, START_KEYS};
-use snapload::{Parameters, Value, key_named};
 use snapload_figures::Layer;
 use snapload_orbits::{
     Along, Branch, BranchEvent, BranchRow, Kind, Moored, Orbit, branch_in_words,
@@ -78,7 +78,7 @@ struct Answer<'a> {
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let (name, parameters) = args.case.parameters()?;
-    let (key, along) = along(args, &parameters)?;
+    let (key, value, along) = along(args, &parameters)?;
     let kinds = kinds(&args.events)?;
     let switches: Vec<_> = args
         .switch
@@ -94,8 +94,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let family = Moored::case(parameters, [Some(key), None]);
-    let at = Moored::values(&parameters, [Some(key), None]);
-    let orbit = args.near.orbit(&family, at, &parameters, &on_progress)?;
+    let orbit = args
+        .near
+        .orbit(&family, [value, 0.0], &parameters, &on_progress)?;
     let branch = Branch::of(&family, &orbit, &along, &on_progress)?;
     let (mut branch, from) = switched(&family, branch, &switches, &along, &on_progress)?;
     drop(bar);
@@ -153,8 +154,8 @@ fn switched(
     Ok((branch, from))
 }
 
-/// The key, and how it is followed.
-fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, Along), Failure> {
+/// The key, its value, and how it is followed.
+fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, f64, Along), Failure> {
     let text = &args.along;
     let Some((key, range)) = text.split_once('=') else {
         return Err(Failure::BadInput(format!(
@@ -163,32 +164,9 @@ fn along(args: &Args, parameters: &Parameters) -> Result<(&'static str, Along), 
     };
     let side = Side::written(key.trim(), range.trim())
         .map_err(|error| Failure::from(error).with_prefix("--along"))?;
-    let key = key_named(side.key())?.name;
-    let parts: Vec<f64> = range
-        .split(':')
-        .filter_map(|part| part.trim().parse().ok())
-        .collect();
-    let value = parameters.get(key).as_ref().and_then(Value::number);
-    let (Some(value), [low, high]) = (value, &parts[..]) else {
-        return Err(Failure::BadInput(format!(
-            "--along {text:?}: {key} is no number of this body"
-        )));
-    };
-    if !(*low..=*high).contains(&value) {
-        return Err(Failure::BadInput(format!(
-            "--along {text:?}: the case has {key} = {value}, which must lie within the range; set it with --set"
-        )));
-    }
-    if !(args.step > 0.0 && args.step <= 1.0) {
-        let message = format!("--step {}: a number above 0, at most 1", args.step);
-        return Err(Failure::BadInput(message));
-    }
-    let along = Along {
-        range: [*low, *high],
-        step: args.step,
-        most: args.points as usize,
-    };
-    Ok((key, along))
+    let most = args.points as usize;
+    let found = snapload_orbits::along(parameters, side.key(), side.ends(), args.step, most)?;
+    Ok(found)
 }
 
 /// Which period doubling; none says the nearest.

@@ -8,8 +8,8 @@ use serde::Serialize;
 use snapload::analysis::{OnProgress, Progress, START_KEYS};
 use snapload::{Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Wanted, distance, find_orbits, of_attractor, orbit_in_words,
-    start_of,
+    Moored, Orbit, OrbitRow, Point, Wanted, checked_phase, distance, find_orbits, of_attractor,
+    orbit_in_words, start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
@@ -73,7 +73,7 @@ impl NearArgs {
         let wanted = Wanted {
             periods: self.periods,
             struck: None,
-            phase: phase(self.phase)?,
+            phase: checked_phase(self.phase)?,
         };
         snapload_orbits::period_of(parameters)?;
         let start = self.start.as_deref();
@@ -192,15 +192,6 @@ fn many<'a>(
         seed: args.seed,
         orbits: orbits.iter().map(OrbitRow::new).collect(),
     })
-}
-
-/// A time of the section.
-pub(crate) fn phase(phase: f64) -> Result<f64, Failure> {
-    if (0.0..1.0).contains(&phase) {
-        return Ok(phase);
-    }
-    let message = format!("--phase {phase}: a part of the period, from 0 to below 1");
-    Err(Failure::BadInput(message))
 }
 
 /// A start out of `x=..,y=..`.

@@ -9,7 +9,9 @@ use crate::table::{TableFile, numbers};
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
-use snapload_orbits::{ImpactPoint, MOST_KEPT, Section, SectionRow, Stretch, section_in_words};
+use snapload_orbits::{
+    ImpactPoint, MOST_KEPT, Section, SectionRow, Stretch, section_in_words, stretch,
+};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
 use std::fmt::Write;
@@ -73,19 +75,7 @@ pub(crate) struct StretchArgs {
 impl StretchArgs {
     /// Checks it.
     pub(crate) fn read(&self) -> Result<Stretch, Failure> {
-        let Some(skip) = self.periods.checked_sub(self.keep) else {
-            return Err(Failure::BadInput(format!(
-                "--keep {}: more than there are in all; write at most --periods {}",
-                self.keep, self.periods
-            )));
-        };
-        Ok(Stretch {
-            phase: crate::orbit::phase(self.phase)?,
-            skip,
-            keep: self.keep,
-            exponents: true,
-            impacts: false,
-        })
+        Ok(stretch(self.periods, self.keep, self.phase)?)
     }
 }
 

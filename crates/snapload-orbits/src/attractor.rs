@@ -11,6 +11,8 @@ use snapload::{Case, Parameters};
 /// Periods that are left out before the attractor is looked at, and periods that are looked at.
 pub const TRANSIENT: u64 = 400;
 const LOOKED_AT: u64 = 600;
+/// How many periods that is together.
+pub const ATTRACTOR_PERIODS: u64 = TRANSIENT + LOOKED_AT;
 
 /// The orbit that the motion of a case comes to, if it is periodic.
 ///
@@ -50,7 +52,7 @@ pub fn of_attractor(
             "the motion of this start repeats itself with no period up to {LONGEST_PERIOD} after {} \
              periods of the forcing (largest Lyapunov exponent {exponent:.4} +- {error:.4}); look for \
              unstable orbits with --find N, or at snapload section",
-            TRANSIENT + LOOKED_AT
+            ATTRACTOR_PERIODS
         ))));
     };
     if wanted

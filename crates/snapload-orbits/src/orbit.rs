@@ -188,6 +188,11 @@ impl Orbit {
         }
     }
 
+    /// The same orbit where its system is one of a family at these values of the parameters.
+    pub fn with_at(self, at: [f64; 2]) -> Self {
+        Self { at, ..self }
+    }
+
     /// Whether a body has it.
     pub fn is_admissible(&self) -> bool {
         self.why_not.is_empty()

@@ -178,6 +178,11 @@ impl Side {
         self.key
     }
 
+    /// Its two ends.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
     fn at(&self, part: f64) -> Value {
         Value::Number(self.low + part * (self.high - self.low))
     }

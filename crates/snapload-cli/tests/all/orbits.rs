@@ -348,12 +348,12 @@ fn what_can_not_be_is_refused() {
     refused(&["orbit", "--phase", "1.5"], "from 0 to below 1");
     refused(
         &["branch", "--along", "f_o=0.5:1"],
-        "must lie within the range",
+        "a range that holds the value of the case, f_o = 0.3",
     );
     refused(&["branch", "--along", "f_o"], "no range");
     refused(
         &["section", "--periods", "5", "--keep", "9"],
-        "at most --periods 5",
+        "at most as many as there are in all, which is periods = 5",
     );
     refused(&["basin", "--vary", "x=0:1:3"], "a window has two keys");
     refused(

@@ -1,0 +1,307 @@
+"""What there is to ask of any periodic orbit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._check import whole
+from ._later import Later
+from ._table import Table
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+else:
+    matplotlib = Later("matplotlib")
+
+#: The values of the state, in the order of the engine.
+STATE = ("x", "y", "theta", "vx", "vy", "vtheta")
+
+#: What multipliers say: true, false, or a word.
+Stability: TypeAlias = bool | Literal["neutral", "superstable"]
+
+#: Some values of the state, or all six of them.
+Start: TypeAlias = Mapping[str, float] | ArrayLike
+
+#: What an orbit was asked for: periods, cables, time of the section.
+Wanted: TypeAlias = tuple[int | None, list[int] | None, float]
+
+
+class NoOrbitError(ValueError):
+    """There is no orbit where one was looked for; the words say what was found instead.
+
+    See Also
+    --------
+    snapload.Case.orbit : Looks for one.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> try:
+    ...     snapload.Case(f_o=0.5).orbit()
+    ... except snapload.NoOrbitError as error:
+    ...     print(str(error)[:55])
+    no orbit was found: the motion of this start stops at t
+    """
+
+
+@dataclass(frozen=True)
+class Admissible:
+    """Whether a body can have an orbit, and what it is like between its events.
+
+    As a flag it is `yes`: ``if orbit.admissible: ...``.
+
+    Attributes
+    ----------
+    yes : bool
+        Whether a body can have it.
+    largest_gap : float or None
+        The largest gap g between events, where a cable comes nearest [L^2]; None if none comes near.
+    least_tension : float or None
+        The least tension of a taut cable [F]; None if none is taut.
+    least_v_n : float or None
+        The least normal velocity of a snap [L/T]; None if there is none.
+    y_max : float
+        The highest y of the centre [L].
+    theta_max : float
+        The largest rotation, either way [rad].
+    why_not : tuple of str
+        Why no body can; empty if one can.
+
+    See Also
+    --------
+    snapload.Orbit : What it is told of.
+
+    Examples
+    --------
+    A sequence that closes, but in which cable 2 would have to push:
+
+    >>> import snapload
+    >>> case = snapload.Case(body="point", r=1.4, e=0.9, nu=0, omega=3, f_o=0.5)
+    >>> admissible = case.orbit(start={"x": 0.0894, "y": 0.1005, "vx": 0.468, "vy": 0.58}).admissible
+    >>> admissible.yes, admissible.least_tension < 0
+    (False, True)
+    """
+
+    yes: bool
+    largest_gap: float | None
+    least_tension: float | None
+    least_v_n: float | None
+    y_max: float
+    theta_max: float
+    why_not: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return self.yes
+
+
+class BaseOrbit:
+    """A motion that repeats itself after whole periods of the forcing.
+
+    Whoever derives from it says of what it is an orbit, and how it is found again.
+    """
+
+    #: Whether it is told in the scales L, m, F and T, and not in units of one's own.
+    _in_scales = True
+
+    def __init__(self, engine: _engine.Orbit | None, told: dict[str, Any] | None = None) -> None:
+        self._made = engine
+        if told is None:
+            assert engine is not None
+            told = json.loads(engine.json()) | {"attracts": engine.attracts(), "words": engine.summary().rstrip("\n")}
+        self._told: dict[str, Any] = told
+        self.state: NDArray[np.float64] = np.array(told["section"]["state"])
+        self.phase: float = told["section"]["phase"]
+        self.periods: int = told["period"]["forcing_periods"]
+        self.period: float = told["period"]["t"]
+        self.symbol: tuple[str, ...] = tuple(told["symbol"])
+        self.multipliers: NDArray[np.complex128] = complexes(told["multipliers"])
+        self.zeros_from_contact: int = told["zeros_from_contact"]
+        self.exponents: NDArray[np.float64] = np.array([-np.inf if e is None else e for e in told["exponents"]])
+        self.stable: Stability = told["stable"]
+        self.attracts: bool = told["attracts"]
+        self.product: float = told["product"]["value"]
+        self.product_rule: float | None = told["product"]["rule"]
+        about = told["admissible"]
+        self.admissible = Admissible(**{**about, "why_not": tuple(about["why_not"])})
+        self.return_error: float | None = told["return_error"]
+        self.error_bound: float | None = told["error_bound"]
+        self.proved: bool = told["proved"]
+        self.modes: tuple[dict[str, Any], ...] = tuple(told["modes"])
+        self.events = _events(told["events"])
+
+    def _again(self) -> tuple[_engine.Orbit | None, str]:
+        """The orbit found again, from where it is."""
+        raise NotImplementedError
+
+    @property
+    def _wanted(self) -> Wanted:
+        return self.periods, [row["cable"] for row in self._told["events"] if row["kind"] == "snap"], self.phase
+
+    @property
+    def _engine(self) -> _engine.Orbit:
+        """The orbit of the engine. One that came from another process has left it there."""
+        if self._made is None:
+            self._made = orbit_or_error(*self._again())
+        return self._made
+
+    def curve(self, pieces: int = 400) -> np.recarray[Any, Any]:
+        """Trace one lap as its sequence of events has it, whether a body can have it or not.
+
+        Parameters
+        ----------
+        pieces : int
+            In about so many pieces of equal time; every flight has eight at the least.
+
+        Returns
+        -------
+        numpy.recarray, shape (n,)
+            Fields ``leg``, the number of the stretch between two events, from 0; ``taut``, how many cables are taut in
+            it; ``t``, and the state ``x`` to ``vtheta``. At an event there are two rows, before and after it.
+
+        See Also
+        --------
+        run : The motion as it is run.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> lap = orbit.curve()
+        >>> int(lap.leg[-1]), bool(abs(lap.x[-1] - lap.x[0]) < 1e-12)
+        (2, True)
+        """
+        data = self._engine.curve(float(whole("pieces", pieces, 1, 10**7)))
+        names = ("leg", "taut", "t", *STATE)
+        rows = np.frombuffer(data, dtype=np.float64).reshape(-1, len(names))
+        kinds = [(name, "i8" if name in ("leg", "taut") else "f8") for name in names]
+        records = np.empty(len(rows), dtype=kinds)
+        for place, name in enumerate(names):
+            records[name] = rows[:, place]
+        return records.view(np.recarray)
+
+    def plot(
+        self, x: str = "x", y: str = "y", ax: matplotlib.axes.Axes | None = None, **style: Any
+    ) -> matplotlib.axes.Axes:
+        """Draw one lap into axes of Matplotlib, and return them.
+
+        Parameters
+        ----------
+        x, y : {"t", "x", "y", "theta", "vx", "vy", "vtheta"}
+            What is drawn along either axis.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; new ones, of the width of a column, if left out.
+        **style
+            Passed on to the lines, such as ``color`` or ``linewidth``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, to compose further. The black dot is the section; a snap of cable 1 is a cross, of cable 2 a
+            circle. A lap that no body can have is dashed and grey.
+
+        Raises
+        ------
+        ValueError
+            If there is no such quantity.
+
+        See Also
+        --------
+        curve : The numbers of the picture.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> orbit.plot("y", "vy").get_xlabel()
+        '$y$ [L]'
+        """
+        from ._orbit_plot import draw_orbit
+
+        return draw_orbit(self, x, y, ax, style)
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other) or not isinstance(other, BaseOrbit):
+            return NotImplemented
+        return self._of() == other._of() and self._told == other._told
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _of(self) -> object:
+        """What it is an orbit of."""
+        raise NotImplementedError
+
+    def __str__(self) -> str:
+        words: str = self._told["words"]
+        return words
+
+    def __repr__(self) -> str:
+        words = self.stable if isinstance(self.stable, str) else "stable" if self.stable else "unstable"
+        laps = "1 period" if self.periods == 1 else f"{self.periods} periods"
+        symbol = ", ".join(self.symbol) or "no events"
+        return f"<Orbit: {words}{'' if self.admissible else ', not admissible'}, {laps}, {symbol}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+def complexes(pairs: Iterable[tuple[float, float]]) -> NDArray[np.complex128]:
+    """Pairs of real and imaginary part as numbers."""
+    return np.array([complex(*pair) for pair in pairs], dtype=np.complex128)
+
+
+def orbit_or_error(orbit: _engine.Orbit | None, why: str) -> _engine.Orbit:
+    """The orbit, or what is raised where there is none."""
+    if orbit is None:
+        raise NoOrbitError(f"no orbit was found: {why}")
+    return orbit
+
+
+def start_of(start: Start) -> dict[str, Any]:
+    """A start by its keys."""
+    if isinstance(start, Mapping):
+        return {str(key): value for key, value in start.items()}
+    values = np.asarray(start)
+    if values.shape != (len(STATE),) or values.dtype.kind not in "fiu":
+        allowed = "some of " + ", ".join(STATE) + " by their names, such as {'x': 0.1}, or all six in this order"
+        raise ValueError(f"start = {start!r} is not allowed; allowed: {allowed}")
+    return dict(zip(STATE, values.tolist(), strict=True))
+
+
+def wanted(periods: int | None, symbol: Iterable[int | str] | None, phase: float, cables: int = 2) -> Wanted:
+    """What is looked for, checked as far as the engine does not."""
+    if periods is not None:
+        periods = whole("periods", periods, 1, 1024)
+    if symbol is None:
+        return periods, None, float(phase)
+    struck = []
+    words = symbol.split(",") if isinstance(symbol, str) else symbol
+    for word in words:
+        # As an orbit tells its own: what sticks and lets go follows from what snaps.
+        if isinstance(word, str) and word.strip().split(" ")[0] in ("stick", "release", "none", ""):
+            continue
+        number = int(word) if isinstance(word, str) and word.strip().isdigit() else word
+        struck.append(whole("symbol", number, 1, cables))  # type: ignore[arg-type]
+    return periods, struck, float(phase)
+
+
+def _events(rows: list[dict[str, Any]]) -> Table:
+    def column(name: str, dtype: Any = np.float64) -> NDArray[Any]:
+        return np.array([row[name] for row in rows], dtype=dtype)
+
+    return Table._of(
+        [
+            ("t", "T", "time", column("t")),
+            ("kind", "", "snap, stick or release", column("kind", object)),
+            ("cable", "", "number of the cable", column("cable", np.int64)),
+            ("v_n", "L/T", "normal velocity before", column("v_n")),
+            ("impulse", "m L/T", "impulse of the cable", column("impulse")),
+        ]
+    )

@@ -1,0 +1,389 @@
+//! Periodic orbits, and branches of them.
+
+use crate::case::{Case, read_entries};
+use crate::errors::{of_case, of_work};
+use crate::interrupt::interruptible;
+use crate::run::to_json;
+use crate::study::side;
+use crate::system::System;
+use pyo3::exceptions::PyIndexError;
+use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyDict};
+use snapload::analysis::{START_KEYS, Unfinished};
+use snapload::{CaseError, Rules, Value};
+use snapload_orbits::{
+    Along, BranchEvent, BranchRow, Family, Hybrid, Jet, Kind, Lap, Moored, OrbitRow, Point, Wanted,
+    along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words, period_of,
+    start_of,
+};
+use std::sync::Arc;
+
+/// An orbit of a case, or of a system of one's own.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct Orbit {
+    /// None of a system of one's own.
+    case: Option<Case>,
+    family: Moored,
+    orbit: snapload_orbits::Orbit,
+}
+
+/// The least number of pieces in which a leg of a lap is drawn.
+const PIECES: f64 = 8.0;
+
+impl Orbit {
+    pub(crate) fn of_case(case: Case, orbit: snapload_orbits::Orbit) -> Self {
+        let family = Moored::case(*case.parameters(), [None; 2]);
+        Self {
+            case: Some(case),
+            family,
+            orbit: orbit.with_at([0.0; 2]),
+        }
+    }
+}
+
+#[pymethods]
+impl Orbit {
+    /// What is told of it, as JSON.
+    fn json(&self) -> PyResult<String> {
+        to_json(&OrbitRow::new(&self.orbit))
+    }
+
+    /// The words of the command.
+    fn summary(&self) -> String {
+        orbit_in_words(&self.orbit)
+    }
+
+    /// Whether neighbours come back to it.
+    fn attracts(&self) -> bool {
+        snapload_orbits::attracts(&self.orbit)
+    }
+
+    /// The case that it is an orbit of.
+    fn case(&self) -> Option<Case> {
+        self.case.clone()
+    }
+
+    /// The largest difference of its state from another one.
+    fn distance(&self, state: Point) -> f64 {
+        distance(&self.orbit.z, &state)
+    }
+
+    /// Its state at t = 0, or at the first whole period after its section.
+    fn begins(&self, py: Python<'_>) -> Point {
+        let orbit = &self.orbit;
+        if orbit.phase == 0.0 {
+            return orbit.z;
+        }
+        let period = self.family.period(orbit.at);
+        let from = orbit.phase * period;
+        let carried = py.detach(|| self.family.simulate(orbit.at, from, &orbit.z, period));
+        carried.map_or(orbit.z, |carried| carried.end)
+    }
+
+    /// One lap as the sequence of events has it, whether a body has it or not: rows of doubles with
+    /// the number of the leg, how many cables it is held by, the time, and the state.
+    fn curve<'py>(&self, py: Python<'py>, pieces: f64) -> Bound<'py, PyByteArray> {
+        let orbit = &self.orbit;
+        let lap = Lap {
+            family: &self.family,
+            at: orbit.at,
+            sequence: &orbit.lap.sequence,
+            phase: orbit.phase,
+            periods: orbit.periods,
+        };
+        let system = self.family.plain(orbit.at);
+        let mut bytes = Vec::new();
+        let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
+        for (number, leg) in legs.iter().enumerate() {
+            let count = (pieces * leg.s.abs() / orbit.length).ceil().max(PIECES) as usize;
+            for k in 0..=count {
+                let s = leg.s * k as f64 / count as f64;
+                let z = system.flow(leg.held, leg.t, &leg.start, s);
+                let head = [number as f64, leg.held.len() as f64, leg.t + s];
+                let row = head.into_iter().chain(z);
+                bytes.extend(row.flat_map(f64::to_ne_bytes));
+            }
+        }
+        PyByteArray::new(py, &bytes)
+    }
+}
+
+/// What is looked for; cables count from 1.
+fn wanted(
+    periods: Option<u32>,
+    symbol: Option<Vec<usize>>,
+    phase: f64,
+) -> Result<Wanted, CaseError> {
+    Ok(Wanted {
+        periods,
+        struck: symbol.map(|cables| cables.into_iter().map(|cable| cable - 1).collect()),
+        phase: checked_phase(phase)?,
+    })
+}
+
+/// The start of a case with some of its values given.
+fn start_with(case: &Case, start: &Bound<'_, PyDict>) -> PyResult<Point> {
+    let entries = read_entries(start)?;
+    let other = entries.iter().find(|(key, _)| !START_KEYS.contains(key));
+    if let Some((key, _)) = other {
+        let allowed = format!("values of the state, {}", START_KEYS.join(", "));
+        return Err(of_case(CaseError::value("start", key, allowed)));
+    }
+    let parameters = case.parameters_with(entries).map_err(of_case)?;
+    Ok(start_of(&parameters))
+}
+
+/// An orbit, or why there is none.
+type Found = (Option<Orbit>, String);
+
+fn found(case: &Case, orbit: Result<snapload_orbits::Orbit, snapload_orbits::NoOrbit>) -> Found {
+    match orbit {
+        Ok(orbit) => (Some(Orbit::of_case(case.clone(), orbit)), String::new()),
+        Err(why) => (None, why_not(&why)),
+    }
+}
+
+/// The words of the command with what is called otherwise here.
+fn why_not(why: &snapload_orbits::NoOrbit) -> String {
+    let words = why.to_string();
+    let words = words.replace("--start", "start={...}");
+    let words = words.replace("--find N", "snapload.find_orbits");
+    words.replace("at snapload section", "at snapload.section")
+}
+
+/// The orbit near a start, or the one that the motion of the case comes to.
+#[pyfunction]
+pub(crate) fn orbit(
+    py: Python<'_>,
+    case: &Case,
+    start: Option<&Bound<'_, PyDict>>,
+    periods: Option<u32>,
+    symbol: Option<Vec<usize>>,
+    phase: f64,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Found> {
+    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
+    period_of(case.parameters()).map_err(of_case)?;
+    let start = start.map(|start| start_with(case, start)).transpose()?;
+    let parameters = *case.parameters();
+    let orbit = interruptible(py, progress, move |watch| match start {
+        Some(start) => {
+            let family = Moored::case(parameters, [None; 2]);
+            Ok(snapload_orbits::Orbit::find(
+                &family, [0.0; 2], &start, &wanted,
+            ))
+        }
+        None => of_attractor(&parameters, &wanted, &|progress| watch.go_on(progress)),
+    })?;
+    Ok(found(case, orbit.map_err(of_work)?))
+}
+
+/// The orbit of a system of one's own near a start.
+#[pyfunction]
+pub(crate) fn orbit_of_system(
+    py: Python<'_>,
+    system: &System,
+    start: Point,
+    periods: Option<u32>,
+    symbol: Option<Vec<usize>>,
+    phase: f64,
+) -> PyResult<Found> {
+    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
+    let (parts, rules) = system.parts();
+    let rules = Rules {
+        settled_below: None,
+        sliding_above: None,
+        ..rules
+    };
+    let turns = parts.body.inverse_inertia() > 0.0;
+    let jets = parts.map(Jet::constant);
+    let family = Moored::new(
+        turns,
+        move |_| (parts.clone(), rules),
+        // No rule enters the derivatives.
+        move |_| (jets.clone(), Rules::until(Jet::constant(rules.t_end))),
+    );
+    let searched = family.clone();
+    let orbit = interruptible(py, None, move |_| {
+        snapload_orbits::Orbit::find(&searched, [0.0; 2], &start, &wanted)
+    })?;
+    Ok(match orbit {
+        Ok(orbit) => {
+            let case = None;
+            (
+                Some(Orbit {
+                    case,
+                    family,
+                    orbit,
+                }),
+                String::new(),
+            )
+        }
+        Err(why) => (None, why_not(&why)),
+    })
+}
+
+/// All orbits that random starts lead to.
+#[pyfunction]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "called by one function of Python, by position"
+)]
+pub(crate) fn find_orbits(
+    py: Python<'_>,
+    case: &Case,
+    starts: usize,
+    seed: u64,
+    periods: Option<u32>,
+    symbol: Option<Vec<usize>>,
+    phase: f64,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Vec<Orbit>> {
+    let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
+    let parameters = *case.parameters();
+    let orbits = interruptible(py, progress, move |watch| {
+        let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+        snapload_orbits::find_orbits(&parameters, starts, seed, &wanted, &on_progress)
+    })?;
+    let orbits = orbits.map_err(of_work)?.into_iter();
+    Ok(orbits
+        .map(|orbit| Orbit::of_case(case.clone(), orbit))
+        .collect())
+}
+
+/// A branch of orbits of a case along one key.
+#[pyclass(frozen, module = "snapload._engine")]
+pub(crate) struct Branch {
+    case: Case,
+    key: &'static str,
+    branch: Arc<snapload_orbits::Branch>,
+    /// The events of others by which it was come to.
+    from: Vec<BranchEvent>,
+}
+
+impl Branch {
+    /// The case with another value of the key. Where its own start is beyond reach then, that of the
+    /// orbit stands in its place.
+    fn case_of(&self, orbit: &snapload_orbits::Orbit) -> Result<Case, CaseError> {
+        let case = &self.case;
+        let moved = (self.key, Value::Number(orbit.at[0]));
+        let state = START_KEYS.into_iter().zip(orbit.z.map(Value::Number));
+        let given = case.given.iter().cloned().chain([moved]);
+        Case::new(case.name.clone(), given.clone())
+            .or_else(|_| Case::new(case.name.clone(), given.chain(state)))
+    }
+
+    fn orbit_of(&self, orbit: &snapload_orbits::Orbit) -> PyResult<Orbit> {
+        let case = self.case_of(orbit).map_err(of_case)?;
+        Ok(Orbit::of_case(case, orbit.clone()))
+    }
+}
+
+#[pymethods]
+impl Branch {
+    /// What is told of it, as JSON.
+    fn json(&self) -> PyResult<String> {
+        to_json(&BranchRow::new(self.key, &self.branch, &self.from))
+    }
+
+    /// The words of the command.
+    fn summary(&self) -> String {
+        branch_in_words(self.key, &self.branch)
+    }
+
+    /// The key along which it goes.
+    fn key(&self) -> &'static str {
+        self.key
+    }
+
+    /// The orbit at a point.
+    fn point(&self, place: usize) -> PyResult<Orbit> {
+        let point = self.branch.points.get(place);
+        let point = point.ok_or_else(|| PyIndexError::new_err("there is no such point"))?;
+        self.orbit_of(&point.orbit)
+    }
+
+    /// The orbit at an event.
+    fn event(&self, place: usize) -> PyResult<Orbit> {
+        let event = self.branch.events.get(place);
+        let event = event.ok_or_else(|| PyIndexError::new_err("there is no such event"))?;
+        self.orbit_of(&event.orbit)
+    }
+
+    /// The branch of twice the length that is born at a period doubling: the nearest one, or the one
+    /// of a number from 1. Instead of it why there is none.
+    fn doubled(
+        &self,
+        py: Python<'_>,
+        number: Option<usize>,
+        range: &Bound<'_, PyAny>,
+        step: f64,
+        points: usize,
+        progress: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<(Option<Self>, String)> {
+        let range = side(self.key, range)?.ends();
+        let event = match self.branch.event(Kind::PeriodDoubling, number) {
+            Ok(event) => event.clone(),
+            Err(why) => return Ok((None, why.to_string())),
+        };
+        let value = Value::Number(event.value[0]);
+        let here = self.case.parameters_with(vec![(self.key, value)]);
+        let here = here.map_err(of_case)?;
+        let (key, _, along) = along(&here, self.key, range, step, points).map_err(of_case)?;
+        let family = Moored::case(*self.case.parameters(), [Some(key), None]);
+        let from = self.from.iter().cloned().chain([event.clone()]).collect();
+        let born = interruptible(py, progress, move |watch| {
+            let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+            snapload_orbits::Branch::of_doubling(&family, &event, &along, &on_progress)
+        })?;
+        let born = born.map_err(|cancelled| of_work(cancelled.into()))?;
+        let none = "no direction of a branch of twice the length is found there";
+        Ok(match born {
+            Some(branch) => {
+                let (case, branch) = (self.case.clone(), Arc::new(branch));
+                (
+                    Some(Self {
+                        case,
+                        key,
+                        branch,
+                        from,
+                    }),
+                    String::new(),
+                )
+            }
+            None => (None, none.to_owned()),
+        })
+    }
+}
+
+/// The branch of an orbit along a key, in both directions.
+#[pyfunction]
+pub(crate) fn continuation(
+    py: Python<'_>,
+    orbit: &Orbit,
+    key: &str,
+    range: &Bound<'_, PyAny>,
+    step: f64,
+    points: usize,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Branch> {
+    let range = side(key, range)?.ends();
+    let case = orbit.case.clone();
+    let no_case = || crate::errors::of_program("this is an orbit of no case");
+    let case = case.ok_or_else(no_case)?;
+    let (key, value, along): (_, _, Along) =
+        along(case.parameters(), key, range, step, points).map_err(of_case)?;
+    let family = Moored::case(*case.parameters(), [Some(key), None]);
+    let start = orbit.orbit.clone().with_at([value, 0.0]);
+    let branch = interruptible(py, progress, move |watch| {
+        let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
+        snapload_orbits::Branch::of(&family, &start, &along, &on_progress)
+    })?;
+    let branch = branch.map_err(|cancelled| of_work(Unfinished::from(cancelled)))?;
+    Ok(Branch {
+        case,
+        key,
+        branch: Arc::new(branch),
+        from: Vec::new(),
+    })
+}
