@@ -19,6 +19,7 @@ from typing import get_type_hints
 from ._assessed import Assessment, Elastic, Seas
 from ._axes import evenly
 from ._base_orbit import Admissible, NoOrbitError
+from ._branch import Branch, continuation
 from ._case import Case, cases
 from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
@@ -42,6 +43,7 @@ __all__ = [
     "Admissible",
     "Assessment",
     "Body",
+    "Branch",
     "Cable",
     "Case",
     "Certificate",
@@ -69,6 +71,7 @@ __all__ = [
     "Verification",
     "__version__",
     "cases",
+    "continuation",
     "critical_force",
     "ensemble",
     "evenly",

@@ -118,8 +118,14 @@ class Branch:
     def point(self, place: int, /) -> Orbit: ...
     def event(self, place: int, /) -> Orbit: ...
     def doubled(
-        self, place: int, range: object, step: float, points: int, progress: Callable[[int], object] | None, /
-    ) -> Branch | None: ...
+        self,
+        number: int | None,
+        range: str | tuple[float, float],
+        step: float,
+        points: int,
+        progress: Callable[[int], object] | None,
+        /,
+    ) -> tuple[Branch | None, str]: ...
 
 def orbit(
     case: Case,
@@ -146,7 +152,7 @@ def find_orbits(
 def continuation(
     orbit: Orbit,
     key: str,
-    range: object,
+    range: str | tuple[float, float],
     step: float,
     points: int,
     progress: Callable[[int], object] | None,

@@ -291,11 +291,6 @@ impl Branch {
         branch_in_words(self.key, &self.branch)
     }
 
-    /// The key along which it goes.
-    fn key(&self) -> &'static str {
-        self.key
-    }
-
     /// The orbit at a point.
     fn point(&self, place: usize) -> PyResult<Orbit> {
         let point = self.branch.points.get(place);

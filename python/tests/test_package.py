@@ -61,7 +61,7 @@ def test_examples_of_what_is_public_are_true():
     assert result.failed == 0 and result.attempted > 20
 
 
-@pytest.mark.parametrize("kind", ["Run", "SystemRun"])
+@pytest.mark.parametrize("kind", ["Branch", "Run", "SystemRun"])
 def test_examples_of_properties_that_are_kept_are_true(kind):
     """Doctest itself does not look at them."""
     parser, runner = doctest.DocTestParser(), doctest.DocTestRunner()
@@ -75,7 +75,7 @@ def test_examples_of_properties_that_are_kept_are_true(kind):
 STYLE = {"GL01", "GL02", "GL03", "ES01"}
 #: Functions make these, so that what they hold is told as attributes. Their constructors are not called.
 RESULTS = {"Certificate", "CriticalForce", "End", "Ensemble", "Norms", "Outcome", "Run", "Share", "SystemRun", "Table"}
-RESULTS |= {"Admissible", "Orbit", "SystemOrbit"}
+RESULTS |= {"Admissible", "Branch", "Orbit", "SystemOrbit"}
 RESULTS |= {"Hydro", "Trust", "Verification", "_animate.Animation", "Assessment", "Elastic", "Seas", "Structure"}
 #: Their ``**keys`` are told as such, while the signature names every key.
 WITH_KEYS = {"Case.replace", "Scales.case", "sweep", "Hydro.from_file", "Hydro.from_dataset"}

@@ -1,0 +1,517 @@
+"""Branches: an orbit as a key changes, with everything that happens to it on the way."""
+
+from __future__ import annotations
+
+import json
+from functools import cached_property
+from html import escape
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _engine
+from ._axes import side
+from ._base_orbit import STATE, NoOrbitError, complexes
+from ._check import number as a_number
+from ._check import whole
+from ._later import Later
+from ._orbit import Orbit
+from ._progress import bar
+from ._table import Table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import matplotlib.axes
+    import xarray
+else:
+    matplotlib, xarray = Later("matplotlib"), Later("xarray")
+
+#: How a branch is followed: from and to, the first step, points in either direction.
+Options: TypeAlias = tuple[str | tuple[float, float], float, int]
+
+#: What can be drawn of a branch against its key.
+Ordinate = Literal["x", "y", "theta", "vx", "vy", "vtheta", "largest_multiplier"]
+
+
+class Branch:
+    """A branch of periodic orbits of a case along one key.
+
+    Made by :func:`snapload.continuation` and :meth:`switch`.
+
+    Attributes
+    ----------
+    case : Case
+        The case whose orbit it was begun with.
+    along : str
+        The key that changes.
+    ends : tuple of dict
+        Its two ends: the value ``at``, and ``because`` of what it ends there.
+
+    See Also
+    --------
+    snapload.continuation : Follows one.
+    snapload.orbit_diagram : The attractor against a key, by simulation.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+    >>> branch = snapload.continuation(orbit, "f_o", (1.2, 2))
+    >>> branch.events["kind"].tolist()
+    ['corner', 'period_doubling', 'fold']
+    >>> [round(value, 9) for value in branch.events["value"].tolist()]
+    [1.76743408, 1.680507876, 1.304034133]
+    >>> branch.ends[0]["because"][:6]
+    'corner'
+    """
+
+    def __init__(
+        self,
+        orbit: Orbit,
+        along: str,
+        options: Options,
+        engine: _engine.Branch | None,
+        path: tuple[tuple[int | None, Options], ...] = (),
+        told: dict[str, Any] | None = None,
+    ) -> None:
+        if told is None:
+            assert engine is not None
+            told = json.loads(engine.json()) | {"words": engine.summary().rstrip("\n")}
+        self.case = orbit.case
+        self.along: str = told["along"]
+        self.ends: tuple[dict[str, Any], ...] = tuple(told["ends"])
+        self._begun, self._options, self._path = (orbit, along, options), options, path
+        self._made, self._told = engine, told
+
+    @property
+    def _followed(self) -> _engine.Branch:
+        """The branch of the engine. One that came from another process has left it there: it is followed again."""
+        if self._made is None:
+            orbit, along, options = self._begun
+            made = _engine.continuation(orbit._engine, along, *options, None)
+            for number, options in self._path:
+                made = _born(*made.doubled(number, *options, None))
+            self._made = made
+        return self._made
+
+    @cached_property
+    def points(self) -> xarray.Dataset:
+        """The points along the branch, over ``point``, with the key and the arclength as coordinates.
+
+        ``x`` to ``vtheta`` are the state at the section, ``multipliers`` complex, ``stability`` words, ``stable``
+        whether neighbours come back, ``admissible`` whether a body can have the orbit, and ``why_not``.
+
+        See Also
+        --------
+        orbit : The orbit at one of them.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> points = snapload.continuation(orbit, "f_o", (1.3, 1.5)).points
+        >>> points.multipliers.dims, bool(points.stable.any()), bool(points.stable.all())
+        (('point', 'multiplier'), True, False)
+        """
+        from ._dataset import ABOUT, attributes
+
+        rows, about = self._told["points"], attributes()
+
+        def column(name: str, dtype: Any) -> NDArray[Any]:
+            values = [np.nan if row[name] is None else row[name] for row in rows]
+            return np.array(values, dtype=dtype)
+
+        states = np.array([row["section"] for row in rows], dtype=np.float64)
+        variables: dict[str, Any] = {
+            name: ("point", states[:, place], {**about[name], "long_name": f"{name} at the section"})
+            for place, name in enumerate(STATE)
+            if name != self.along
+        }
+        multipliers = np.array([complexes(row["multipliers"]) for row in rows])
+        words = [row["stable"] if isinstance(row["stable"], str) else _WORDS[row["stable"]] for row in rows]
+        stability = np.array(words, dtype=object)
+        texts: dict[str, tuple[list[str], str]] = {
+            "stability": (words, "stable, unstable, neutral or superstable"),
+            "symbol": ([" ".join(row["symbol"]) for row in rows], "the events in their order"),
+            "why_not": (["; ".join(row["why_not"]) for row in rows], "why no body can have the orbit"),
+        }
+        variables |= {
+            "multipliers": (("point", "multiplier"), multipliers, {"long_name": "Floquet multipliers"}),
+            "largest_multiplier": ("point", np.abs(multipliers).max(axis=1), {"long_name": "largest |multiplier|"}),
+            "stable": ("point", np.isin(stability, ("stable", "superstable")), {"long_name": "neighbours come back"}),
+            "admissible": ("point", column("admissible", bool), {"long_name": "a body can have the orbit"}),
+            "return_error": ("point", column("return_error", np.float64), {"long_name": "error of a lap that is run"}),
+        }
+        variables |= {
+            name: ("point", np.array(values, dtype=object), {"long_name": meaning})
+            for name, (values, meaning) in texts.items()
+        }
+        coords = {
+            self.along: ("point", column("value", np.float64), about[self.along]),
+            "arclength": ("point", column("arclength", np.float64), {"long_name": "length along the branch"}),
+        }
+        title = {"title": "A branch of periodic orbits of a body on cables", **ABOUT}
+        return xarray.Dataset(variables, coords, title)
+
+    @cached_property
+    def events(self) -> Table:
+        """What happens along the branch, in the order of its points.
+
+        Columns ``kind`` (fold, period_doubling, neimark_sacker, graze, corner, tension_lost, rotation_limit,
+        upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``, ``cable`` (0 where none is
+        meant), ``t`` in the lap, ``normal_acceleration`` and ``sqrt_coefficient`` of a graze, ``largest_multiplier``,
+        and ``admissible`` (1 or 0). What there is none of is NaN.
+
+        See Also
+        --------
+        switch : Goes over to the branch that is born at one of them.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> events = snapload.continuation(orbit, "f_o", (1.3, 1.5)).events
+        >>> events.to_pandas()[["kind", "value"]].round(6).values.tolist()
+        [['fold', 1.304034]]
+        """
+        return _table(self._told["events"])
+
+    @property
+    def origins(self) -> Table:
+        """The period doublings of other branches by which this one was come to, with the columns of `events`.
+
+        See Also
+        --------
+        switch : Goes over to another branch.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> len(snapload.continuation(orbit, "f_o", (1.3, 1.5)).origins)
+        0
+        """
+        return _table(self._told["from"])
+
+    def __len__(self) -> int:
+        return len(self._told["points"])
+
+    def orbit(self, point: int) -> Orbit:
+        """Give the orbit at a point.
+
+        Parameters
+        ----------
+        point : int
+            The number of the point, from 0; from the end if it is below.
+
+        Returns
+        -------
+        Orbit
+            Of the case with the value that the key has there.
+
+        Raises
+        ------
+        IndexError
+            If there is no such point.
+
+        See Also
+        --------
+        event : The orbit at an event.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> last = snapload.continuation(orbit, "f_o", (1.3, 1.5)).orbit(-1)
+        >>> last.case.f_o == 1.4, 1.3 < last.case.f_o < 1.5
+        (False, True)
+        """
+        return self._orbit(self._followed.point(range(len(self))[point]))
+
+    def event(self, event: int) -> Orbit:
+        """Give the orbit at an event.
+
+        Parameters
+        ----------
+        event : int
+            The number of the row of `events`, from 0; from the end if it is below.
+
+        Returns
+        -------
+        Orbit
+            Of the case with the value that the key has there.
+
+        Raises
+        ------
+        IndexError
+            If there is no such event.
+
+        See Also
+        --------
+        orbit : The orbit at a point.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> fold = snapload.continuation(orbit, "f_o", (1.3, 1.5)).event(0)
+        >>> f"{abs(fold.multipliers[0] - 1):.0e}" < "1e-05"
+        True
+        """
+        return self._orbit(self._followed.event(range(len(self.events))[event]))
+
+    def _orbit(self, engine: _engine.Orbit) -> Orbit:
+        case = engine.case()
+        assert case is not None
+        return Orbit(type(self.case)._of(case), engine)
+
+    def switch(
+        self,
+        kind: Literal["period_doubling"] = "period_doubling",
+        number: int | None = None,
+        *,
+        between: str | Sequence[float] | None = None,
+        step: float | None = None,
+        points: int | None = None,
+        progress: bool = True,
+    ) -> Branch:
+        """Go over to the branch that is born at an event: of orbits of twice the length at a period doubling.
+
+        Parameters
+        ----------
+        kind : {"period_doubling"}
+            The kind of the event.
+        number : int, optional
+            Which one of those that `events` has of the kind, counted from 1; the nearest one along the branch if left
+            out.
+        between : (float, float) or str, optional
+            The least and the greatest value of the key; those of this branch if left out.
+        step : float, optional
+            Length of the first step; that of this branch if left out.
+        points : int, optional
+            Points at most; those of this branch if left out.
+        progress : bool
+            Whether to show a bar if it takes long.
+
+        Returns
+        -------
+        Branch
+            The new branch. One of its two halves is followed; the other one is the same a lap later.
+
+        Raises
+        ------
+        NoOrbitError
+            If there is no such event, or no direction is found there.
+        ValueError
+            If nothing is born at that kind of event, or an option is out of its range.
+
+        See Also
+        --------
+        events : Where something is born.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> branch = snapload.continuation(orbit, "f_o", (1.3, 1.75), step=0.002)
+        >>> born = branch.switch("period_doubling")
+        >>> born.orbit(0).periods, round(float(born.points.f_o[0]), 6)
+        (2, 1.680508)
+        """
+        if kind != "period_doubling":
+            allowed = "'period_doubling', the one kind at which a branch of other orbits is followed"
+            raise ValueError(f"kind = {kind!r} is not allowed; allowed: {allowed}")
+        if number is not None:
+            number = whole("number", number, 1, 10**6)
+        known = self._options
+        options = _options(
+            self.along,
+            known[0] if between is None else between,
+            known[1] if step is None else step,
+            known[2] if points is None else points,
+        )
+        with bar("points of the branch", 2 * options[2], progress) as tell:
+            engine = _born(*self._followed.doubled(number, *options, tell))
+        orbit, along, _ = self._begun
+        born = Branch(orbit, along, self._begun[2], engine, (*self._path, (number, options)))
+        born._options = options
+        return born
+
+    def plot(self, y: Ordinate = "y", ax: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
+        """Draw the branch into axes of Matplotlib, and return them.
+
+        Parameters
+        ----------
+        y : {"x", "y", "theta", "vx", "vy", "vtheta", "largest_multiplier"}
+            What is drawn against the key: a value of the state at the section, or the size of the largest multiplier.
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; new ones, of the width of a column, if left out.
+        **style
+            Passed on to the lines, such as ``linewidth``.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            The axes, to compose further. Stable orbits are a thick line, unstable ones dashed, neutral ones
+            dash-dotted, and those that no body can have dotted and grey. Events are marked by their kind.
+
+        Raises
+        ------
+        ValueError
+            If there is no such quantity.
+
+        See Also
+        --------
+        points : The numbers of the picture.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+        >>> snapload.continuation(orbit, "f_o", (1.3, 1.5)).plot("x").get_ylabel()
+        '$x$ [L]'
+        """
+        from ._branch_plot import draw_branch
+
+        return draw_branch(self, y, ax, style)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Branch):
+            return NotImplemented
+        return self.case == other.case and self._told == other._told
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restore, (*self._begun, self._path, self._options, self._told)
+
+    def __str__(self) -> str:
+        words: str = self._told["words"]
+        return words
+
+    def __repr__(self) -> str:
+        values = [row["value"] for row in self._told["points"]]
+        count = len(self._told["events"])
+        events = "1 event" if count == 1 else f"{count} events"
+        return f"<Branch along {self.along} from {min(values):g} to {max(values):g}: {len(self)} points, {events}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(str(self))}</pre>"
+
+
+_WORDS = {True: "stable", False: "unstable"}
+
+
+def continuation(
+    orbit: Orbit,
+    key: str,
+    between: str | Sequence[float],
+    *,
+    step: float = 0.01,
+    points: int = 2000,
+    progress: bool = True,
+) -> Branch:
+    """Follow an orbit as a key changes, in both directions and round folds, as ``snapload branch`` does.
+
+    Parameters
+    ----------
+    orbit : Orbit
+        Where to begin.
+    key : str
+        The key of the case that changes.
+    between : (float, float) or str
+        The least and the greatest value of the key, or ``"low:high"``. The value of the orbit's case lies between.
+    step : float
+        Length of the first step, in the space of state, times of events, and the key.
+    points : int
+        Points in either direction at most.
+    progress : bool
+        Whether to show a bar if it takes long.
+
+    Returns
+    -------
+    Branch
+        Its points and events, from one end to the other.
+
+    Raises
+    ------
+    ValueError
+        If the key can not be followed, or an option is out of its range.
+
+    See Also
+    --------
+    snapload.Case.orbit : Finds an orbit to begin with.
+    Branch.switch : Goes over to another branch.
+
+    Notes
+    -----
+    By pseudo-arclength, with the sequence of events held. Every point is run for one lap; a sequence that closes need
+    not be a motion, and ``points.admissible`` says where it is. Python's lock is released meanwhile, and Ctrl-C ends
+    it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
+    >>> snapload.continuation(orbit, "f_o", "1.3:1.5").ends[-1]["because"]
+    'the end of the range'
+    """
+    if not isinstance(orbit, Orbit):
+        allowed = "an orbit of a snapload.Case, such as snapload.Case(...).orbit()"
+        raise TypeError(f"orbit = {orbit!r} is not allowed; allowed: {allowed}")
+    options = _options(key, between, step, points)
+    with bar("points of the branch", 2 * options[2], progress) as tell:
+        engine = _engine.continuation(orbit._engine, key, *options, tell)
+    return Branch(orbit, key, options, engine)
+
+
+def _options(key: str, between: Any, step: float, points: int) -> Options:
+    return side(key, between), a_number("step", step), whole("points", points, 1, 10**6)
+
+
+def _born(branch: _engine.Branch | None, why: str) -> _engine.Branch:
+    if branch is None:
+        raise NoOrbitError(f"no branch was found: {why}")
+    return branch
+
+
+def _restore(
+    orbit: Orbit,
+    along: str,
+    options: Options,
+    path: tuple[tuple[int | None, Options], ...],
+    last: Options,
+    told: dict[str, Any],
+) -> Branch:
+    branch = Branch(orbit, along, options, None, path, told)
+    branch._options = last
+    return branch
+
+
+def _table(rows: list[dict[str, Any]]) -> Table:
+    def column(name: str) -> NDArray[np.float64]:
+        return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
+
+    largest = [np.abs(complexes(row["multipliers"])).max() for row in rows]
+    states = np.array([row["state"] for row in rows], dtype=np.float64).reshape(-1, len(STATE))
+    scales = dict(zip(STATE, ("L", "L", "rad", "L/T", "L/T", "rad/T"), strict=True))
+    whole_numbers = {
+        "cable": np.array([row["cable"] or 0 for row in rows], dtype=np.int64),
+        "admissible": np.array([row["admissible"] for row in rows], dtype=np.int64),
+    }
+    return Table._of(
+        [
+            ("kind", "", "what happens", np.array([row["kind"] for row in rows], dtype=object)),
+            ("value", "1", "value of the key", column("value")),
+            ("arclength", "1", "length along the branch", column("arclength")),
+            *((name, scales[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
+            ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
+            ("t", "T", "time in the lap", column("t")),
+            ("normal_acceleration", "L/T^2", "what bends the gap away at a graze", column("normal_acceleration")),
+            ("sqrt_coefficient", "L^(1/2)/T", "jump of the velocity by root of length", column("sqrt_coefficient")),
+            ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
+            ("admissible", "", "whether a body can have the orbit", whole_numbers["admissible"]),
+        ]
+    )

@@ -1,0 +1,84 @@
+"""Pictures of branches with Matplotlib, that can be told apart without colour."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._base_orbit import STATE
+from ._orbit_plot import label, legend_above, new_axes
+from ._plot import BLUE, GREEN, GREY, VERMILION
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._branch import Branch
+
+#: How a part of a branch is drawn, by what its orbits are.
+_LOOKS: dict[str, dict[str, Any]] = {
+    "stable": {"color": BLUE, "linewidth": 1.8, "linestyle": "-"},
+    "unstable": {"color": VERMILION, "linewidth": 1.1, "linestyle": (0, (4, 1.5))},
+    "neutral": {"color": GREEN, "linewidth": 1.4, "linestyle": (0, (5, 1, 1, 1))},
+    "not a motion": {"color": GREY, "linewidth": 1.0, "linestyle": (0, (1, 1.2))},
+}
+
+#: The sign of each kind of event.
+_MARKERS = {
+    "fold": "o",
+    "period_doubling": "s",
+    "neimark_sacker": "D",
+    "graze": "^",
+    "corner": "X",
+    "tension_lost": "v",
+    "rotation_limit": "*",
+    "upper_bound": "P",
+}
+
+
+def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
+    """Draws a branch against its key."""
+    known = (*(name for name in STATE if name != branch.along), "largest_multiplier")
+    if y not in known:
+        raise ValueError(f"y = {y!r} is not allowed; allowed: {', '.join(map(repr, known))}")
+    ax, points, events = new_axes(ax), branch.points, branch.events
+    values, heights = points[branch.along].values, points[y].values
+    words = points.stability.where(points.admissible, "not a motion").values
+    kinds = np.where(words == "superstable", "stable", words)
+    # Where an event passes the section the velocity there jumps.
+    jumps = y in ("vx", "vy", "vtheta")
+    symbols = points.symbol.values
+    cuts = [k for k in range(1, len(values)) if kinds[k] != kinds[k - 1] or (jumps and symbols[k] != symbols[k - 1])]
+    only, seen = style.pop("label", None), set()
+    for start, stop in pairwise([0, *cuts, len(values)]):
+        kind = str(kinds[start])
+        joined = stop < len(values) and not (jumps and symbols[stop] != symbols[stop - 1])
+        part = slice(start, stop + 1 if joined else stop)
+        name = only or kind
+        ax.plot(values[part], heights[part], **{"label": None if name in seen else name, **_LOOKS[kind], **style})
+        seen.add(name)
+    look: dict[str, Any] = {"linestyle": "none", "color": "black", "markerfacecolor": "white", "markersize": 5}
+    for kind, marker in _MARKERS.items():
+        of_kind = events["kind"] == kind
+        if of_kind.any():
+            name = kind.replace("_", " ")
+            ax.plot(events["value"][of_kind], events[y][of_kind], label=name, marker=marker, zorder=5, **look)
+    ax.set_xlabel(str(key_label(branch.along)))
+    ax.set_ylabel("largest |multiplier|" if y == "largest_multiplier" else label(y))
+    if y == "largest_multiplier":
+        ax.axhline(1.0, color="black", linewidth=0.7, linestyle=":", zorder=1)
+    legend_above(ax)
+    return ax
+
+
+def key_label(key: str) -> str:
+    """The name of the axis of a key, with its scale."""
+    from ._dataset import attributes
+
+    signs = {"f_o": "$f_o$", "nu": "$\\nu$", "omega": "$\\Omega$", "e": "$e$", "r": "$r$"}
+    about = attributes()[key]
+    if key in STATE:
+        return label(key)
+    scale = about.get("scale") or ("" if about.get("units", "1") == "1" else about["units"])
+    return f"{signs.get(key, key)} [{scale}]" if scale else signs.get(key, key)
