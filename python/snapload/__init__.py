@@ -19,12 +19,15 @@ from typing import get_type_hints
 from ._assessed import Assessment, Elastic, Seas
 from ._axes import evenly
 from ._base_orbit import Admissible, NoOrbitError
+from ._basin import basins_of_attraction, erosion, safe_basin
+from ._basin_plot import plot_basin, plot_diagram, plot_erosion
 from ._branch import Branch, continuation
 from ._case import Case, cases
 from ._certify import Certificate
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._hydro import Hydro
+from ._long_run import LyapunovSpectrum, lyapunov_spectrum, orbit_diagram, section
 from ._neighbours import Ensemble, Share, ensemble
 from ._orbit import Orbit, SystemOrbit, find_orbits
 from ._parts import Body, Cable, Forcing, Sinusoid
@@ -53,6 +56,7 @@ __all__ = [
     "Ensemble",
     "Forcing",
     "Hydro",
+    "LyapunovSpectrum",
     "NoOrbitError",
     "Norms",
     "Orbit",
@@ -70,15 +74,24 @@ __all__ = [
     "Trust",
     "Verification",
     "__version__",
+    "basins_of_attraction",
     "cases",
     "continuation",
     "critical_force",
     "ensemble",
+    "erosion",
     "evenly",
     "find_orbits",
+    "lyapunov_spectrum",
     "merge",
     "open_study",
+    "orbit_diagram",
+    "plot_basin",
+    "plot_diagram",
+    "plot_erosion",
     "reproduce",
+    "safe_basin",
+    "section",
     "sensitivities",
     "sweep",
     "verify",

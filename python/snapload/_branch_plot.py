@@ -42,13 +42,23 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
     known = (*(name for name in STATE if name != branch.along), "largest_multiplier")
     if y not in known:
         raise ValueError(f"y = {y!r} is not allowed; allowed: {', '.join(map(repr, known))}")
-    ax, points, events = new_axes(ax), branch.points, branch.events
-    values, heights = points[branch.along].values, points[y].values
+    ax, points, events = new_axes(ax, 0.95), branch.points, branch.events
     words = points.stability.where(points.admissible, "not a motion").values
-    kinds = np.where(words == "superstable", "stable", words)
+    # Events stand among the points, as what a branch is changes there.
+    order = np.argsort(np.concatenate([points.arclength.values, events["arclength"]]), kind="stable")
+    values = np.concatenate([points[branch.along].values, events["value"]])[order]
+    heights = np.concatenate([points[y].values, events[y]])[order]
+    named = np.concatenate([np.where(words == "superstable", "stable", words), [""] * len(events)])[order]
+    symbols = np.concatenate([points.symbol.values, [""] * len(events)])[order]
+    for place in range(len(named) - 1, -1, -1):
+        if named[place] == "":
+            beside = [k for k in (place - 1, place + 1) if 0 <= k < len(named) and symbols[k] != ""]
+            nearest = min(beside, key=lambda k: abs(heights[k] - heights[place]), default=place)
+            named[place] = named[min(place + 1, len(named) - 1)] or named[place - 1]
+            symbols[place] = symbols[nearest]
+    kinds = named
     # Where an event passes the section the velocity there jumps.
     jumps = y in ("vx", "vy", "vtheta")
-    symbols = points.symbol.values
     cuts = [k for k in range(1, len(values)) if kinds[k] != kinds[k - 1] or (jumps and symbols[k] != symbols[k - 1])]
     only, seen = style.pop("label", None), set()
     for start, stop in pairwise([0, *cuts, len(values)]):
@@ -68,7 +78,7 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
     ax.set_ylabel("largest |multiplier|" if y == "largest_multiplier" else label(y))
     if y == "largest_multiplier":
         ax.axhline(1.0, color="black", linewidth=0.7, linestyle=":", zorder=1)
-    legend_above(ax)
+    legend_above(ax, 2)
     return ax
 
 

@@ -158,6 +158,36 @@ def continuation(
     progress: Callable[[int], object] | None,
     /,
 ) -> Branch: ...
+
+_Side = tuple[str, object]
+_Filled = tuple[str, str, bytearray, list[str]]
+
+def section(
+    case: Case,
+    periods: int,
+    keep: int,
+    phase: float,
+    impacts: bool,
+    progress: Callable[[int], object] | None,
+    /,
+) -> str: ...
+def diagram(
+    case: Case,
+    side: _Side,
+    down: bool,
+    asked: tuple[int, int, float],
+    progress: Callable[[int], object] | None,
+    /,
+) -> tuple[str, list[int], bytearray]: ...
+def safe_basin(
+    case: Case, sides: Sequence[_Side], trust: bool, progress: Callable[[int], object] | None, /
+) -> tuple[str, list[_Filled]]: ...
+def basins_of_attraction(
+    case: Case, sides: Sequence[_Side], transient: int, progress: Callable[[int], object] | None, /
+) -> tuple[str, list[_Filled], list[Orbit | None]]: ...
+def erosion(
+    case: Case, sides: Sequence[_Side], over: _Side, trust: bool, progress: Callable[[int], object] | None, /
+) -> str: ...
 def critical_force(case: Case, step: float, max: float, /) -> str: ...
 def critical_force_over(
     study: Study, step: float, max: float, progress: Callable[[int], object] | None, /

@@ -8,6 +8,7 @@ mod critical;
 mod errors;
 mod hydro;
 mod interrupt;
+mod long_run;
 mod orbit;
 mod pool;
 mod run;
@@ -34,6 +35,8 @@ mod _engine {
     use super::critical::{critical_force, critical_force_over, probability};
     #[pymodule_export]
     use super::hydro::hydro;
+    #[pymodule_export]
+    use super::long_run::{basins_of_attraction, diagram, erosion, safe_basin, section};
     #[pymodule_export]
     use super::orbit::{Branch, Orbit, continuation, find_orbits, orbit, orbit_of_system};
     #[pymodule_export]

@@ -75,10 +75,11 @@ def test_examples_of_properties_that_are_kept_are_true(kind):
 STYLE = {"GL01", "GL02", "GL03", "ES01"}
 #: Functions make these, so that what they hold is told as attributes. Their constructors are not called.
 RESULTS = {"Certificate", "CriticalForce", "End", "Ensemble", "Norms", "Outcome", "Run", "Share", "SystemRun", "Table"}
-RESULTS |= {"Admissible", "Branch", "Orbit", "SystemOrbit"}
+RESULTS |= {"Admissible", "Branch", "LyapunovSpectrum", "Orbit", "SystemOrbit"}
 RESULTS |= {"Hydro", "Trust", "Verification", "_animate.Animation", "Assessment", "Elastic", "Seas", "Structure"}
 #: Their ``**keys`` are told as such, while the signature names every key.
 WITH_KEYS = {"Case.replace", "Scales.case", "sweep", "Hydro.from_file", "Hydro.from_dataset"}
+WITH_KEYS |= {"orbit_diagram", "safe_basin", "basins_of_attraction", "erosion"}
 
 
 def public():

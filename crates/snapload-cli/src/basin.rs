@@ -82,9 +82,6 @@ struct WindowArgs {
     no_trust: bool,
 }
 
-/// More cells than this are a slip of the keyboard.
-const MOST_CELLS: usize = 100_000_000;
-
 impl WindowArgs {
     fn read(&self) -> Result<(String, Parameters, Window), Failure> {
         let (name, base) = self.case.parameters()?;
@@ -100,13 +97,6 @@ impl WindowArgs {
             keys: [a, b],
             values: [rows, columns],
         };
-        if window.count() > MOST_CELLS {
-            let message = format!(
-                "--vary: {} cells, and at most {MOST_CELLS} are allowed",
-                window.count()
-            );
-            return Err(Failure::BadInput(message));
-        }
         window.check()?;
         Ok((name, base, window))
     }

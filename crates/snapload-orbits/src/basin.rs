@@ -86,6 +86,23 @@ const NEIGHBOURS: [[f64; 2]; 8] = [
 const STARTS: [&str; 6] = ["x", "y", "theta", "vx", "vy", "vtheta"];
 const VELOCITIES: [&str; 3] = ["vx", "vy", "vtheta"];
 
+/// More cells than this are a slip of the keyboard.
+const MOST_CELLS: usize = 100_000_000;
+/// Values are evenly spaced if none is off by more than this part of a step.
+const UNEVEN: f64 = 1e-6;
+
+/// Whether values are evenly spaced, as far as they are written in decimals.
+fn are_even(values: &[f64]) -> bool {
+    let [first, .., last] = values else {
+        return true;
+    };
+    let step = (last - first) / (values.len() - 1) as f64;
+    let is_even = |(k, value): (usize, &f64)| {
+        (value - (first + step * k as f64)).abs() <= UNEVEN * step.abs()
+    };
+    step != 0.0 && values.iter().enumerate().all(is_even)
+}
+
 impl Window {
     /// The two values of a cell.
     pub fn at(&self, cell: usize) -> [f64; 2] {
@@ -142,6 +159,17 @@ impl Window {
         if self.keys[0] == self.keys[1] {
             let twice = Value::Text(self.keys[0].to_owned());
             return Err(CaseError::value("vary", twice, "two keys, each once"));
+        }
+        if self.count() > MOST_CELLS {
+            let cells = format!("a window of {} cells", self.count());
+            let allowed = format!("at most {MOST_CELLS} cells");
+            return Err(CaseError::value("vary", cells, allowed));
+        }
+        for (key, values) in self.keys.iter().zip(&self.values) {
+            if !are_even(values) {
+                let allowed = "evenly spaced values, as distances are measured in cells";
+                return Err(CaseError::value(key, format!("{values:?}"), allowed));
+            }
         }
         for value in &self.values[0] {
             self.parameters([*value, self.values[1][0]]).check()?;

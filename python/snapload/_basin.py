@@ -1,0 +1,317 @@
+"""Which starts of a window stay below the limits, and which attractors they come to."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _engine
+from ._axes import listed
+from ._case import Case
+from ._check import engine_of, whole
+from ._keys import Axes
+from ._later import Later
+from ._orbit import Orbit
+from ._progress import bar
+from ._signature import with_keys
+
+if TYPE_CHECKING:
+    import xarray
+else:
+    xarray = Later("xarray")
+
+#: What bars of progress count to, where the work has several stages.
+_WHOLE = 1000
+
+
+def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **window: Unpack[Axes]) -> xarray.Dataset:
+    """Run every start of a window, and tell which stay below the limits, as ``snapload basin`` does.
+
+    Parameters
+    ----------
+    case : Case
+        What all starts have in common. A run that settles or goes on to ``t_end`` is safe.
+    trust : bool
+        Whether to look at the neighbours of each cell, which takes most of the time.
+    progress : bool
+        Whether to show a bar if it takes long.
+    **window : array_like or str
+        The evenly spaced values of the two keys, or ``"first:last:n"``: any two, such as ``x`` and ``y``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the two keys: ``outcome``, words for how the run ended (empty where the start is beyond a cable or a
+        limit, and no part of the window), ``outcome_code`` the same as numbers for maps, ``t`` when, ``legal``,
+        ``safe``, and with trust ``decided``, whether the neighbours at 1e-8 end alike, and ``trusted``, whether the
+        horizon of trust lies past the end. Attributes: ``legal``, ``safe`` and ``undecided`` cells; ``fraction`` and
+        ``gim``, the global integrity measure, with ``interval95``; and where both keys are starts ``lim``, the distance
+        of the nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts,
+        and ``iim``, the least unsafe velocity. NaN where there is none. ``cell`` is the size of a cell.
+
+    Raises
+    ------
+    ValueError
+        If there are not two keys, or one can not take a value.
+
+    See Also
+    --------
+    snapload.erosion : How it shrinks along a third key.
+    snapload.plot_basin : Draws it.
+
+    Notes
+    -----
+    Python's lock is released meanwhile, and Ctrl-C ends it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> basin = snapload.safe_basin(snapload.Case(t_end=30), x="-0.2:0.2:9", y="0.05:0.4:8")
+    >>> basin.outcome.dims, basin.attrs["legal"]
+    (('x', 'y'), 60)
+    >>> bool(basin.safe.sum() / basin.legal.sum() == basin.attrs["gim"])
+    True
+    """
+    from ._dataset import ABOUT, flags
+
+    engine, sides = engine_of(case), _sides(window)
+    with bar("safe basin", _WHOLE, progress) as tell:
+        answer, columns = _engine.safe_basin(engine, sides, bool(trust), tell)
+    told, coords = json.loads(answer), _coords(sides)
+    shape = tuple(len(values) for _, values, _ in coords.values())
+    variables: dict[str, Any] = {}
+    for name, kind, data, words in columns:
+        variables[name] = (tuple(coords), _column(kind, data, words).reshape(shape), {"long_name": _MEANINGS[name]})
+    ends: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
+    codes = {word: code for code, word in enumerate(ends)}
+    outcomes = variables["outcome"][1]
+    code = np.array([codes.get(word, -1) for word in outcomes.ravel()], dtype=np.int8).reshape(shape)
+    about = flags(ends)
+    about |= {"long_name": "how the run ended, as a number", "flag_meanings": " ".join(["not_legal", *ends])}
+    variables["outcome_code"] = (tuple(coords), code, about)
+    attrs = {"title": "A safe basin of a body on cables", **ABOUT, **_measures(told)}
+    attrs["cell"] = np.array([told["cell"][key] for key in told["keys"]])
+    return xarray.Dataset(variables, coords, attrs)
+
+
+with_keys(safe_basin, defaults=False)
+
+
+def basins_of_attraction(
+    case: Case, *, transient: int = 300, progress: bool = True, **window: Unpack[Axes]
+) -> tuple[xarray.DataArray, dict[int, Orbit]]:
+    """Follow every start of a window, and tell which attractor it comes to: ``snapload basin --kind attractor``.
+
+    Parameters
+    ----------
+    case : Case
+        What all starts have in common.
+    transient : int
+        Periods of the forcing before attractors are looked at.
+    progress : bool
+        Whether to show a bar if it takes long.
+    **window : array_like or str
+        The evenly spaced values of the two keys, or ``"first:last:n"``.
+
+    Returns
+    -------
+    labels : xarray.DataArray
+        Over the two keys: the number of the attractor, from 1, that with most cells first; 0 where the motion goes on
+        without a period; -1 where the start is not legal; -2 and below where the motion stops at a limit, as
+        ``flag_values`` and ``flag_meanings`` tell. Attributes: ``legal`` cells, ``cells`` of each attractor and their
+        ``fractions``.
+    attractors : dict of int to Orbit
+        The orbit of each label, where both keys are starts and the orbit is closed.
+
+    Raises
+    ------
+    ValueError
+        If there are not two keys, or one can not take a value.
+
+    See Also
+    --------
+    snapload.safe_basin : Which starts stay below the limits.
+    snapload.plot_basin : Draws the labels.
+
+    Notes
+    -----
+    The stops by settling and sliding are off, and the motion may come to rest on its cables, which is an attractor,
+    too. Python's lock is released meanwhile, and Ctrl-C ends it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> case = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
+    >>> labels, attractors = snapload.basins_of_attraction(case, x="-0.2:0.2:3", y="0.2:0.4:2", transient=60)
+    >>> labels.dims, attractors[1]
+    (('x', 'y'), <Orbit: stable, 1 period, 2, 1>)
+    """
+    from ._dataset import ABOUT
+
+    engine, sides = engine_of(case), _sides(window)
+    transient = whole("transient", transient, 1, 10**7)
+    with bar("basins of attraction", _WHOLE, progress) as tell:
+        answer, columns, orbits = _engine.basins_of_attraction(engine, sides, transient, tell)
+    told, coords = json.loads(answer), _coords(sides)
+    found = {name: _column(kind, data, words) for name, kind, data, words in columns}
+    shape = tuple(len(values) for _, values, _ in coords.values())
+    stops: list[str] = next(entry["words"] for entry in _engine.columns() if entry["name"] == "end")
+    codes = {"": -1, "attracted": 0, "aperiodic": 0} | {word: -2 - place for place, word in enumerate(stops)}
+    labels = np.array([codes[word] for word in found["outcome"]], dtype=np.int32)
+    attracted = ~np.isnan(found["attractor"])
+    labels[attracted] = found["attractor"][attracted].astype(np.int32)
+    numbers = [row["attractor"] for row in told["attractors"]]
+    named = [(-2 - place, word) for place, word in reversed(list(enumerate(stops)))]
+    named += [(-1, "not_legal"), (0, "aperiodic"), *((number, f"attractor_{number}") for number in numbers)]
+    attrs = {
+        "long_name": "attractor",
+        "flag_values": np.array([value for value, _ in named], dtype=np.int32),
+        "flag_meanings": " ".join(word for _, word in named),
+        "legal": told["legal"],
+        "cells": np.array([row["cells"] for row in told["attractors"]], dtype=np.int64),
+        "fractions": np.array([row["fraction"] for row in told["attractors"]], dtype=np.float64),
+        "periods": np.array([row["period"] for row in told["attractors"]], dtype=np.int64),
+        **ABOUT,
+    }
+    array = xarray.DataArray(labels.reshape(shape), coords, tuple(coords), "attractor", attrs)
+    closed = zip(numbers, orbits, strict=True)
+    return array, {number: Orbit(case, orbit) for number, orbit in closed if orbit is not None}
+
+
+with_keys(basins_of_attraction, defaults=False)
+
+
+def erosion(
+    case: Case,
+    *,
+    over: Mapping[str, ArrayLike | str],
+    trust: bool = True,
+    progress: bool = True,
+    **window: Unpack[Axes],
+) -> xarray.Dataset:
+    """Tell how the safe part of a window shrinks along a third key, as ``snapload erosion`` does.
+
+    Parameters
+    ----------
+    case : Case
+        What all starts have in common.
+    over : dict of str to array_like or str
+        The third key and its values, such as ``{"f_o": "0:0.6:21"}``.
+    trust : bool
+        Whether to look at the neighbours of each cell, which takes most of the time.
+    progress : bool
+        Whether to show a bar if it takes long.
+    **window : array_like or str
+        The evenly spaced values of the two keys of the window, or ``"first:last:n"``.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the third key: ``gim`` between ``low`` and ``high`` (95 %), ``lim``, ``if`` and ``iim`` as
+        :func:`snapload.safe_basin` has them, and the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
+        trust). The attribute ``knee`` is the last value up to which the fraction never falls below nine tenths of what
+        it is at the first one; NaN if it never does.
+
+    Raises
+    ------
+    ValueError
+        If there are not two keys and a third one, or one can not take a value.
+
+    See Also
+    --------
+    snapload.safe_basin : The window at one value.
+    snapload.plot_erosion : Draws it.
+
+    Notes
+    -----
+    Python's lock is released meanwhile, and Ctrl-C ends it.
+
+    Examples
+    --------
+    >>> import snapload
+    >>> window = dict(x="-0.3:0.3:7", y="0.05:0.65:7")
+    >>> eroded = snapload.erosion(snapload.Case(t_end=30), over={"f_o": [0, 0.3, 0.6]}, trust=False, **window)
+    >>> bool(eroded.gim[2] < eroded.gim[0]), eroded["if"].dims
+    (True, ('f_o',))
+    """
+    from ._dataset import ABOUT, attributes
+
+    engine, sides = engine_of(case), _sides(window)
+    if not isinstance(over, Mapping) or len(over) != 1:
+        allowed = "one key with its values, such as {'f_o': '0:0.6:21'}"
+        raise ValueError(f"over = {over!r} is not allowed; allowed: {allowed}")
+    ((key, values),) = over.items()
+    third = key, listed(key, values)
+    with bar("erosion", _WHOLE, progress) as tell:
+        told = json.loads(_engine.erosion(engine, sides, third, bool(trust), tell))
+    points = told["points"]
+    variables: dict[str, Any] = {}
+    for point in points:
+        point["low"], point["high"] = point["interval95"]
+    for name, meaning in _ERODED.items():
+        numbers = np.array([_or_nan(point[name]) for point in points], dtype=np.float64)
+        variables[name] = (key, numbers, {"long_name": meaning})
+    coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
+    attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, "knee": _or_nan(told["knee"])}
+    return xarray.Dataset(variables, coords, attrs)
+
+
+with_keys(erosion, defaults=False)
+
+#: The columns of an erosion, and what they are.
+_ERODED = {
+    "gim": "global integrity: safe part",
+    "low": "lower end of its 95 % interval",
+    "high": "upper end of its 95 % interval",
+    "lim": "local integrity: nearest unsafe start",
+    "if": "integrity factor: largest disc",
+    "iim": "impulsive integrity: least unsafe velocity",
+    "legal": "legal cells",
+    "safe": "safe cells",
+    "undecided": "undecided cells",
+}
+
+_MEANINGS = {
+    "outcome": "how the run ended",
+    "t": "when it ended, in T",
+    "legal": "whether the start can be",
+    "safe": "whether it reaches no limit",
+    "decided": "whether its neighbours end alike",
+    "trusted": "whether trust reaches its end",
+}
+
+
+def _sides(window: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """The two keys of a window with their values."""
+    if len(window) != 2:
+        given = ", ".join(window) or "none"
+        allowed = "two keys with their values, such as x='-0.4:0.4:41', y='0.02:0.72:36'"
+        raise ValueError(f"keys = {given} is not allowed; allowed: {allowed}")
+    return [(key, listed(key, values)) for key, values in window.items()]
+
+
+def _coords(sides: list[tuple[str, Any]]) -> dict[str, Any]:
+    from ._dataset import labels
+
+    return labels(sides)
+
+
+def _measures(told: dict[str, Any]) -> dict[str, Any]:
+    """The measures as attributes that any file of xarray can hold."""
+    names = ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if", "iim")
+    return {name: _or_nan(told[name]) for name in names} | {"interval95": np.array(told["interval95"])}
+
+
+def _or_nan(value: float | None) -> float:
+    return float("nan") if value is None else value
+
+
+def _column(kind: str, data: bytearray, words: list[str]) -> NDArray[Any]:
+    """The values of all cells."""
+    if kind == "words":
+        return np.array(words, dtype=object)[np.frombuffer(data, dtype=np.int32)]
+    return np.frombuffer(data, dtype=kind)

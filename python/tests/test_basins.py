@@ -1,0 +1,174 @@
+"""Safe basins, erosion and basins of attraction against an independent program, and the command's files."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pandas
+import pytest
+import snapload
+import xarray
+from conftest import ROOT
+
+REFERENCE = json.loads((ROOT / "crates/snapload-orbits/tests/data/orbits.json").read_text(encoding="utf-8"))
+#: What the reference writes for how a run ends.
+ENDS = {"s": "settled", "t": "end_time", "R": "rotation_limit", "U": "upper_bound"}
+STATE = ["x", "y", "theta", "vx", "vy", "vtheta"]
+WINDOW = dict(x="-0.2:0.2:9", y="0.04:0.6:8")
+TWO = dict(body="point", r=1.3, e=0.7, nu=1.2, omega=4, f_o=0.67)
+
+
+def words(case: dict) -> list[str]:
+    return [f"--set={key}={value}" for key, value in case.items()]
+
+
+@pytest.mark.parametrize("name", ["circle_xy_f0.1", "circle_yvy_f0.3", "circle_f_omega"])
+def test_a_basin_is_that_of_the_reference_cell_by_cell(name):
+    grid = REFERENCE["grids"][name]
+    case = snapload.Case(t_end=grid["t_end"], **{key: float(value) for key, value in grid["base"].items()})
+    window = {key: snapload.evenly(first, last, count) for key, first, last, count in grid["axes"]}
+    basin = snapload.safe_basin(case, progress=False, **window)
+    outcomes, known = basin.outcome.values, np.array([list(row) for row in grid["rows"]])
+    for sign, word in ENDS.items():
+        there = (known == sign) & basin.decided.values
+        assert there.sum() == 0 or (outcomes[there] == word).all(), sign
+    # A start whose cable is exactly taut is legal here, and was not in the reference.
+    edge = (known == ".") & basin.legal.values
+    assert edge.sum() <= 4 and basin.attrs["legal"] - edge.sum() == grid["legal"]
+    low, high = grid["wilson95"]
+    assert low < basin.attrs["gim"] < high
+    np.testing.assert_allclose(basin.attrs["interval95"], [low, high], atol=0.003)
+    for ours, theirs in (("lim", "LIM"), ("if", "IF")):
+        if grid[theirs] is not None:
+            # Good to one cell.
+            assert basin.attrs[ours] == pytest.approx(grid[theirs], abs=1.5 * basin.attrs["cell"].max()), ours
+    cells = {"legal": basin.legal, "safe": basin.safe, "undecided": ~basin.decided & basin.legal}
+    assert {name: int(which.sum()) for name, which in cells.items()} == {name: basin.attrs[name] for name in cells}
+
+
+def test_the_cells_are_those_of_the_command(command_json, tmp_path):
+    out = tmp_path / "basin.csv"
+    axes = [f"--vary={key}={values}" for key, values in WINDOW.items()]
+    told = command_json("basin", "--set", "t_end=30", *axes, "--out", str(out))
+    basin = snapload.safe_basin(snapload.Case(t_end=30), **WINDOW)
+    for key in ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if"):
+        assert basin.attrs[key] == told[key], key
+    assert basin.attrs["interval95"].tolist() == told["interval95"] and math.isnan(basin.attrs["iim"])
+    assert basin.attrs["cell"].tolist() == list(told["cell"].values())
+    frame = pandas.read_csv(out)
+    assert np.repeat(basin.x.values, 8).tolist() == frame.x.tolist()
+    assert basin.outcome.values.ravel().tolist() == frame.outcome.fillna("").tolist()
+    np.testing.assert_array_equal(basin.t.values.ravel(), frame.t)
+    assert basin.decided.values.ravel().tolist() == frame.decided.tolist()
+    assert basin.trusted.values.ravel().tolist() == frame.trusted.tolist()
+    meanings = dict(zip(basin.outcome_code.flag_values, basin.outcome_code.flag_meanings.split(), strict=True))
+    assert [meanings[code].replace("not_legal", "") for code in basin.outcome_code.values.ravel()] == (
+        basin.outcome.values.ravel().tolist()
+    )
+    # The same as a study, where the start can be.
+    study = snapload.sweep(snapload.Case(t_end=30), **WINDOW)
+    assert (study.end.values == basin.outcome.values).all()
+
+
+def test_a_basin_goes_to_a_file_and_back(tmp_path):
+    basin = snapload.safe_basin(snapload.Case(t_end=20), trust=False, **WINDOW)
+    assert "decided" not in basin and math.isnan(basin.attrs["undecided"])
+    basin.to_netcdf(tmp_path / "basin.nc")
+    with xarray.open_dataset(tmp_path / "basin.nc") as read:
+        assert (read.outcome.values == basin.outcome.values).all() and read.attrs["if"] == basin.attrs["if"]
+
+
+def test_erosion_is_that_of_the_reference_and_of_the_command(command_json):
+    curve = REFERENCE["curves"]["circle_xy"]
+    case = snapload.Case(t_end=curve["t_end"], **{key: float(value) for key, value in curve["base"].items()})
+    window = {key: snapload.evenly(first, last, count) for key, first, last, count in curve["axes"]}
+    values = [point["f_o"] for point in curve["points"]][::3]
+    eroded = snapload.erosion(case, over={"f_o": values}, trust=False, progress=False, **window)
+    for place, point in enumerate(curve["points"][::3]):
+        low, high = point["wilson95"]
+        assert low <= float(eroded.gim[place]) <= high
+        assert float(eroded.lim[place]) == pytest.approx(point["LIM"], abs=0.026)
+        assert float(eroded["if"][place]) == pytest.approx(point["IF"], abs=0.026)
+    axes = [f"--vary={key}={values}" for key, values in WINDOW.items()]
+    told = command_json("erosion", "--set", "t_end=20", *axes, "--over", "f_o=0:0.6:4")
+    eroded = snapload.erosion(snapload.Case(t_end=20), over={"f_o": "0:0.6:4"}, **WINDOW)
+    for name in ("gim", "lim", "if", "legal", "safe", "undecided"):
+        assert eroded[name].values.tolist() == [point[name] for point in told["points"]], name
+    assert eroded.low.values.tolist() == [point["interval95"][0] for point in told["points"]]
+    assert eroded.f_o.values.tolist() == [0.0, 0.2, 0.4, 0.6] and eroded.attrs["knee"] == told["knee"]
+    assert np.isnan(eroded.iim).all()
+
+
+def test_attractors_are_those_of_the_command(command_json):
+    window = dict(x="-0.2:0.2:7", y="0.1:0.5:5")
+    axes = [f"--vary={key}={values}" for key, values in window.items()]
+    told = command_json("basin", *words(TWO), *axes, "--kind", "attractor", "--transient", "100")
+    labels, attractors = snapload.basins_of_attraction(snapload.Case(**TWO), transient=100, **window)
+    # Rest in the corner, as f_o is below f_c, and an orbit of three snaps: section 4.5 of the reference.
+    assert attractors[1].stable == "superstable" and attractors[1].symbol == ()
+    assert [orbit.symbol for orbit in attractors.values() if len(orbit.symbol) == 3] == [("2", "1", "1")]
+    for row in told["attractors"]:
+        number = row["attractor"]
+        assert int((labels == number).sum()) == row["cells"] == labels.attrs["cells"][number - 1]
+        assert attractors[number].state.tolist() == row["orbit"]["section"]["state"]
+    assert int((labels != -1).sum()) == told["legal"] == labels.attrs["legal"]
+    # A start comes to the orbit of its label.
+    row, column = np.argwhere(labels.values == 2)[0]
+    start = snapload.Case(**TWO).replace(x=float(labels.x[row]), y=float(labels.y[column]))
+    last = snapload.section(start, periods=200, keep=1).isel(k=-1)
+    np.testing.assert_allclose([float(last[name]) for name in STATE], attractors[2].state, atol=1e-6)
+    assert labels.attrs["flag_meanings"].split()[-2:] == [
+        f"attractor_{n}" for n in (len(attractors) - 1, len(attractors))
+    ]
+    tumbling, none = snapload.basins_of_attraction(snapload.Case(f_o=0.6), x="-0.1:0.1:3", y=[0.3], transient=20)
+    stops = dict(zip(tumbling.flag_values, tumbling.flag_meanings.split(), strict=True))
+    assert {stops[label] for label in tumbling.values.ravel()} == {"rotation_limit"} and none == {}
+
+
+@pytest.mark.parametrize(
+    ("window", "words"),
+    [
+        (dict(x="0:1:3"), "keys = x is not allowed; allowed: two keys with their values"),
+        (dict(x="0:1", y="0:1:3"), "three numbers"),
+        (dict(x="0:1:3", e="0:2:3"), "e = 2 is not allowed"),
+        (dict(x="0:1:3", body=["rigid", "point"]), 'axis = "body" is not allowed; allowed: a key that holds a number'),
+        (dict(x=[0, 0.1, 0.3], y="0:1:3"), r"x = \[0\.0, 0\.1, 0\.3\] is not allowed; allowed: evenly spaced"),
+        (dict(x="0:1:100000", y="0:1:100000"), "at most 100000000 cells"),
+        (dict(x="0:1:2000000", y="0:1:3"), "x: at most 1000000 values"),
+    ],
+)
+def test_windows_that_can_not_be_are_refused(window, words):
+    with pytest.raises(ValueError, match=words):
+        snapload.safe_basin(snapload.Case(), **window)
+    with pytest.raises(ValueError, match=words):
+        snapload.basins_of_attraction(snapload.Case(), **window)
+
+
+def test_other_things_that_can_not_be_are_refused():
+    with pytest.raises(ValueError, match='over = "x" is not allowed; allowed: a key not varied'):
+        snapload.erosion(snapload.Case(), over={"x": [0.1]}, **WINDOW)
+    with pytest.raises(ValueError, match="over = {} is not allowed; allowed: one key with its values"):
+        snapload.erosion(snapload.Case(), over={}, **WINDOW)
+    with pytest.raises(TypeError, match=r"allowed: what snapload\.safe_basin gives"):
+        snapload.plot_basin(xarray.Dataset())
+    with pytest.raises(TypeError, match=r"allowed: what snapload\.erosion gives"):
+        snapload.plot_erosion(xarray.Dataset())
+
+
+def test_pictures_show_every_cell_and_hatch_what_is_undecided():
+    basin = snapload.safe_basin(snapload.Case(t_end=60), x="-0.1:0.1:9", y="0.06:0.2:8")
+    ax = snapload.plot_basin(basin)
+    mesh = ax.collections[0]
+    drawn = mesh.get_array().reshape(8, 9).T
+    safe, escapes = basin.safe.values, basin.legal.values & ~basin.safe.values
+    assert ((drawn == 0) == ~basin.legal.values).all() and not set(drawn[safe]) & set(drawn[escapes])
+    hatched = [c for c in ax.collections[1:] if c.get_hatch()]
+    assert basin.attrs["undecided"] > 0 and len(hatched) == 1
+    assert len(hatched[0].get_paths()) == basin.attrs["undecided"]
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels[0] == "settled" and labels[-1] == "undecided"
+    eroded = snapload.erosion(snapload.Case(t_end=20), over={"f_o": "0:0.6:4"}, trust=False, **WINDOW)
+    line = snapload.plot_erosion(eroded).get_lines()[0]
+    assert line.get_ydata().tolist() == eroded.gim.values.tolist()

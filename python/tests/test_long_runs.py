@@ -1,0 +1,167 @@
+"""Sections, Lyapunov exponents and diagrams against an independent program, and the command's answers."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import math
+import re
+
+import numpy as np
+import pandas
+import pytest
+import snapload
+import xarray
+from conftest import ROOT
+
+REFERENCE = json.loads((ROOT / "crates/snapload-orbits/tests/data/orbits.json").read_text(encoding="utf-8"))
+STATE = ["x", "y", "theta", "vx", "vy", "vtheta"]
+TORUS = dict(body="point", r=1.976, e=0.71, nu=0.87, omega=4.847, f_o=1.6, x=0, y=0.4, vx=0.1)
+VOLLEY = dict(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
+
+
+def words(case: dict) -> list[str]:
+    return [f"--set={key}={value}" for key, value in case.items()]
+
+
+def test_a_section_is_that_of_the_command(command_json, tmp_path):
+    told = command_json("section", *words(TORUS), "--periods", "300", "--keep", "60", "--phase", "0.25")
+    found = snapload.section(snapload.Case(**TORUS), periods=300, keep=60, phase=0.25)
+    assert found.k.values.tolist() == [point["k"] for point in told["points"]] and found.sizes["k"] == 61
+    assert np.column_stack([found[name] for name in STATE]).tolist() == [point["state"] for point in told["points"]]
+    assert found.exponent.values.tolist() == [row["value"] for row in told["exponents"]]
+    assert found.exponent_se.values.tolist() == [row["se"] for row in told["exponents"]]
+    assert math.isnan(found.attrs["period"]) and told["period"] is None
+    for key in ("snaps", "phase", "y_max", "theta_max"):
+        assert found.attrs[key] == told[key]
+    found.to_netcdf(tmp_path / "section.nc")
+    with xarray.open_dataset(tmp_path / "section.nc") as read:
+        assert (read.x.values == found.x.values).all()
+
+
+def test_impacts_are_those_of_the_command(command, tmp_path):
+    out = tmp_path / "impacts.csv"
+    command("section", *words(TORUS), "--periods", "50", "--keep", "20", "--at", "impacts", "--out", str(out))
+    found = snapload.section(snapload.Case(**TORUS), periods=50, keep=20, at="impacts")
+    frame = pandas.read_csv(out)
+    for name in frame.columns:
+        if name != "impact":
+            np.testing.assert_allclose(found[name].values, frame[name], rtol=0, atol=0, err_msg=name)
+    assert {"vx_before", "vx_after", "cable", "phase"} <= set(frame.columns) <= {*found.variables, "impact"}
+    assert found.impact.values.tolist() == list(range(1, 21))
+
+
+def test_a_section_of_an_orbit_has_its_multipliers():
+    case = snapload.Case(**VOLLEY)
+    found, orbit = snapload.section(case, periods=1000, keep=500), case.orbit()
+    assert found.attrs["period"] == orbit.periods == 1 and found.attrs["snaps"] == 2.0
+    np.testing.assert_allclose(found.x, orbit.state[0], atol=1e-12)
+    np.testing.assert_allclose(found.exponent, orbit.exponents, rtol=2e-2)
+    assert float(found.exponent[0]) == pytest.approx(orbit.exponents[0], rel=1e-8)
+    stopped = snapload.section(snapload.Case(f_o=0.5), periods=20, keep=10)
+    assert stopped.attrs["stop"] == "rotation_limit" and stopped.attrs["stop_t"] == pytest.approx(10.0247, abs=1e-4)
+
+
+def test_exponents_of_a_motion_sum_up_to_what_its_snaps_take():
+    """Their sum is 2 ln e times the snaps in unit time, whatever the motion does."""
+    spectrum = snapload.lyapunov_spectrum(snapload.Case(**TORUS), periods=400, transient=100)
+    period = math.tau / TORUS["omega"]
+    snaps = snapload.section(snapload.Case(**TORUS), periods=501, keep=401, at="impacts")
+    count = int((snaps.t < 500 * period).sum())
+    rate = count / (400 * period)
+    assert spectrum.values.sum() == pytest.approx(2 * math.log(TORUS["e"]) * rate, rel=1e-9)
+    assert spectrum.values.tolist() == snaps.exponent.values.tolist() and spectrum.transient == 100
+    values, errors = spectrum
+    assert len(values) == len(errors) == 4 and (errors > 0).all() and (np.diff(values) <= 0).all()
+    # A torus: nothing grows or shrinks along it.
+    assert abs(values[0]) < 3 * errors[0]
+    with pytest.raises(ValueError, match=r"stops at t = 10\.0247, rotation limit; begin elsewhere"):
+        snapload.lyapunov_spectrum(snapload.Case(f_o=0.5))
+
+
+def test_a_diagram_is_that_of_the_reference():
+    (reference,) = REFERENCE["diagrams"]
+    base = {key: value if key == "body" else float(value) for key, value in reference["base"].items()}
+    case = snapload.Case(**base, **dict(zip(STATE, map(float, reference["start"]), strict=True)))
+    values = [row["f_o"] for row in reference["rows"]]
+    periods = reference["transient"] + reference["kept"]
+    found = snapload.orbit_diagram(case, f_o=values, periods=periods, keep=reference["kept"])
+    for place, row in enumerate(reference["rows"]):
+        here = found.isel(f_o=place)
+        assert np.isnan(here.period) if row["period"] is None else here.period == row["period"]
+        assert float(here.snaps) == pytest.approx(row["snaps_per_period"])
+        error = math.hypot(float(here.exponent_se), row["exponent_se"])
+        assert abs(float(here.exponent) - row["exponent"]) < 3 * error
+        assert float(here.x.max()) == pytest.approx(row["x_max"], abs=2e-3)
+        assert float(here.x.min()) == pytest.approx(row["x_min"], abs=2e-3)
+
+
+def test_a_diagram_is_that_of_the_command(command_json, tmp_path):
+    out = tmp_path / "diagram.csv"
+    base = [word for word in words(TORUS) if "f_o" not in word]
+    options = ["--vary", "f_o=1.8:2.4:4", "--periods", "60", "--keep", "20", "--out", str(out)]
+    for down in (False, True):
+        told = command_json("diagram", *base, *options, *(["--down"] if down else []))["rows"]
+        found = snapload.orbit_diagram(snapload.Case(**TORUS), f_o="1.8:2.4:4", periods=60, keep=20, down=down)
+        assert found.f_o.values.tolist() == [row["value"] for row in told] and found.sizes["k"] == 21
+        assert found.stop.values.tolist() == [row["stop"] or "" for row in told] and "upper_bound" in found.stop.values
+        assert found.restarted.values.tolist() == [row["restarted"] for row in told]
+        for name in ("period", "snaps", "exponent", "exponent_se", "y_max"):
+            theirs = [np.nan if row[name] is None else row[name] for row in told]
+            np.testing.assert_array_equal(found[name], theirs)
+        frame = pandas.read_csv(out)
+        for name in STATE:
+            points = found[name].values.ravel()
+            assert points[~np.isnan(points)].tolist() == frame[name].tolist()
+    assert snapload.plot_diagram(found, "vx").get_legend().get_texts()[0].get_text() == "stops at a limit"
+
+
+@pytest.mark.parametrize(
+    ("verb", "options"),
+    [
+        ("section", {"periods": "periods", "keep": "keep", "phase": "phase", "at": "at"}),
+        ("diagram", {"periods": "periods", "keep": "keep", "phase": "phase"}),
+        ("branch", {"step": "step", "points": "points"}),
+        ("basin", {"transient": "transient"}),
+        ("orbit", {"seed": "seed", "phase": "phase"}),
+    ],
+)
+def test_what_is_left_out_is_what_the_command_takes(command, verb, options):
+    functions = {
+        "section": snapload.section,
+        "diagram": snapload.orbit_diagram,
+        "branch": snapload.continuation,
+        "basin": snapload.basins_of_attraction,
+        "orbit": snapload.find_orbits,
+    }
+    told = command(verb, "--help")
+    for option, parameter in options.items():
+        (default,) = re.findall(rf"--{option} <.*?\[default:\s+(\S+)\]", told, re.DOTALL)[:1]
+        assert str(inspect.signature(functions[verb]).parameters[parameter].default) in (default, f"{default}.0")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (dict(periods=5, keep=9), "keep = 9 is not allowed; allowed: at most as many as there are in all"),
+        (dict(phase=1.0), "phase = 1 is not allowed; allowed: a part of the period"),
+        (dict(periods=0), "periods = 0 is not allowed"),
+        (dict(at="snaps"), "at = 'snaps' is not allowed; allowed: 'periods', 'impacts'"),
+    ],
+)
+def test_options_are_checked(options, words):
+    with pytest.raises(ValueError, match=words):
+        snapload.section(snapload.Case(), **options)
+
+
+def test_other_things_that_can_not_be_are_refused():
+    with pytest.raises(ValueError, match="keys = none is not allowed; allowed: one key with its values"):
+        snapload.orbit_diagram(snapload.Case())
+    with pytest.raises(ValueError, match="keys = f_o, e is not allowed"):
+        snapload.orbit_diagram(snapload.Case(), f_o=[0.1], e=[0.5])
+    with pytest.raises(ValueError, match="three numbers"):
+        snapload.orbit_diagram(snapload.Case(), f_o="0:1")
+    with pytest.raises(ValueError, match="e = 2 is not allowed"):
+        snapload.orbit_diagram(snapload.Case(), e=[2.0])
+    with pytest.raises(TypeError, match=r"allowed: what snapload\.orbit_diagram gives"):
+        snapload.plot_diagram(xarray.Dataset())
