@@ -205,7 +205,7 @@ fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
 }
 
 /// What of an orbit is a number, by its column.
-const OF_ORBITS: [&str; 11] = [
+pub(crate) const OF_ORBITS: [&str; 11] = [
     "arclength",
     "x",
     "y",
@@ -219,10 +219,11 @@ const OF_ORBITS: [&str; 11] = [
     "theta_max",
 ];
 
-fn of_orbit(column: &str, key: &str, orbit: &Orbit, arclength: f64) -> f64 {
+pub(crate) fn of_orbit(column: &str, keys: [&str; 2], orbit: &Orbit, arclength: f64) -> f64 {
     let place = START_KEYS.iter().position(|name| *name == column);
     match (column, place) {
-        _ if column == key => orbit.at[0],
+        _ if column == keys[0] => orbit.at[0],
+        _ if column == keys[1] => orbit.at[1],
         (_, Some(place)) => orbit.z[place],
         ("arclength", _) => arclength,
         ("largest_multiplier", _) => orbit.multipliers.largest(),
@@ -236,7 +237,7 @@ fn of_orbit(column: &str, key: &str, orbit: &Orbit, arclength: f64) -> f64 {
 fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     let points = || branch.points.iter();
     let number = |column: &'static str| {
-        let values = points().map(|p| of_orbit(column, key, &p.orbit, p.arclength));
+        let values = points().map(|p| of_orbit(column, [key, ""], &p.orbit, p.arclength));
         let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
         (column, Values::Numbers(values.collect()))
     };
@@ -252,12 +253,22 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     columns
 }
 
+/// How the sorts of orbits are called.
+const OF_BRANCHES: [&str; 4] = ["stable", "neutral", "unstable", "no body has it"];
+
 /// The branch in the order of its arclength, special points among the others.
 fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
     let [x, y] = &plot.axes;
     let drawn = |orbit, arclength, event| {
-        let at = [x, y].map(|column| of_orbit(column, key, orbit, arclength));
-        (arclength, Drawn { at, orbit, event })
+        let at = [x, y].map(|column| of_orbit(column, [key, ""], orbit, arclength));
+        let stability = orbit.stability();
+        let drawn = Drawn {
+            at,
+            orbit,
+            stability,
+            event,
+        };
+        (arclength, drawn)
     };
     let points = branch
         .points
@@ -273,5 +284,5 @@ fn layers(key: &str, branch: &Branch, plot: &PlotFile) -> Vec<Layer> {
         .axes
         .iter()
         .any(|column| ["vx", "vy", "vtheta"].contains(&column.as_str()));
-    branch_layers(&all, jumps)
+    branch_layers(&all, jumps, OF_BRANCHES)
 }

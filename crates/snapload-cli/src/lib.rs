@@ -13,6 +13,7 @@ mod cases;
 mod certify;
 mod completions;
 mod critical;
+mod curve;
 #[cfg(feature = "structure")]
 mod decay;
 mod diagram;
@@ -102,6 +103,8 @@ enum Verb {
     Orbit(orbit::Args),
     /// Follow an orbit as a key changes, with its bifurcations, grazes and limits
     Branch(branch::Args),
+    /// Follow a fold, a doubling, a torus or a graze as two keys change
+    Curve(curve::Args),
     /// Follow a long motion: its state once a period of the forcing, its Lyapunov exponents
     Section(section::Args),
     /// Follow the attractor along a key: a bifurcation diagram
@@ -163,6 +166,7 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
         Verb::Merge(args) => merge::run(&args),
         Verb::Orbit(args) => orbit::run(&args),
         Verb::Branch(args) => branch::run(&args),
+        Verb::Curve(args) => curve::run(&args),
         Verb::Section(args) => section::run(&args),
         Verb::Diagram(args) => diagram::run(&args),
         Verb::Basin(args) => basin::run(&args),

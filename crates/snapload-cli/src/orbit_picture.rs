@@ -133,24 +133,22 @@ pub(crate) struct Drawn<'a> {
     /// Where.
     pub(crate) at: Point,
     pub(crate) orbit: &'a Orbit,
+    pub(crate) stability: Stability,
     /// The special point that it is, if it is one.
     pub(crate) event: Option<&'a BranchEvent>,
 }
 
-/// How orbits of each sort are drawn.
-const SORTS: [(&str, Stroke); 4] = [
-    ("stable", Stroke::new(Colour::BLACK, 1.3, Dash::Solid)),
-    ("neutral", Stroke::new(Colour::GREEN, 1.0, Dash::Solid)),
-    ("unstable", Stroke::new(Colour::BLUE, 0.9, Dash::Dashed)),
-    (
-        "no body has it",
-        Stroke::new(Colour::VERMILION, 0.8, Dash::Dotted),
-    ),
+/// How orbits of each sort are drawn: stable, neutral, unstable ones, and those that no body has.
+const SORTS: [Stroke; 4] = [
+    Stroke::new(Colour::BLACK, 1.3, Dash::Solid),
+    Stroke::new(Colour::GREEN, 1.0, Dash::Solid),
+    Stroke::new(Colour::BLUE, 0.9, Dash::Dashed),
+    Stroke::new(Colour::VERMILION, 0.8, Dash::Dotted),
 ];
 
-fn sort(orbit: &Orbit) -> usize {
-    match orbit.stability() {
-        _ if !orbit.is_admissible() => 3,
+fn sort(drawn: &Drawn) -> usize {
+    match drawn.stability {
+        _ if !drawn.orbit.is_admissible() => 3,
         Stability::Stable | Stability::Superstable => 0,
         Stability::Neutral => 1,
         Stability::Unstable => 2,
@@ -159,14 +157,14 @@ fn sort(orbit: &Orbit) -> usize {
 
 /// A branch as a line, which is broken where `jumps` and changes with the sort of orbit, and its
 /// special points by name.
-pub(crate) fn branch_layers(all: &[Drawn], jumps: bool) -> Vec<Layer> {
+pub(crate) fn branch_layers(all: &[Drawn], jumps: bool, words: [&str; 4]) -> Vec<Layer> {
     let mut pieces: [Vec<Vec<Point>>; 4] = Default::default();
     let mut last = None;
     for pair in all.windows(2) {
         let [from, to] = [&pair[0], &pair[1]];
         // A special point lies on the border of two sorts.
         let regular = [to, from].into_iter().find(|drawn| drawn.event.is_none());
-        let other = regular.map_or(last.unwrap_or(3), |drawn| sort(drawn.orbit));
+        let other = regular.map_or(last.unwrap_or(3), sort);
         let symbols = [from, to].map(|drawn| drawn.orbit.lap.sequence.symbol());
         if jumps && symbols[0] != symbols[1] {
             last = None;
@@ -180,7 +178,7 @@ pub(crate) fn branch_layers(all: &[Drawn], jumps: bool) -> Vec<Layer> {
         last = Some(other);
     }
     let mut layers = Vec::new();
-    for (lines, (words, stroke)) in pieces.into_iter().zip(SORTS) {
+    for (lines, (words, stroke)) in pieces.into_iter().zip(words.into_iter().zip(SORTS)) {
         if !lines.is_empty() {
             layers.push(Layer::Line(lines, stroke, words.to_owned()));
         }

@@ -81,6 +81,45 @@ pub struct BranchEvent {
     pub(crate) sigma: f64,
 }
 
+/// A multiplier, a gap or a velocity this near to where it has to be is that of a special orbit.
+const THERE: f64 = 1e-6;
+
+impl BranchEvent {
+    /// An orbit that is itself special, as one that was told as an event of a branch before: the event
+    /// that it is.
+    pub fn here(kind: Kind, orbit: &Orbit) -> Option<Self> {
+        let values = &orbit.multipliers.values;
+        let near = |extreme: &Extreme| extreme.value.abs() < THERE;
+        let gap = orbit.survey.largest_gap.filter(near);
+        let speed = orbit.survey.least_speed.filter(near);
+        let at = |place: f64| {
+            let near = |[re, im]: &[f64; 2]| (re - place).hypot(*im) < THERE;
+            values.iter().filter(|value| near(value)).count() == 1
+        };
+        let pair = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < THERE;
+        let is_there = match kind {
+            Kind::Fold => at(1.0),
+            Kind::PeriodDoubling => at(-1.0),
+            Kind::NeimarkSacker => values.iter().filter(|value| pair(value)).count() == 1,
+            Kind::Graze => gap.is_some() || speed.is_some(),
+            _ => false,
+        };
+        let nearest = gap.or(speed).filter(|_| kind == Kind::Graze);
+        is_there.then(|| Self {
+            kind,
+            value: orbit.at,
+            orbit: orbit.clone(),
+            surface: nearest.map(|extreme| extreme.surface),
+            t: nearest.map(|extreme| extreme.t),
+            normal_acceleration: None,
+            sqrt_coefficient: None,
+            is_own_snap: gap.is_none() && speed.is_some(),
+            arclength: 0.0,
+            sigma: 0.0,
+        })
+    }
+}
+
 /// A function that is zero at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Test {
@@ -205,6 +244,10 @@ pub(crate) fn located<F: Family>(
     let orbit = anew.map_or(orbit, |(moved, u, _)| {
         Orbit::of(&moved.lap(u.at), &u.closed())
     });
+    let orbit = match kind {
+        Kind::Graze => orbit.at_graze(),
+        _ => orbit,
+    };
     let restitution = tracer.family.snap_contraction(orbit.at).sqrt();
     Some(BranchEvent {
         kind,

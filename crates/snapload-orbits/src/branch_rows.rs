@@ -31,7 +31,7 @@ struct PointRow {
 }
 
 #[derive(Serialize)]
-struct EventRow {
+pub(crate) struct EventRow {
     kind: &'static str,
     value: f64,
     state: Point,
@@ -85,7 +85,7 @@ impl PointRow {
 }
 
 impl EventRow {
-    fn new(event: &BranchEvent) -> Self {
+    pub(crate) fn new(event: &BranchEvent) -> Self {
         Self {
             kind: event.kind.name(),
             value: event.value[0],

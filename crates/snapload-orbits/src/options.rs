@@ -1,8 +1,10 @@
 //! What the questions may be asked with, checked once for the command and for Python.
 
 use crate::branch::Along;
+use crate::curve::Across;
 use crate::section::Stretch;
-use snapload::{CaseError, Parameters, Value, check_entry, key_named};
+use snapload::analysis::UNCERTAIN_KEYS;
+use snapload::{CaseError, Kind, Parameters, Value, check_entry, key_named};
 
 /// A time of the section, in periods of the forcing.
 ///
@@ -46,12 +48,74 @@ pub fn along(
     step: f64,
     most: usize,
 ) -> Result<(&'static str, f64, Along), CaseError> {
-    let key = key_named(key)?.name;
-    let value = parameters.get(key).as_ref().and_then(Value::number);
-    let Some(value) = value else {
-        let allowed = "a key that holds a number, of this body";
-        return Err(CaseError::value("along", key, allowed));
+    let (key, value) = followed(parameters, key)?;
+    check_range(key, value, [low, high])?;
+    let step = checked_step(step)?;
+    let range = [low, high];
+    Ok((key, value, Along { range, step, most }))
+}
+
+/// Two keys along which a curve is followed, each with its range, and how it is followed. Without a range a
+/// key goes from half to twice its value, or from -1 to 1 around 0, as far as it can.
+///
+/// # Errors
+/// As for [`along`], and if both keys are one.
+pub fn across(
+    parameters: &Parameters,
+    keys: [(&str, Option<[f64; 2]>); 2],
+    step: f64,
+    most: usize,
+) -> Result<([&'static str; 2], Across), CaseError> {
+    let of = |(key, range): (&str, Option<[f64; 2]>)| {
+        let (key, value) = followed(parameters, key)?;
+        let range = match range {
+            Some(range) => range,
+            None => usual_range(key, value)?,
+        };
+        check_range(key, value, range)?;
+        Ok::<_, CaseError>((key, range))
     };
+    let [(first, a), (second, b)] = [of(keys[0])?, of(keys[1])?];
+    if first == second {
+        return Err(CaseError::value("along", first, "two different keys"));
+    }
+    let across = Across {
+        ranges: [a, b],
+        step: checked_step(step)?,
+        most,
+    };
+    Ok(([first, second], across))
+}
+
+fn usual_range(key: &str, value: f64) -> Result<[f64; 2], CaseError> {
+    let [a, b] = match value {
+        0.0 => [-1.0, 1.0],
+        value => [0.5 * value, 2.0 * value],
+    };
+    let (low, high) = (a.min(b), a.max(b));
+    Ok(match key_named(key)?.kind {
+        Kind::Number(bounds) => [low.max(bounds.low), high.min(bounds.high)],
+        _ => [low, high],
+    })
+}
+
+/// A key that orbits change with, and its value.
+fn followed(parameters: &Parameters, key: &str) -> Result<(&'static str, f64), CaseError> {
+    let key = key_named(key)?.name;
+    if !UNCERTAIN_KEYS.contains(&key) {
+        let allowed = format!(
+            "a key that orbits change with: one of {}",
+            UNCERTAIN_KEYS.join(", ")
+        );
+        return Err(CaseError::value("along", key, allowed));
+    }
+    let value = parameters.get(key).as_ref().and_then(Value::number);
+    let allowed = "a key that holds a number, of this body";
+    let value = value.ok_or_else(|| CaseError::value("along", key, allowed))?;
+    Ok((key, value))
+}
+
+fn check_range(key: &str, value: f64, [low, high]: [f64; 2]) -> Result<(), CaseError> {
     let range = format!("{low}:{high}");
     for end in [low, high] {
         check_entry(key, &Value::Number(end))?;
@@ -64,13 +128,13 @@ pub fn along(
         let allowed = format!("a range that holds the value of the case, {key} = {value}");
         return Err(CaseError::value(key, range, allowed));
     }
-    if !(step > 0.0 && step <= 1.0) {
-        return Err(CaseError::value(
-            "step",
-            step,
-            "a number above 0, at most 1",
-        ));
+    Ok(())
+}
+
+fn checked_step(step: f64) -> Result<f64, CaseError> {
+    if step > 0.0 && step <= 1.0 {
+        return Ok(step);
     }
-    let range = [low, high];
-    Ok((key, value, Along { range, step, most }))
+    let allowed = "a number above 0, at most 1";
+    Err(CaseError::value("step", step, allowed))
 }

@@ -198,6 +198,13 @@ impl Orbit {
         self.why_not.is_empty()
     }
 
+    /// The same orbit at a graze, where rounding decides whether a run has the snap without speed: what
+    /// a body could have is told without the run.
+    pub(crate) fn at_graze(mut self) -> Self {
+        self.why_not = self.survey.why_not(&self.lap.durations);
+        self
+    }
+
     /// How far its section is from a start near which it was looked for, where it is so far that
     /// another orbit may have been meant.
     pub fn far_from(&self, start: &Point) -> Option<f64> {

@@ -56,7 +56,7 @@ impl Unknowns {
         }
     }
 
-    fn moved(&self, variables: &[usize], by: &DVector<f64>) -> Self {
+    pub(crate) fn moved(&self, variables: &[usize], by: &DVector<f64>) -> Self {
         let mut moved = self.clone();
         add(&mut moved.z, &mut moved.durations, variables, by);
         let known = variables.len() + self.durations.len();

@@ -2,6 +2,7 @@
 //! files run side by side.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod bifurcations;
 mod certified;
 mod command_line;
 mod common;

@@ -4,7 +4,7 @@ use crate::common::{directory, snapload};
 use predicates::str::contains;
 use serde_json::Value;
 
-const VOLLEY: [&str; 13] = [
+pub const VOLLEY: [&str; 13] = [
     "--set",
     "body=point",
     "--set",
@@ -20,7 +20,7 @@ const VOLLEY: [&str; 13] = [
     "--json",
 ];
 
-fn json(verb: &str, args: &[&str]) -> Value {
+pub fn json(verb: &str, args: &[&str]) -> Value {
     let d = directory();
     let out = snapload(d.path())
         .arg(verb)
@@ -32,7 +32,7 @@ fn json(verb: &str, args: &[&str]) -> Value {
     serde_json::from_slice(&out.get_output().stdout).unwrap()
 }
 
-fn refused(args: &[&str], why: &str) {
+pub fn refused(args: &[&str], why: &str) {
     let d = directory();
     snapload(d.path())
         .args(args)
@@ -41,7 +41,7 @@ fn refused(args: &[&str], why: &str) {
         .stderr(contains(why));
 }
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
@@ -88,105 +88,9 @@ fn an_orbit_far_from_its_start_says_so() {
     assert!(json("orbit", &[])["start_distance"].is_null());
 }
 
-#[test]
-fn a_branch_has_its_fold() {
-    let branch = json(
-        "branch",
-        &[
-            "--along",
-            "f_o=1.3:1.45",
-            "--step",
-            "0.05",
-            "--events",
-            "fold",
-        ],
-    );
-    let events = branch["events"].as_array().unwrap();
-    assert_eq!(events.len(), 1);
-    assert_eq!(events[0]["kind"], "fold");
-    assert!((number(&events[0]["value"]) - 1.304034132999962).abs() < 1e-12);
-    assert!(branch["points"].as_array().unwrap().len() > 5);
-    assert_eq!(branch["ends"].as_array().unwrap().len(), 2);
-}
-
 /// At its birth an orbit of two periods has the squares of the multipliers, and the parameter goes
 /// with the square of how far its two laps are apart.
-#[test]
-fn a_branch_goes_over_at_a_doubling() {
-    let args = [
-        "--along",
-        "f_o=1.2:2",
-        "--switch",
-        "period_doubling",
-        "--step",
-        "0.002",
-    ];
-    let branch = json("branch", &args);
-    let from = branch["from"].as_array().unwrap();
-    assert_eq!(from.len(), 1);
-    assert_eq!(from[0]["kind"], "period_doubling");
-    // 50 digits by an independent program, rounded.
-    let born = 1.680507876014799;
-    assert!((number(&from[0]["value"]) - born).abs() < 1e-9);
-    assert_eq!(branch["ends"][0]["because"], "the period doubling");
-    let points = branch["points"].as_array().unwrap();
-    let first = number(&points[0]["multipliers"][0][0]);
-    assert!(
-        (first - 3.550_316_587_225_957_f64.powi(2)).abs() < 1e-6,
-        "{first}"
-    );
-    let mut ratios = Vec::new();
-    for point in &points[1..4] {
-        assert_eq!(point["symbol"].as_array().unwrap().len(), 4);
-        assert!(number(&point["return_error"]) < 1e-11);
-        let pairs = point["section"].as_array().unwrap().iter();
-        let pairs = pairs.zip(from[0]["state"].as_array().unwrap());
-        let square: f64 = pairs.map(|(a, b)| (number(a) - number(b)).powi(2)).sum();
-        ratios.push((number(&point["value"]) - born) / square);
-    }
-    assert!(ratios[0] > 0.0, "{ratios:?}");
-    assert!((ratios[1] / ratios[0] - 1.0).abs() < 0.1, "{ratios:?}");
-}
-
 /// An attractor of two periods is followed as such.
-#[test]
-fn a_branch_begins_with_the_period_of_the_attractor() {
-    let keys = ["r=1.976", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.8"];
-    let set = keys.iter().flat_map(|key| ["--set", key]);
-    let args: Vec<&str> = set.chain(["--along", "f_o=1.75:1.85"]).collect();
-    let branch = json("branch", &args);
-    let points = branch["points"].as_array().unwrap();
-    assert!(points.iter().all(|point| point["admissible"] == true));
-    // One snap a period, as the reference's diagram has it.
-    assert_eq!(points[0]["symbol"].as_array().unwrap().len(), 2);
-    assert_eq!(points[0]["stable"], true);
-}
-
-#[test]
-fn a_doubling_that_is_not_there_is_refused() {
-    let one = "of the kind period doubling the branch has 1 in its range, at 1.680508";
-    for (switches, code, why) in [
-        (&["fold"][..], 2, "write period_doubling"),
-        (&["period_doubling:0"], 2, "write period_doubling"),
-        (&["period_doubling:2"], 1, one),
-        (
-            &["period_doubling:1"; 2],
-            1,
-            "the branch has no period doubling",
-        ),
-    ] {
-        let d = directory();
-        snapload(d.path())
-            .arg("branch")
-            .args(&VOLLEY[..VOLLEY.len() - 1])
-            .args(["--along", "f_o=1.2:1.75"])
-            .args(switches.iter().flat_map(|switch| ["--switch", switch]))
-            .assert()
-            .code(code)
-            .stderr(contains(why));
-    }
-}
-
 #[test]
 fn a_section_knows_its_period() {
     let section = json("section", &["--periods", "1000", "--keep", "500"]);
@@ -211,6 +115,7 @@ fn a_section_knows_its_period() {
     assert_eq!(diagram["rows"][1]["restarted"], false);
 }
 
+/// Every point of a curve is the special point of the branch at its value of the second key.
 /// The impacts of a stable motion are the events of its orbit, which is closed by Newton's method.
 #[test]
 fn the_section_at_impacts_is_that_of_the_orbit() {
@@ -254,60 +159,6 @@ fn a_motion_without_a_period_is_told_as_one() {
         let section = json("section", &[&set[..], &["--keep", keep]].concat());
         assert!(section["period"].is_null(), "{keep}: {}", section["period"]);
     }
-}
-
-#[test]
-fn sections_and_branches_are_drawn() {
-    let d = directory();
-    let run = |args: &[&str]| {
-        let mut command = snapload(d.path());
-        command.arg(args[0]).args(&VOLLEY[..VOLLEY.len() - 1]);
-        command.args(&args[1..]).assert()
-    };
-    let branch = [
-        "branch",
-        "--along",
-        "f_o=1.2:4",
-        "--plot",
-        "b.svg",
-        "--show",
-        "y_max",
-    ];
-    run(&branch).success().stdout(contains("b.svg"));
-    let picture = std::fs::read_to_string(d.path().join("b.svg")).unwrap();
-    for word in [
-        "stable",
-        "unstable",
-        "no body has it",
-        "fold",
-        "corner",
-        "bound",
-        "y max",
-    ] {
-        assert!(picture.contains(&format!(">{word}<")), "{word}");
-    }
-    let impacts = [
-        "section", "--at", "impacts", "--plot", "i.svg", "--out", "i.csv",
-    ];
-    run(&impacts).success();
-    let picture = std::fs::read_to_string(d.path().join("i.svg")).unwrap();
-    assert!(picture.contains("cable 1") && picture.contains("cable 2"));
-    let table = std::fs::read_to_string(d.path().join("i.csv")).unwrap();
-    assert!(
-        table.starts_with("t,phase,cable,v_n,impulse,x,y,theta,vx_before,"),
-        "{table}"
-    );
-    assert_eq!(table.lines().count(), 201);
-    run(&["section", "--plot", "s.png", "--show", "vy"]).success();
-    let picture = std::fs::read(d.path().join("s.png")).unwrap();
-    assert!(picture.starts_with(b"\x89PNG"));
-    let refused = ["section", "--plot", "s.svg", "--show", "v_n"];
-    run(&refused)
-        .code(2)
-        .stderr(contains("one or two of the columns x, y"));
-    run(&["section", "--plot", "s.pdf"])
-        .code(2)
-        .stderr(contains(".svg or .png"));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use snapload_orbits::{
 };
 
 /// One snap of surface 0 in slack flight.
-fn one_snap() -> Sequence {
+pub fn one_snap() -> Sequence {
     let struck = TautSet::only(0);
     let happening = Happening::Snap {
         struck,
@@ -108,9 +108,10 @@ fn the_oscillator_against_a_wall_has_its_closed_orbits() {
     assert!(compared >= 6);
 }
 
-/// A point mass above an anchor, on a vertical cable of length R; force 1 down, Γ sin Ωt.
-fn table(e: f64, r: f64, omega: f64) -> Moored {
-    fn system<T: Real>(gamma: T, [e, r, omega]: [f64; 3]) -> (System<T>, Rules<T>) {
+/// A point mass above an anchor, on a vertical cable of length R; force 1 down, Γ sin Ωt. The
+/// parameters are Γ and e.
+pub fn table(r: f64, omega: f64) -> Moored {
+    fn system<T: Real>([gamma, e]: [T; 2], [r, omega]: [f64; 2]) -> (System<T>, Rules<T>) {
         let [zero, one] = [T::ZERO, T::ONE];
         let wave = Harmonic {
             omega: T::from_f64(omega),
@@ -127,21 +128,26 @@ fn table(e: f64, r: f64, omega: f64) -> Moored {
             },
             drag: None,
             floating: None,
-            restitution: T::from_f64(e),
+            restitution: e,
         };
         (system, Rules::until(zero))
     }
-    let numbers = [e, r, omega];
+    let numbers = [r, omega];
     Moored::new(
         false,
-        move |at| system(at[0], numbers),
-        move |at| system(at[0], numbers),
+        move |at| system(at, numbers),
+        move |at| system(at, numbers),
     )
 }
 
 /// The stable bouncing of one snap each n periods, from a start that it attracts.
-fn bouncing(family: &Moored, gamma: f64, e: f64, n: u32) -> Orbit {
-    let at = [gamma, 0.0];
+pub fn bouncing(family: &Moored, at: [f64; 2], n: u32) -> Orbit {
+    bouncing_from(family, at, n, 0.0)
+}
+
+/// The same from a section at a part of a period.
+pub fn bouncing_from(family: &Moored, at: [f64; 2], n: u32, phase: f64) -> Orbit {
+    let [gamma, e] = at;
     let length = f64::from(n) * family.period(at);
     let u = length / (1.0 + e);
     // Where v_y is back after a lap, Γ cos Ωt = nπ (1 − e)/(1 + e) at the snap.
@@ -149,20 +155,21 @@ fn bouncing(family: &Moored, gamma: f64, e: f64, n: u32) -> Orbit {
     let omega = std::f64::consts::TAU / family.period(at);
     // Of the two phases the one with falling force is stable.
     let phases = [cosine.acos(), -cosine.acos() + std::f64::consts::TAU];
-    let mut found = phases.map(|phase| {
-        let t = phase / omega;
+    let mut found = phases.map(|angle| {
+        let t = angle / omega;
         let system = family.plain(at);
         let before = [0.0, 0.0, 0.0, 0.0, -u, 0.0];
-        let z = Hybrid::flow(&system, TautSet::SLACK, t, &before, -t);
+        let first = (t - phase * family.period(at)).rem_euclid(length);
+        let z = Hybrid::flow(&system, TautSet::SLACK, t, &before, -first);
         let sequence = one_snap();
         let lap = Lap {
             family,
             at,
             sequence: &sequence,
-            phase: 0.0,
+            phase,
             periods: n,
         };
-        close(&lap, &z, &[t]).map(|closed| Orbit::of(&lap, &closed))
+        close(&lap, &z, &[first]).map(|closed| Orbit::of(&lap, &closed))
     });
     let stable = |orbit: &Option<Orbit>| {
         let orbit = orbit.as_ref();
@@ -197,8 +204,8 @@ fn vertical(orbit: &Orbit) -> [f64; 2] {
 fn the_ball_on_a_table_has_its_multipliers() {
     let known = &reference()["closed_forms"]["one_cable_vertical"];
     let value = |key: &str| number(&known[key]);
-    let family = table(value("e"), value("R"), value("omega"));
-    let orbit = bouncing(&family, value("Gamma"), value("e"), 1);
+    let family = table(value("R"), value("omega"));
+    let orbit = bouncing(&family, [value("Gamma"), value("e")], 1);
     assert!((orbit.rows[0].speed - value("impact_speed")).abs() < 1e-11);
     let [trace, determinant] = vertical(&orbit);
     assert!((trace - value("vertical_trace")).abs() < 1e-10, "{trace}");
@@ -214,8 +221,8 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
         let (e, n) = (number(&row["e"]), row["n"].as_u64().unwrap() as u32);
         let [born, doubles] = ["existence", "period_doubling"].map(|key| number(&row[key]));
         // A cable so long that the transverse motion stays stable.
-        let family = table(e, 400.0, 3.0);
-        let orbit = bouncing(&family, 0.5 * (born + doubles), e, n);
+        let family = table(400.0, 3.0);
+        let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
         let along = Along {
             range: [0.5 * born, 1.1 * doubles],
             step: 0.02,
@@ -246,8 +253,8 @@ fn the_ball_on_a_table_is_born_and_doubles_where_it_must() {
 fn the_ball_doubles_its_period_again_and_again() {
     let row = &reference()["closed_forms"]["table"][0];
     let (e, doubles) = (number(&row["e"]), number(&row["period_doubling"]));
-    let family = table(e, 4000.0, 3.0);
-    let orbit = bouncing(&family, 0.98 * doubles, e, 1);
+    let family = table(4000.0, 3.0);
+    let orbit = bouncing(&family, [0.98 * doubles, e], 1);
     let mut along = Along {
         range: [0.97 * doubles, 1.3 * doubles],
         step: 0.02,

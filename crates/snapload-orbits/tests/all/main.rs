@@ -6,6 +6,7 @@ mod basins;
 mod branches;
 mod closed_forms;
 mod common;
+mod curves;
 mod diagrams;
 mod held;
 mod orbits;

@@ -1,0 +1,258 @@
+//! `snapload curve`: special orbits as two keys change.
+use crate::bar::Bar;
+use crate::branch::{OF_ORBITS, of_orbit};
+use crate::case_input::CaseArgs;
+use crate::failure::{Failure, print};
+use crate::json::JsonArgs;
+use crate::orbit::NearArgs;
+use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
+use crate::stage::Stage;
+use crate::table::{TableFile, names};
+use serde::Serialize;
+use snapload::analysis::{OnProgress, Progress};
+use snapload::{Parameters, key_named};
+use snapload_figures::Layer;
+use snapload_orbits::{
+    Across, Along, Branch, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit,
+    curve_in_words,
+};
+use snapload_report::{CaseEcho, case_in_words};
+use snapload_study::{Side, Values};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Beyond a fold there is no orbit, beyond a doubling another one, beyond a graze another sequence of snaps: a curve of
+such points in two keys divides the cases that behave alike from the others. The orbit near --start, or the one that
+the motion of the case comes to, is followed along the first key until points of the kind are found; from the nearest
+one along the branch, or the N-th, both keys change. Each point solves the equations of the orbit and of the point at
+once, to rounding. A curve ends at the ranges, at a corner, and where another snap has no speed left.
+
+  fold    an orbit and its unstable partner meet            pd      the period doubles
+  ns      a pair of multipliers is on the unit circle       graze   a cable is touched at no speed
+
+Examples:
+  snapload curve --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
+      --follow fold --along f_o=1:2,omega=2.5:3.5 --plot fold.svg --out fold.parquet
+      where in (f_o, omega) the stable orbit of two snaps begins
+  snapload curve --set body=point --set r=1.6 --set e=0.6 --set f_o=1.4 --set nu=1 --set omega=3.3 \\
+      --start x=-0.0086,y=0.7632,vx=1.0527,vy=-0.7738 --follow ns --along f_o,e --json -
+      where it gives way to a torus; the keys go from half to twice their values";
+
+/// Which case, which orbit, which points, which keys.
+#[derive(clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    case: CaseArgs,
+    #[command(flatten)]
+    near: NearArgs,
+    /// What is followed: the nearest such point along the first key, or the N-th that snapload branch lists
+    #[arg(long, value_name = "fold|pd|ns|graze[:N]")]
+    follow: String,
+    /// The two keys that change, and between which values; without them from half to twice the case's
+    #[arg(
+        long,
+        value_name = "K1[=low:high],K2[=low:high]",
+        allow_hyphen_values = true
+    )]
+    along: String,
+    /// Length of the first step, in the space of state, times of events, and the keys
+    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    step: f64,
+    /// Points in either direction at most
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    points: u32,
+    /// Write a table with a row a point, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    plot: PlotArgs,
+    #[command(flatten)]
+    json: JsonArgs,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    case: CaseEcho<'a>,
+    #[serde(flatten)]
+    curve: CurveRow,
+}
+
+/// Runs it.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let (name, parameters) = args.case.parameters()?;
+    let what = follow(&args.follow)?;
+    let (keys, across) = across(args, &parameters)?;
+    args.near.read(&parameters)?;
+    let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
+    let known = [&keys[..], &OF_ORBITS, &COEFFICIENTS].concat();
+    let plot = args.plot.open(&mut stage, keys, &known)?;
+    let json = args.json.open(&mut stage)?;
+    let bar = Bar::new();
+    let on_progress = |progress: Progress| bar.show(progress);
+    let (event, curve) = found(args, &parameters, (keys, &across), what, &on_progress)?;
+    drop(bar);
+    table.stage(&mut stage, &columns(keys, &curve))?;
+    if let Some(plot) = plot {
+        let layers = layers(keys, &curve, &plot);
+        plot.stage(&mut stage, &case_in_words(&name, &parameters), layers)?;
+    }
+    let row = Answer {
+        case: CaseEcho(&parameters),
+        curve: CurveRow::new(keys, &curve, &event),
+    };
+    let Some(written) = json.write(stage, &row)? else {
+        return Ok(());
+    };
+    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+    text.push_str(&curve_in_words(keys, &curve, &event));
+    for path in written {
+        let _ = writeln!(text, "Written   {}", path.display());
+    }
+    print(&text)
+}
+
+/// The special point that the curve begins at, and the curve.
+fn found(
+    args: &Args,
+    parameters: &Parameters,
+    (keys, across): ([&'static str; 2], &Across),
+    (kind, number): (Kind, Option<usize>),
+    on_progress: OnProgress,
+) -> Result<(BranchEvent, Curve), Failure> {
+    let keys = keys.map(Some);
+    let family = Moored::case(*parameters, keys);
+    let at = Moored::values(parameters, keys);
+    let orbit: Orbit = args.near.orbit(&family, at, parameters, on_progress)?;
+    let here = BranchEvent::here(kind, &orbit).filter(|_| number.is_none());
+    let event = match here {
+        Some(event) => event,
+        None => {
+            let along = Along {
+                range: across.ranges[0],
+                step: across.step,
+                most: args.points as usize,
+            };
+            let branch = Branch::of(&family, &orbit, &along, on_progress)?;
+            let event = branch.event(kind, number);
+            let event = event.map_err(|why| {
+                Failure::Failed(format!(
+                    "--follow: along {}: {why}",
+                    keys[0].unwrap_or_default()
+                ))
+            })?;
+            event.clone()
+        }
+    };
+    let curve = Curve::of(&family, &event, across, on_progress)?;
+    let curve = curve.map_err(|why| Failure::Failed(format!("--follow: {why}")))?;
+    Ok((event, curve))
+}
+
+/// What is followed, and which of them.
+fn follow(text: &str) -> Result<(Kind, Option<usize>), Failure> {
+    let (word, number) = match text.split_once(':') {
+        Some((word, number)) => (word, Some(number)),
+        None => (text, None),
+    };
+    let kind = match word.trim() {
+        "fold" => Some(Kind::Fold),
+        "pd" | "period_doubling" => Some(Kind::PeriodDoubling),
+        "ns" | "neimark_sacker" => Some(Kind::NeimarkSacker),
+        "graze" => Some(Kind::Graze),
+        _ => None,
+    };
+    let count = number.map(|number| number.trim().parse().ok().filter(|n: &usize| *n > 0));
+    match (kind, count) {
+        (Some(kind), None) => Ok((kind, None)),
+        (Some(kind), Some(Some(count))) => Ok((kind, Some(count))),
+        _ => Err(Failure::BadInput(format!(
+            "--follow {text:?}: write fold, pd, ns or graze, or one of them with :N, N = 1, 2, ..., for the N-th \
+             of the branch along the first key"
+        ))),
+    }
+}
+
+/// The keys, and how they change.
+fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Across), Failure> {
+    let text = &args.along;
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [first, second] = parts[..] else {
+        return Err(Failure::BadInput(format!(
+            "--along {text:?}: two keys are needed with a comma between them, such as --along f_o=1:2,omega=2.5:3.5"
+        )));
+    };
+    let of = |part: &'_ str| match part.split_once('=') {
+        Some((key, range)) => {
+            let side = Side::written(key.trim(), range.trim())
+                .map_err(|error| Failure::from(error).with_prefix("--along"))?;
+            Ok::<_, Failure>((side.key(), Some(side.ends())))
+        }
+        None => Ok((key_named(part)?.name, None)),
+    };
+    let keys = [of(first)?, of(second)?];
+    let most = args.points as usize;
+    Ok(snapload_orbits::across(parameters, keys, args.step, most)?)
+}
+
+/// What of a point is a number beside what of its orbit is.
+const COEFFICIENTS: [&str; 3] = ["coefficient", "normal_acceleration", "sqrt_coefficient"];
+
+fn of_point(column: &str, keys: [&str; 2], point: &CurvePoint) -> f64 {
+    let value = match column {
+        "coefficient" => point.coefficient,
+        "normal_acceleration" => point.normal_acceleration,
+        "sqrt_coefficient" => point.sqrt_coefficient,
+        other => Some(of_orbit(other, keys, &point.orbit, point.arclength)),
+    };
+    value.unwrap_or(f64::NAN)
+}
+
+fn columns(keys: [&'static str; 2], curve: &Curve) -> Vec<(&'static str, Values)> {
+    let points = || curve.points.iter();
+    let number = |column: &'static str| {
+        let values = points().map(|point| of_point(column, keys, point));
+        let values = values.map(|value| Some(value).filter(|value| value.is_finite()));
+        (column, Values::Numbers(values.collect()))
+    };
+    let others = OF_ORBITS.into_iter().chain(COEFFICIENTS);
+    let mut columns: Vec<_> = others.map(number).collect();
+    columns.splice(1..1, keys.map(number));
+    let symbols = points().map(|point| Some(point.orbit.lap.sequence.symbol().join(" ").into()));
+    columns.push(("symbol", Values::Words(symbols.collect())));
+    let others = points().map(|point| Some(point.others.name()));
+    columns.push(("others", names(others)));
+    let real = points().map(|point| Some(point.orbit.is_admissible()));
+    columns.push(("admissible", Values::Flags(real.collect())));
+    columns
+}
+
+/// How the sorts of points are called.
+const OF_CURVES: [&str; 4] = [
+    "of a stable orbit",
+    "of a neutral orbit",
+    "of an unstable orbit",
+    "no body has it",
+];
+
+fn layers(keys: [&str; 2], curve: &Curve, plot: &PlotFile) -> Vec<Layer> {
+    let [x, y] = &plot.axes;
+    let at = |point| [x, y].map(|column| of_point(column, keys, point));
+    let points = curve.points.iter();
+    let all: Vec<Drawn> = points
+        .map(|point| Drawn {
+            at: at(point),
+            orbit: &point.orbit,
+            stability: point.others,
+            event: None,
+        })
+        .collect();
+    let velocities = ["vx", "vy", "vtheta"];
+    let jumps = plot
+        .axes
+        .iter()
+        .any(|column| velocities.contains(&column.as_str()));
+    branch_layers(&all, jumps, OF_CURVES)
+}

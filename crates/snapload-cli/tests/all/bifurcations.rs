@@ -1,0 +1,270 @@
+//! Branches and curves by the command, and pictures of them.
+
+use crate::common::{directory, snapload};
+use crate::orbits::{VOLLEY, json, number, refused};
+use predicates::str::contains;
+use serde_json::Value;
+
+#[test]
+fn a_branch_has_its_fold() {
+    let branch = json(
+        "branch",
+        &[
+            "--along",
+            "f_o=1.3:1.45",
+            "--step",
+            "0.05",
+            "--events",
+            "fold",
+        ],
+    );
+    let events = branch["events"].as_array().unwrap();
+    assert_eq!(events.len(), 1);
+    assert_eq!(events[0]["kind"], "fold");
+    assert!((number(&events[0]["value"]) - 1.304034132999962).abs() < 1e-12);
+    assert!(branch["points"].as_array().unwrap().len() > 5);
+    assert_eq!(branch["ends"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_branch_goes_over_at_a_doubling() {
+    let args = [
+        "--along",
+        "f_o=1.2:2",
+        "--switch",
+        "period_doubling",
+        "--step",
+        "0.002",
+    ];
+    let branch = json("branch", &args);
+    let from = branch["from"].as_array().unwrap();
+    assert_eq!(from.len(), 1);
+    assert_eq!(from[0]["kind"], "period_doubling");
+    // 50 digits by an independent program, rounded.
+    let born = 1.680507876014799;
+    assert!((number(&from[0]["value"]) - born).abs() < 1e-9);
+    assert_eq!(branch["ends"][0]["because"], "the period doubling");
+    let points = branch["points"].as_array().unwrap();
+    let first = number(&points[0]["multipliers"][0][0]);
+    assert!(
+        (first - 3.550_316_587_225_957_f64.powi(2)).abs() < 1e-6,
+        "{first}"
+    );
+    let mut ratios = Vec::new();
+    for point in &points[1..4] {
+        assert_eq!(point["symbol"].as_array().unwrap().len(), 4);
+        assert!(number(&point["return_error"]) < 1e-11);
+        let pairs = point["section"].as_array().unwrap().iter();
+        let pairs = pairs.zip(from[0]["state"].as_array().unwrap());
+        let square: f64 = pairs.map(|(a, b)| (number(a) - number(b)).powi(2)).sum();
+        ratios.push((number(&point["value"]) - born) / square);
+    }
+    assert!(ratios[0] > 0.0, "{ratios:?}");
+    assert!((ratios[1] / ratios[0] - 1.0).abs() < 0.1, "{ratios:?}");
+}
+
+#[test]
+fn a_branch_begins_with_the_period_of_the_attractor() {
+    let keys = ["r=1.976", "e=0.71", "nu=0.87", "omega=4.847", "f_o=1.8"];
+    let set = keys.iter().flat_map(|key| ["--set", key]);
+    let args: Vec<&str> = set.chain(["--along", "f_o=1.75:1.85"]).collect();
+    let branch = json("branch", &args);
+    let points = branch["points"].as_array().unwrap();
+    assert!(points.iter().all(|point| point["admissible"] == true));
+    // One snap a period, as the reference's diagram has it.
+    assert_eq!(points[0]["symbol"].as_array().unwrap().len(), 2);
+    assert_eq!(points[0]["stable"], true);
+}
+
+#[test]
+fn a_doubling_that_is_not_there_is_refused() {
+    let one = "of the kind period doubling the branch has 1 in its range, at 1.680508";
+    for (switches, code, why) in [
+        (&["fold"][..], 2, "write period_doubling"),
+        (&["period_doubling:0"], 2, "write period_doubling"),
+        (&["period_doubling:2"], 1, one),
+        (
+            &["period_doubling:1"; 2],
+            1,
+            "the branch has no period doubling",
+        ),
+    ] {
+        let d = directory();
+        snapload(d.path())
+            .arg("branch")
+            .args(&VOLLEY[..VOLLEY.len() - 1])
+            .args(["--along", "f_o=1.2:1.75"])
+            .args(switches.iter().flat_map(|switch| ["--switch", switch]))
+            .assert()
+            .code(code)
+            .stderr(contains(why));
+    }
+}
+
+#[test]
+fn a_curve_of_folds_is_one_of_branches() {
+    let d = directory();
+    let args = ["--follow", "fold", "--along", "f_o=1:2,omega=2.9:3.3"];
+    let files = ["--out", "c.csv", "--plot", "c.svg", "--json", "c.json"];
+    snapload(d.path())
+        .arg("curve")
+        .args(&VOLLEY[..VOLLEY.len() - 1])
+        .args(args)
+        .args(files)
+        .assert()
+        .success()
+        .stdout(contains("omega from 2.900000 to 3.300000"));
+    let read = |name: &str| std::fs::read_to_string(d.path().join(name)).unwrap();
+    let curve: Value = serde_json::from_str(&read("c.json")).unwrap();
+    assert_eq!(curve["follow"], "fold");
+    assert_eq!(curve["along"], serde_json::json!(["f_o", "omega"]));
+    assert!((number(&curve["from"]["value"]) - 1.304034132999962).abs() < 1e-9);
+    let points = curve["points"].as_array().unwrap();
+    let (f_o, omega) = (&points[0]["values"][0], &points[0]["values"][1]);
+    assert_eq!(points[0]["others"], true);
+    assert!((number(omega) - 2.9).abs() < 1e-9 || (number(omega) - 3.3).abs() < 1e-9);
+    let args = ["--set", &format!("omega={omega}"), "--along", "f_o=1:2"];
+    let branch = json("branch", &[&args[..], &["--events", "fold"]].concat());
+    let fold = number(&branch["events"][0]["value"]);
+    assert!((fold - number(f_o)).abs() < 1e-9, "{fold} {f_o}");
+    assert_eq!(read("c.csv").lines().count(), points.len() + 1);
+    assert!(read("c.csv").starts_with("arclength,f_o,omega,x,y,"));
+    assert!(read("c.svg").contains("of a stable orbit"));
+    // From the event as it was told.
+    let state = &branch["events"][0]["state"];
+    let start = format!(
+        "x={},y={},vx={},vy={}",
+        state[0], state[1], state[3], state[4]
+    );
+    let args = [
+        "--set",
+        &format!("omega={omega}"),
+        "--set",
+        &format!("f_o={fold}"),
+    ];
+    let rest = [
+        "--start",
+        &start,
+        "--follow",
+        "fold",
+        "--along",
+        "f_o,omega=2.8:3.4",
+    ];
+    let again = json("curve", &[&args[..], &rest].concat());
+    assert!((number(&again["from"]["value"]) - fold).abs() < 1e-9);
+}
+
+#[test]
+fn a_curve_that_can_not_be_is_refused() {
+    let volley = &VOLLEY[..VOLLEY.len() - 1];
+    for (args, code, why) in [
+        (
+            ["--follow", "torus", "--along", "f_o,e"],
+            2,
+            "write fold, pd, ns or graze",
+        ),
+        (
+            ["--follow", "fold:0", "--along", "f_o,e"],
+            2,
+            "N = 1, 2, ...",
+        ),
+        (
+            ["--follow", "fold", "--along", "f_o"],
+            2,
+            "two keys are needed",
+        ),
+        (
+            ["--follow", "fold", "--along", "f_o,f_o"],
+            2,
+            "two different keys",
+        ),
+        (
+            ["--follow", "fold", "--along", "f_o,x"],
+            2,
+            "a key that orbits change with: one of r, e",
+        ),
+        (
+            ["--follow", "fold", "--along", "f_o=1.5:2,e"],
+            2,
+            "a range that holds the value",
+        ),
+        (
+            ["--follow", "fold:2", "--along", "f_o=1:2,e"],
+            1,
+            "of the kind fold the branch has 1",
+        ),
+        (
+            ["--follow", "ns", "--along", "f_o=1:2,e"],
+            1,
+            "along f_o: the branch has no neimark sacker",
+        ),
+    ] {
+        let d = directory();
+        let mut command = snapload(d.path());
+        command
+            .arg("curve")
+            .args(volley)
+            .args(args)
+            .assert()
+            .code(code)
+            .stderr(contains(why));
+    }
+    refused(
+        &["branch", "--along", "t_end=1:50"],
+        "a key that orbits change with",
+    );
+}
+
+#[test]
+fn sections_and_branches_are_drawn() {
+    let d = directory();
+    let run = |args: &[&str]| {
+        let mut command = snapload(d.path());
+        command.arg(args[0]).args(&VOLLEY[..VOLLEY.len() - 1]);
+        command.args(&args[1..]).assert()
+    };
+    let branch = [
+        "branch",
+        "--along",
+        "f_o=1.2:4",
+        "--plot",
+        "b.svg",
+        "--show",
+        "y_max",
+    ];
+    run(&branch).success().stdout(contains("b.svg"));
+    let picture = std::fs::read_to_string(d.path().join("b.svg")).unwrap();
+    for word in [
+        "stable",
+        "unstable",
+        "no body has it",
+        "fold",
+        "corner",
+        "bound",
+        "y max",
+    ] {
+        assert!(picture.contains(&format!(">{word}<")), "{word}");
+    }
+    let impacts = [
+        "section", "--at", "impacts", "--plot", "i.svg", "--out", "i.csv",
+    ];
+    run(&impacts).success();
+    let picture = std::fs::read_to_string(d.path().join("i.svg")).unwrap();
+    assert!(picture.contains("cable 1") && picture.contains("cable 2"));
+    let table = std::fs::read_to_string(d.path().join("i.csv")).unwrap();
+    assert!(
+        table.starts_with("t,phase,cable,v_n,impulse,x,y,theta,vx_before,"),
+        "{table}"
+    );
+    assert_eq!(table.lines().count(), 201);
+    run(&["section", "--plot", "s.png", "--show", "vy"]).success();
+    let picture = std::fs::read(d.path().join("s.png")).unwrap();
+    assert!(picture.starts_with(b"\x89PNG"));
+    let refused = ["section", "--plot", "s.svg", "--show", "v_n"];
+    run(&refused)
+        .code(2)
+        .stderr(contains("one or two of the columns x, y"));
+    run(&["section", "--plot", "s.pdf"])
+        .code(2)
+        .stderr(contains(".svg or .png"));
+}

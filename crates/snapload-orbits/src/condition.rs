@@ -1,0 +1,341 @@
+//! What holds along a curve of special orbits, as one equation beside those of the closed lap.
+//!
+//! A matrix A that is singular at the special orbit is bordered, as in W. J. F. Govaerts, *Numerical
+//! Methods for Bifurcations of Dynamical Equilibria* (2000), ch. 3: in
+//!
+//! ```text
+//! [ A   b ] [ v ]   [ 0 ]
+//! [ cᵀ  0 ] [ g ] = [ 1 ]
+//! ```
+//!
+//! g is smooth and zero where A is singular. With the derivatives ∂F of the closed lap's equations by
+//! state z and times, A is ∂F at a fold; ∂F + 2 ∂z/∂z at a period doubling, where P δz = −δz has a
+//! solution in place of P δz = δz; and the second compound matrix of the monodromy matrix, whose
+//! eigenvalues are the products μ_i μ_j, less the unit matrix, where a pair is on the unit circle. The
+//! first two need no speed of a snap to divide by, so that they are smooth through grazes.
+
+use crate::branch_events::{BranchEvent, Kind};
+use crate::hybrid::{DURATION, Family, Hybrid, Jet, Point, constant};
+use crate::orbit::Orbit;
+use crate::tracer::{Tracer, Unknowns};
+use nalgebra::{DMatrix, DVector};
+
+/// What holds.
+#[derive(Clone, Debug)]
+pub(crate) enum Condition {
+    /// A matrix is singular; with what borders it.
+    Singular {
+        of: Kind,
+        left: DVector<f64>,
+        right: DVector<f64>,
+    },
+    /// A slack surface is touched between events.
+    Touch(Contact),
+    /// An event's own snap has no speed.
+    Speed { leg: usize },
+}
+
+/// Where a slack surface comes nearest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact {
+    surface: usize,
+    leg: usize,
+    t: f64,
+}
+
+/// Steps of Newton's method towards the instant at which a surface comes nearest.
+const MOST_STEPS: usize = 8;
+/// Difference quotients are taken over this.
+const STEP: f64 = 3e-6;
+
+impl Condition {
+    /// That of an event; none where the event is none of a curve.
+    pub(crate) fn of<F: Family>(
+        tracer: &Tracer<F>,
+        u: &Unknowns,
+        event: &BranchEvent,
+    ) -> Option<Self> {
+        let survey = &event.orbit.survey;
+        match event.kind {
+            Kind::Fold | Kind::PeriodDoubling | Kind::NeimarkSacker => {
+                singular(event.kind, tracer, u)
+            }
+            Kind::Graze if event.is_own_snap => {
+                let leg = survey.least_speed?.leg;
+                Some(Self::Speed { leg })
+            }
+            Kind::Graze => {
+                let nearest = survey.largest_gap?;
+                Some(Self::Touch(Contact {
+                    surface: nearest.surface,
+                    leg: nearest.leg,
+                    t: nearest.t,
+                }))
+            }
+            _ => None,
+        }
+    }
+
+    /// The number that is zero.
+    pub(crate) fn value<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<f64> {
+        match self {
+            Self::Singular { of, left, right } => {
+                Some(solved(&matrix(*of, tracer, u), left, right)?.1)
+            }
+            Self::Touch(contact) => contact.found(tracer, u).map(|(gap, _)| gap),
+            Self::Speed { leg } => {
+                let system = tracer.family.plain(u.at);
+                let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
+                let surface = tracer.sequence.events.get(*leg)?.surface();
+                Some(system.speed(surface, &legs[*leg].end))
+            }
+        }
+    }
+
+    /// Its derivatives by all unknowns and both parameters, by central differences: what is solved
+    /// for is as exact as the number itself.
+    pub(crate) fn slopes<F: Family>(
+        &self,
+        tracer: &Tracer<F>,
+        u: &Unknowns,
+    ) -> Option<DVector<f64>> {
+        let count = tracer.size() + 2;
+        let variables = tracer.family.variables();
+        let mut slopes = DVector::zeros(count);
+        for i in 0..count {
+            let at = |by: f64| {
+                let mut step = DVector::zeros(count);
+                step[i] = by;
+                self.value(tracer, &u.moved(variables, &step))
+            };
+            slopes[i] = (at(STEP)? - at(-STEP)?) / (2.0 * STEP);
+        }
+        slopes
+            .iter()
+            .all(|slope| slope.is_finite())
+            .then_some(slopes)
+    }
+
+    /// The same at a point of the curve: bordered by what is singular there, or with the nearest
+    /// instant of now.
+    pub(crate) fn renewed<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<Self> {
+        match self {
+            Self::Singular { of, left, right } => {
+                let matrix = matrix(*of, tracer, u);
+                let (v, _) = solved(&matrix, left, right)?;
+                let (w, _) = solved(&matrix.transpose(), right, left)?;
+                Some(Self::Singular {
+                    of: *of,
+                    left: w.normalize(),
+                    right: v.normalize(),
+                })
+            }
+            Self::Touch(contact) => {
+                let (_, t) = contact.found(tracer, u)?;
+                Some(Self::Touch(Contact { t, ..*contact }))
+            }
+            Self::Speed { .. } => Some(self.clone()),
+        }
+    }
+
+    /// The same after the events were counted anew.
+    pub(crate) fn counted_anew<F: Family>(
+        &self,
+        tracer: &Tracer<F>,
+        u: &Unknowns,
+        shift: isize,
+    ) -> Option<Self> {
+        let events = tracer.sequence.events.len();
+        match self {
+            Self::Singular { of, .. } => singular(*of, tracer, u),
+            Self::Touch(contact) => {
+                let leg = contact.leg.saturating_add_signed(shift).min(events);
+                Some(Self::Touch(Contact { leg, ..*contact }))
+            }
+            Self::Speed { leg } => {
+                let leg = (*leg as isize + shift).rem_euclid(events as isize) as usize;
+                Some(Self::Speed { leg })
+            }
+        }
+    }
+
+    /// a = −g̈/2r where a surface is touched, be it between events or by a snap without speed.
+    pub(crate) fn normal_acceleration<F: Family>(
+        &self,
+        tracer: &Tracer<F>,
+        u: &Unknowns,
+    ) -> Option<f64> {
+        let (surface, leg, t) = match self {
+            Self::Singular { .. } => return None,
+            Self::Touch(contact) => (contact.surface, contact.leg, Some(contact.t)),
+            Self::Speed { leg } => (tracer.sequence.events.get(*leg)?.surface(), *leg, None),
+        };
+        let system = tracer.family.plain(u.at);
+        let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
+        let leg = legs.get(leg)?;
+        let s = t.map_or(leg.s, |t| t - leg.t);
+        Some(-rate(tracer, u, leg, surface, s))
+    }
+
+    /// The event whose own snap has no speed.
+    pub(crate) fn leg(&self) -> Option<usize> {
+        match self {
+            Self::Speed { leg } => Some(*leg),
+            _ => None,
+        }
+    }
+
+    /// What orbits it makes.
+    pub(crate) fn kind(&self) -> Kind {
+        match self {
+            Self::Singular { of, .. } => *of,
+            Self::Touch(_) | Self::Speed { .. } => Kind::Graze,
+        }
+    }
+
+    /// Whether an orbit is what it should be: a pair that has become real is no torus any more.
+    pub(crate) fn is_met(&self, orbit: &Orbit) -> bool {
+        match self {
+            Self::Singular { of, .. } if *of == Kind::NeimarkSacker => orbit
+                .multipliers
+                .values
+                .iter()
+                .any(|[re, im]| *im != 0.0 && (re.hypot(*im) - 1.0).abs() < 1e-5),
+            _ => true,
+        }
+    }
+}
+
+/// The derivative of the velocity at which a surface closes, a time `s` into a leg.
+fn rate<F: Family>(
+    tracer: &Tracer<F>,
+    u: &Unknowns,
+    leg: &crate::lap::Leg,
+    surface: usize,
+    s: f64,
+) -> f64 {
+    let jets = tracer.family.jets(u.at);
+    let start: Point<Jet> = leg.start.map(constant);
+    let there = jets.flow(
+        leg.held,
+        constant(leg.t),
+        &start,
+        Jet::variable(s, DURATION),
+    );
+    jets.speed(surface, &there).slope[DURATION]
+}
+
+impl Contact {
+    /// The gap where the surface comes nearest, and when that is.
+    fn found<F: Family>(&self, tracer: &Tracer<F>, u: &Unknowns) -> Option<(f64, f64)> {
+        let system = tracer.family.plain(u.at);
+        let legs = tracer.lap(u.at).legs(&system, &u.z, &u.durations);
+        let leg = legs.get(self.leg)?;
+        let mut s = self.t - leg.t;
+        let there = |s: f64| system.flow(leg.held, leg.t, &leg.start, s);
+        for _ in 0..MOST_STEPS {
+            let speed = system.speed(self.surface, &there(s));
+            let step = speed / rate(tracer, u, leg, self.surface, s);
+            s -= step;
+            // The gap is off by the square of what the instant is.
+            if step.abs() < 1e-9 {
+                return Some((system.gap(self.surface, &there(s)), leg.t + s));
+            }
+        }
+        None
+    }
+}
+
+/// A singular matrix with what borders it: its null vectors.
+fn singular<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> Option<Condition> {
+    let svd = matrix(of, tracer, u).try_svd(true, true, f64::EPSILON, 10_000)?;
+    let last = svd.singular_values.imin();
+    Some(Condition::Singular {
+        of,
+        left: svd.u?.column(last).into_owned(),
+        right: svd.v_t?.row(last).transpose(),
+    })
+}
+
+/// The matrix that is singular at a special orbit.
+fn matrix<F: Family>(of: Kind, tracer: &Tracer<F>, u: &Unknowns) -> DMatrix<f64> {
+    let variables = tracer.family.variables();
+    if of == Kind::NeimarkSacker {
+        let linear = tracer.lap(u.at).linearise(&u.z, &u.durations);
+        let mut compound = compound(&linear.monodromy(variables));
+        for i in 0..compound.nrows() {
+            compound[(i, i)] -= 1.0;
+        }
+        return compound;
+    }
+    let (_, mut jacobian) = tracer.equations(u, 0);
+    if of == Kind::PeriodDoubling {
+        for i in 0..variables.len() {
+            jacobian[(i, i)] += 2.0;
+        }
+    }
+    jacobian
+}
+
+/// The second compound matrix, of all minors of two rows and two columns.
+fn compound(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = matrix.nrows();
+    let pairs: Vec<[usize; 2]> = (0..n)
+        .flat_map(|i| (i + 1..n).map(move |j| [i, j]))
+        .collect();
+    DMatrix::from_fn(pairs.len(), pairs.len(), |row, column| {
+        let ([a, b], [c, d]) = (pairs[row], pairs[column]);
+        matrix[(a, c)] * matrix[(b, d)] - matrix[(a, d)] * matrix[(b, c)]
+    })
+}
+
+/// v and g of the bordered system.
+fn solved(
+    matrix: &DMatrix<f64>,
+    left: &DVector<f64>,
+    right: &DVector<f64>,
+) -> Option<(DVector<f64>, f64)> {
+    let n = matrix.nrows();
+    if left.len() != n {
+        return None;
+    }
+    let mut all = matrix.clone().resize(n + 1, n + 1, 0.0);
+    all.view_mut((0, n), (n, 1)).copy_from(left);
+    all.view_mut((n, 0), (1, n)).copy_from(&right.transpose());
+    let mut unit = DVector::zeros(n + 1);
+    unit[n] = 1.0;
+    let solution = all.lu().solve(&unit)?;
+    let whole = solution.iter().all(|part| part.is_finite());
+    whole.then(|| (solution.rows(0, n).into_owned(), solution[n]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{compound, solved};
+    use nalgebra::{DMatrix, DVector};
+
+    /// The eigenvalues of the second compound matrix are the products of two.
+    #[test]
+    fn the_compound_matrix_has_the_products() {
+        let (angle, size) = (0.7_f64, 0.9);
+        let (sine, cosine) = (size * angle.sin(), size * angle.cos());
+        let blocks = [[cosine, -sine, 0.3], [sine, cosine, -0.2], [0.0, 0.0, 0.5]];
+        let matrix = DMatrix::from_fn(3, 3, |i, j| blocks[i][j]);
+        let whole = compound(&matrix);
+        // μ₁ μ₂ = |μ|², μ₁ μ₃ and μ₂ μ₃ a pair.
+        let products = size * size + 2.0 * 0.5 * cosine;
+        assert!((whole.trace() - products).abs() < 1e-14);
+        assert!((whole.determinant() - matrix.determinant().powi(2)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_border_is_zero_where_the_matrix_is_singular() {
+        let border = DVector::from_vec(vec![0.6, 0.8]);
+        let of = |by: f64| {
+            let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 2.0, 2.0, 4.0 + by]);
+            solved(&matrix, &border, &border).map(|(_, g)| g)
+        };
+        assert!(of(0.0).is_some_and(|g| g.abs() < 1e-15));
+        assert!(of(0.1).is_some_and(|g| g.abs() > 1e-3));
+    }
+}

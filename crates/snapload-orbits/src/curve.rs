@@ -1,0 +1,360 @@
+//! Curves of special orbits in two parameters: folds, period doublings, Neimark-Sacker points, grazes.
+//!
+//! The unknowns are the state at the section, the times from event to event, and both parameters; the
+//! equations those of the closed lap and one condition ([`crate::condition`]). A curve is followed by
+//! pseudo-arclength as a branch is.
+
+use crate::branch_events::{BranchEvent, Kind};
+use crate::hybrid::Family;
+use crate::multipliers::Stability;
+use crate::normal_form::coefficient;
+use crate::orbit::{NoOrbit, Orbit};
+use crate::rail::Rail;
+use crate::survey::root;
+use crate::tracer::{Tracer, Unknowns};
+use snapload::analysis::{Cancelled, OnProgress, Progress};
+
+/// How a curve is followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Across {
+    /// The least and the greatest value of either parameter.
+    pub ranges: [[f64; 2]; 2],
+    /// The length of the first step, in the space of state, times and parameters.
+    pub step: f64,
+    /// Points in either direction at most.
+    pub most: usize,
+}
+
+/// A point of a curve.
+#[derive(Clone, Debug)]
+pub struct CurvePoint {
+    /// The special orbit, which a body may not have.
+    pub orbit: Orbit,
+    /// What its other multipliers say, besides those that make it special: whether an orbit that is
+    /// stable comes to its end here.
+    pub others: Stability,
+    /// The length along the curve from where it was begun.
+    pub arclength: f64,
+    /// The coefficient of the normal form: of the square at a fold, of the cube at a period doubling,
+    /// where a positive one says that the orbits of twice the length are stable if all other
+    /// multipliers are.
+    pub coefficient: Option<f64>,
+    /// a = −g̈/2r at a graze.
+    pub normal_acceleration: Option<f64>,
+    /// (1 + e) √(2a) at a graze.
+    pub sqrt_coefficient: Option<f64>,
+}
+
+/// An end of a curve: both values, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveEnd {
+    /// The values of the parameters.
+    pub at: [f64; 2],
+    /// Why.
+    pub because: String,
+}
+
+/// A curve of special orbits.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What they are.
+    pub kind: Kind,
+    /// Its points, from one end to the other.
+    pub points: Vec<CurvePoint>,
+    /// Its two ends.
+    pub ends: [CurveEnd; 2],
+}
+
+/// The longest and the shortest step, as parts of the first.
+const LONGER: f64 = 6.0;
+const SHORTER: f64 = 1e-6;
+/// The corrector's steps from which on a step is made shorter, and up to which longer.
+const MANY: usize = 7;
+const FEW: usize = 4;
+/// A cable that would have to be longer than this ends a curve.
+const DEEP: f64 = 0.02;
+/// A curve that comes back this near to where it began, in parts of its step, is closed, if it has
+/// gone so many steps before.
+const BACK: f64 = 0.5;
+const FAR: f64 = 10.0;
+
+impl Curve {
+    /// The kinds of special orbits that have curves.
+    pub const KINDS: [Kind; 4] = [
+        Kind::Fold,
+        Kind::PeriodDoubling,
+        Kind::NeimarkSacker,
+        Kind::Graze,
+    ];
+
+    /// The curve through a special point of a branch in the first parameter.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if it is told to end; [`NoOrbit`] within where the point is not of such a kind, or
+    /// no such orbit is found there.
+    pub fn of<F: Family>(
+        family: &F,
+        event: &BranchEvent,
+        across: &Across,
+        on_progress: OnProgress,
+    ) -> Result<Result<Self, NoOrbit>, Cancelled> {
+        let orbit = &event.orbit;
+        let tracer = Tracer {
+            family,
+            sequence: orbit.lap.sequence.clone(),
+            phase: orbit.phase,
+            periods: orbit.periods,
+        };
+        let start = Unknowns {
+            z: orbit.z,
+            durations: orbit.lap.durations.clone(),
+            at: orbit.at,
+        };
+        let Some(rail) = Rail::begun(tracer, start, event) else {
+            let name = event.kind.name().replace('_', " ");
+            return Ok(Err(NoOrbit(format!(
+                "Newton's method finds no {name} in two keys from the one at {:.9}",
+                event.value[0]
+            ))));
+        };
+        let first = point(&rail, rail.orbit(), 0.0);
+        let mut walk = Walk {
+            across,
+            on_progress,
+            done: 0,
+        };
+        let backward = walk.run(rail.turned())?;
+        let forward = match backward.closed {
+            true => Side::nowhere(rail.here.at, "the curve is closed"),
+            false => walk.run(rail)?,
+        };
+        let mut points: Vec<CurvePoint> = backward.points;
+        points.reverse();
+        for point in &mut points {
+            point.arclength = -point.arclength;
+        }
+        points.push(first);
+        points.extend(forward.points);
+        Ok(Ok(Self {
+            kind: event.kind,
+            points,
+            ends: [backward.end, forward.end],
+        }))
+    }
+}
+
+/// One direction.
+struct Side {
+    points: Vec<CurvePoint>,
+    end: CurveEnd,
+    closed: bool,
+}
+
+impl Side {
+    fn nowhere(at: [f64; 2], because: &str) -> Self {
+        Self {
+            points: Vec::new(),
+            end: CurveEnd {
+                at,
+                because: because.to_owned(),
+            },
+            closed: false,
+        }
+    }
+}
+
+/// What the multipliers say besides the one nearest to 1 or to −1, or the pair nearest to the circle.
+fn others(kind: Kind, orbit: &Orbit) -> Stability {
+    let mut left = orbit.multipliers.clone();
+    let mut take = |off: &dyn Fn([f64; 2]) -> f64| {
+        let values = left.values.iter().enumerate();
+        let nearest = values.min_by(|a, b| off(*a.1).total_cmp(&off(*b.1)));
+        if let Some((place, _)) = nearest {
+            left.values.remove(place);
+        }
+    };
+    match kind {
+        Kind::Fold => take(&|[re, im]| (re - 1.0).hypot(im)),
+        Kind::PeriodDoubling => take(&|[re, im]| (re + 1.0).hypot(im)),
+        Kind::NeimarkSacker => {
+            for _ in 0..2 {
+                take(&|[re, im]| match im {
+                    0.0 => f64::INFINITY,
+                    im => (re.hypot(im) - 1.0).abs(),
+                });
+            }
+        }
+        _ => {}
+    }
+    left.stability()
+}
+
+fn point<F: Family>(rail: &Rail<F>, orbit: Orbit, arclength: f64) -> CurvePoint {
+    let bend = rail.condition.normal_acceleration(&rail.tracer, &rail.here);
+    let restitution = rail.tracer.family.snap_contraction(rail.here.at).sqrt();
+    let kind = rail.condition.kind();
+    let orbit = match kind {
+        Kind::Graze => orbit.at_graze(),
+        _ => orbit,
+    };
+    CurvePoint {
+        others: others(kind, &orbit),
+        orbit,
+        arclength,
+        coefficient: coefficient(&rail.tracer, &rail.here, kind),
+        normal_acceleration: bend,
+        sqrt_coefficient: bend.map(|a| (1.0 + restitution) * (2.0 * a).max(0.0).sqrt()),
+    }
+}
+
+/// What a curve ends at, as numbers that are negative beyond it: the four sides of the ranges, a
+/// corner, a snap without speed.
+const BORDERS: [&str; 6] = [
+    "the end of the range",
+    "the end of the range",
+    "the end of the range",
+    "the end of the range",
+    "corner: two cables snap at once, and come in the other order beyond it",
+    "graze: another snap of the sequence has no speed left, and would open its cable beyond it",
+];
+
+/// A place this near to a border is on it.
+const ON_BORDER: f64 = 1e-8;
+
+/// Walks along curves.
+struct Walk<'a> {
+    across: &'a Across,
+    on_progress: OnProgress<'a>,
+    done: usize,
+}
+
+impl Walk<'_> {
+    fn run<F: Family>(&mut self, mut rail: Rail<F>) -> Result<Side, Cancelled> {
+        let (start, first) = (rail.here.clone(), rail.tracer.sequence.clone());
+        let mut side = Side::nowhere(start.at, "");
+        let mut margins = self.margins(&rail, &rail.orbit());
+        let (mut step, mut arclength) = (self.across.step, 0.0);
+        while side.end.because.is_empty() {
+            if side.points.len() >= self.across.most {
+                side.end.because = format!("{} points are enough", self.across.most);
+                break;
+            }
+            let stepped = rail.stepped(step).map(|(next, steps)| {
+                let orbit = next.orbit();
+                let reached = self.margins(&next, &orbit);
+                (next, steps, orbit, reached)
+            });
+            let border = stepped
+                .as_ref()
+                .and_then(|(.., reached)| self.passed(&rail, step, &margins, reached));
+            let lost = border.as_ref().is_some_and(|border| border.place.is_none());
+            let Some((next, steps, orbit, reached)) = stepped.filter(|_| !lost) else {
+                step *= 0.5;
+                if step < self.across.step * SHORTER {
+                    side.end.because = "Newton's method finds no further point".to_owned();
+                }
+                continue;
+            };
+            if let Some(border) = border {
+                side.end.because = BORDERS[border.number].to_owned();
+                if let Some(last) = border.place {
+                    side.end.at = last.here.at;
+                    let arclength = arclength + border.sigma;
+                    side.points.push(point(&last, last.orbit(), arclength));
+                }
+                break;
+            }
+            arclength += step;
+            side.end.at = next.here.at;
+            if let Some(because) = left(&next, &orbit) {
+                side.end.because = because;
+                break;
+            }
+            let back = crate::distance(&next.here.z, &start.z)
+                .max((next.here.at[0] - start.at[0]).abs())
+                .max((next.here.at[1] - start.at[1]).abs());
+            if arclength > FAR * self.across.step
+                && next.tracer.sequence == first
+                && back < BACK * self.across.step
+            {
+                side.end.because = "the curve is closed".to_owned();
+                side.closed = true;
+                break;
+            }
+            (rail, margins) = (next, reached);
+            let orbit = if rail.counted_anew() {
+                rail.orbit()
+            } else {
+                orbit
+            };
+            side.points.push(point(&rail, orbit, arclength));
+            self.done += 1;
+            let of = (2 * self.across.most) as f64;
+            Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
+            step = match steps {
+                MANY.. => step * 0.6,
+                0..=FEW => (step * 1.4).min(self.across.step * LONGER),
+                _ => step,
+            };
+        }
+        Ok(side)
+    }
+
+    /// How far it is to each border.
+    fn margins<F: Family>(&self, rail: &Rail<F>, orbit: &Orbit) -> [f64; 6] {
+        let [[a, b], [c, d]] = self.across.ranges;
+        let [x, y] = orbit.at;
+        let corner = orbit.survey.corner_gap;
+        let corner = corner.map_or(f64::INFINITY, |gap| -gap.value);
+        let own = rail.condition.leg();
+        let events = orbit.lap.sequence.events.iter().zip(&orbit.lap.speeds);
+        let others = events
+            .enumerate()
+            .filter(|(k, (event, _))| own != Some(*k) && !event.struck().is_empty());
+        let slowest = others.map(|(_, (_, speed))| *speed);
+        let slowest = slowest.fold(f64::INFINITY, f64::min);
+        [x - a, b - x, y - c, d - y, corner, slowest]
+    }
+
+    /// The first border between two points.
+    fn passed<'a, F: Family>(
+        &self,
+        rail: &Rail<'a, F>,
+        step: f64,
+        before: &[f64; 6],
+        after: &[f64; 6],
+    ) -> Option<Border<'a, F>> {
+        let crossed = (0..before.len()).filter(|&k| before[k] >= 0.0 && after[k] < 0.0);
+        let border = |number: usize| {
+            let margin = |there: &Rail<F>| self.margins(there, &there.orbit())[number];
+            let at = |sigma: f64| rail.moved(sigma).as_ref().map_or(f64::NAN, margin);
+            let sigma = root(&at, (0.0, before[number]), (step, after[number]));
+            let place = rail.moved(sigma);
+            Border {
+                number,
+                sigma,
+                place: place.filter(|there| margin(there).abs() < ON_BORDER),
+            }
+        };
+        crossed
+            .map(border)
+            .min_by(|a, b| a.sigma.total_cmp(&b.sigma))
+    }
+}
+
+/// A border that a curve passes, how far on, and its place there, if it was found.
+struct Border<'a, F: Family> {
+    number: usize,
+    sigma: f64,
+    place: Option<Rail<'a, F>>,
+}
+
+/// Why a curve ends at a point that it has come to.
+fn left<F: Family>(rail: &Rail<F>, orbit: &Orbit) -> Option<String> {
+    if !rail.condition.is_met(orbit) {
+        let because = "the pair of multipliers is real from here on: a resonance of 1:1 or 1:2";
+        return Some(because.to_owned());
+    }
+    let gap = orbit.survey.largest_gap.map_or(0.0, |gap| gap.value);
+    (gap > DEEP).then(|| format!("a cable would have to be longer by {DEEP}"))
+}

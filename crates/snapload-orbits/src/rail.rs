@@ -1,0 +1,198 @@
+//! One place on a curve of special orbits, and the way from it to the next.
+
+use crate::branch_events::BranchEvent;
+use crate::condition::Condition;
+use crate::hybrid::Family;
+use crate::orbit::Orbit;
+use crate::tracer::{Tracer, Unknowns, bordered};
+use nalgebra::{DMatrix, DVector};
+
+/// Steps of the corrector at most.
+const MOST_STEPS: usize = 12;
+/// A residual below this is a point of the curve.
+const CLOSED: f64 = 1e-11;
+/// A step below this is rounding.
+const DONE: f64 = 1e-13;
+/// No event comes nearer to the next or farther from it by more than this in one step.
+const TIMES: f64 = 0.3;
+/// The cosine of the angle by which the direction turns in one step.
+const TURN: f64 = 0.95;
+
+/// Where one is on a curve, and in which direction one goes.
+pub(crate) struct Rail<'a, F: Family> {
+    pub(crate) tracer: Tracer<'a, F>,
+    pub(crate) condition: Condition,
+    pub(crate) here: Unknowns,
+    tangent: DVector<f64>,
+}
+
+impl<'a, F: Family> Rail<'a, F> {
+    /// At an event of a branch, closed anew at the same value of the second parameter, in the
+    /// direction in which that grows; where it does not change, in that in which the first one grows.
+    pub(crate) fn begun(
+        tracer: Tracer<'a, F>,
+        start: Unknowns,
+        event: &BranchEvent,
+    ) -> Option<Self> {
+        let condition = Condition::of(&tracer, &start, event)?;
+        let count = tracer.size() + 2;
+        let along = [count - 1, count - 2].map(|place| {
+            let mut unit = DVector::zeros(count);
+            unit[place] = 1.0;
+            unit
+        });
+        let mut rail = Self {
+            tracer,
+            condition,
+            here: start,
+            tangent: along[0].clone(),
+        };
+        let (here, _) = rail.corrected(0.0)?;
+        rail.condition = rail.condition.renewed(&rail.tracer, &here)?;
+        rail.here = here;
+        let directions = along.map(|along| rail.direction(&along));
+        rail.tangent = directions.into_iter().flatten().next()?;
+        Some(rail)
+    }
+
+    /// The same place in the other direction.
+    pub(crate) fn turned(&self) -> Self {
+        Self {
+            tangent: -&self.tangent,
+            ..self.copied()
+        }
+    }
+
+    fn copied(&self) -> Self {
+        Self {
+            tracer: self.tracer.clone(),
+            condition: self.condition.clone(),
+            here: self.here.clone(),
+            tangent: self.tangent.clone(),
+        }
+    }
+
+    /// The orbit here.
+    pub(crate) fn orbit(&self) -> Orbit {
+        Orbit::of(&self.tracer.lap(self.here.at), &self.here.closed())
+    }
+
+    /// All equations without that of the arclength, and their derivatives.
+    fn equations(&self, u: &Unknowns) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let (residual, jacobian) = self.tracer.equations(u, 2);
+        let value = self.condition.value(&self.tracer, u)?;
+        let slopes = self.condition.slopes(&self.tracer, u)?;
+        let count = residual.len();
+        let residual = residual.insert_row(count, value);
+        residual
+            .iter()
+            .all(|part| part.is_finite())
+            .then(|| (residual, bordered(&jacobian, &slopes)))
+    }
+
+    /// The direction of the curve on the side of `along`.
+    fn direction(&self, along: &DVector<f64>) -> Option<DVector<f64>> {
+        let (_, jacobian) = self.equations(&self.here)?;
+        let count = jacobian.ncols();
+        let mut unit = DVector::zeros(count);
+        unit[count - 1] = 1.0;
+        let tangent = bordered(&jacobian, along).lu().solve(&unit)?;
+        let length = tangent.norm();
+        (length.is_finite() && length > 0.0).then(|| tangent / length)
+    }
+
+    /// The point of the curve a length `sigma` along the tangent, and how many steps it took.
+    fn corrected(&self, sigma: f64) -> Option<(Unknowns, usize)> {
+        let variables = self.tracer.family.variables();
+        let mut offset = &self.tangent * sigma;
+        let mut before = f64::INFINITY;
+        for steps in 1..=MOST_STEPS {
+            let here = self.here.moved(variables, &offset);
+            let (residual, jacobian) = self.equations(&here)?;
+            let count = jacobian.ncols();
+            let mut right = DVector::zeros(count);
+            right.rows_mut(0, count - 1).copy_from(&-&residual);
+            right[count - 1] = sigma - self.tangent.dot(&offset);
+            let step = bordered(&jacobian, &self.tangent).lu().solve(&right)?;
+            let moved = step.amax();
+            if residual.amax() < CLOSED && (moved < DONE || moved >= 0.25 * before) {
+                return Some((here, steps));
+            }
+            if !moved.is_finite() || moved > 1.0 {
+                return None;
+            }
+            before = moved;
+            offset += step;
+        }
+        None
+    }
+
+    /// The place a length `sigma` on.
+    pub(crate) fn moved(&self, sigma: f64) -> Option<Self> {
+        self.advanced(sigma).map(|(next, _)| next)
+    }
+
+    fn advanced(&self, sigma: f64) -> Option<(Self, usize)> {
+        let (here, steps) = self.corrected(sigma)?;
+        let mut next = Self {
+            here,
+            ..self.copied()
+        };
+        next.condition = self.condition.renewed(&self.tracer, &next.here)?;
+        next.tangent = next.direction(&self.tangent)?;
+        Some((next, steps))
+    }
+
+    /// The next place, if it is near enough, and the corrector's steps.
+    pub(crate) fn stepped(&self, step: f64) -> Option<(Self, usize)> {
+        let (next, steps) = self.advanced(step)?;
+        let times = self.here.durations.iter().zip(&next.here.durations);
+        let most = times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let parameters = self.here.at.iter().zip(&next.here.at);
+        let changed = parameters.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let off = crate::distance(&self.here.z, &next.here.z).max(changed);
+        let turned = next.tangent.dot(&self.tangent);
+        (most < TIMES && off <= 2.0 * step && turned > TURN).then_some((next, steps))
+    }
+
+    /// Counts the events anew where one has passed the section, and says whether it has.
+    pub(crate) fn counted_anew(&mut self) -> bool {
+        let mut anew = false;
+        while let Some((tracer, here, shift)) = self.tracer.renumbered(&self.here) {
+            let Some(condition) = self.condition.counted_anew(&tracer, &here, shift) else {
+                return anew;
+            };
+            let along = self.along_after(shift);
+            let next = Self {
+                tracer,
+                condition,
+                here,
+                tangent: along.clone(),
+            };
+            let Some(tangent) = next.direction(&along) else {
+                return anew;
+            };
+            *self = Self { tangent, ..next };
+            anew = true;
+        }
+        anew
+    }
+
+    /// The parts of the direction that mean the same after events were counted anew: those of the
+    /// times between events that stay neighbours, and of the parameters.
+    fn along_after(&self, shift: isize) -> DVector<f64> {
+        let m = self.tracer.family.variables().len();
+        let n = self.here.durations.len();
+        let mut along = DVector::zeros(self.tangent.len());
+        for k in 1..n {
+            let before = k as isize - shift;
+            if before >= 1 && (before as usize) < n {
+                along[m + k] = self.tangent[m + before as usize];
+            }
+        }
+        along
+            .rows_mut(m + n, 2)
+            .copy_from(&self.tangent.rows(m + n, 2));
+        along
+    }
+}

@@ -1,0 +1,210 @@
+//! Curves of special orbits in two keys, against closed forms and against branches in one key.
+
+use crate::closed_forms::{bouncing, bouncing_from, table};
+use crate::common::{parameters, reference};
+use snapload::analysis::unwatched;
+use snapload_orbits::{
+    Across, Along, Branch, BranchEvent, Curve, CurvePoint, Family, Kind, Moored, Orbit, Wanted,
+    distance,
+};
+use std::f64::consts::PI;
+
+fn curve<F: Family>(family: &F, event: &BranchEvent, ranges: [[f64; 2]; 2], step: f64) -> Curve {
+    let across = Across {
+        ranges,
+        step,
+        most: 400,
+    };
+    let curve = Curve::of(family, event, &across, &unwatched)
+        .unwrap()
+        .unwrap();
+    for end in &curve.ends {
+        println!(
+            "{} ends at {:?}: {}",
+            curve.kind.name(),
+            end.at,
+            end.because
+        );
+    }
+    println!("{} points", curve.points.len());
+    curve
+}
+
+/// Γ where one bounce in each n periods exists from, and where it doubles its period (P. J.
+/// Holmes, *J. Sound Vib.* 84 (1982) 173; J. M. Luck & A. Mehta, *Phys. Rev. E* 48 (1993) 3988).
+fn of_the_table(e: f64, n: u32) -> [f64; 2] {
+    let born = f64::from(n) * PI * (1.0 - e) / (1.0 + e);
+    [born, born.hypot(2.0 * (1.0 + e * e) / (1.0 + e).powi(2))]
+}
+
+#[test]
+fn the_ball_on_a_table_has_its_curves() {
+    let family = table(4000.0, 3.0);
+    let (e, n) = (0.5, 1);
+    let [born, doubles] = of_the_table(e, n);
+    let orbit = bouncing(&family, [0.5 * (born + doubles), e], n);
+    let along = Along {
+        range: [0.5 * born, 1.1 * doubles],
+        step: 0.02,
+        most: 400,
+    };
+    let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    for (kind, which) in [(Kind::Fold, 0), (Kind::PeriodDoubling, 1)] {
+        let event = branch.event(kind, None).unwrap();
+        let found = curve(&family, event, [[0.0, 5.0], [0.2, 0.95]], 0.02);
+        let off = found.points.iter().map(|point| {
+            let [gamma, e] = point.orbit.at;
+            (gamma - of_the_table(e, n)[which]).abs()
+        });
+        let worst = off.fold(0.0, f64::max);
+        println!("{} off by {worst:e}", kind.name());
+        assert!(worst < 1e-10);
+        // It is followed to both sides of the range, and there exactly.
+        let mut ends = found.ends.each_ref().map(|end| end.at[1]);
+        ends.sort_by(f64::total_cmp);
+        assert!(
+            (ends[0] - 0.2).abs() < 1e-9 && (ends[1] - 0.95).abs() < 1e-9,
+            "{ends:?}"
+        );
+        assert!(
+            found
+                .ends
+                .iter()
+                .all(|end| end.because == "the end of the range")
+        );
+        assert!(found.points.len() > 20);
+    }
+}
+
+/// Along the branch through a fold the multiplier goes as 1 + 2aξ, ξ how far the orbit is from the
+/// fold; beyond a doubling the two laps are η apart from the orbit with c η² = −1 − μ, μ the
+/// multiplier of the orbit there. The section is half a period off, as the ball strikes at the whole
+/// one where it folds.
+#[test]
+fn coefficients_are_those_of_the_branches() {
+    let family = table(20.0, 3.0);
+    let e = 0.5;
+    let [born, doubles] = of_the_table(e, 1);
+    let orbit = bouncing_from(&family, [0.5 * (born + doubles), e], 1, 0.5);
+    let mut along = Along {
+        range: [0.5 * born, 1.1 * doubles],
+        step: 0.002,
+        most: 2000,
+    };
+    let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+    let first =
+        |event| curve(&family, event, [[0.0, 5.0], [0.499, 0.501]], 0.002).points[0].clone();
+    let fold = branch.event(Kind::Fold, None).unwrap();
+    let point = first(fold);
+    let beside = branch.points.iter().map(|beside| {
+        let of_vertical = |[re, im]: &[f64; 2]| *im == 0.0 && (re - 1.0).abs() < 0.3;
+        let values = beside.orbit.multipliers.values.iter();
+        let mu = values
+            .filter(|value| of_vertical(value))
+            .map(|value| value[0]);
+        let nearest = mu.min_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
+        let square = beside
+            .orbit
+            .z
+            .iter()
+            .zip(&fold.orbit.z)
+            .map(|(a, b)| (a - b).powi(2));
+        (square.sum::<f64>().sqrt(), nearest)
+    });
+    let near = beside.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    let expected = (near.1.unwrap() - 1.0).abs() / (2.0 * near.0);
+    let found = point.coefficient.unwrap().abs();
+    println!("fold: {found} {expected}");
+    assert!((found / expected - 1.0).abs() < 0.03);
+
+    let doubling = branch.event(Kind::PeriodDoubling, None).unwrap();
+    let found = first(doubling).coefficient.unwrap();
+    assert!(found > 0.0);
+    along.step = 0.001;
+    along.most = 20;
+    let twice = Branch::of_doubling(&family, doubling, &along, &unwatched)
+        .unwrap()
+        .unwrap();
+    let apart = &twice.points[4].orbit;
+    let parent = bouncing_from(&family, apart.at, 1, 0.5);
+    let mu = parent.multipliers.values.iter().map(|value| value[0]);
+    let mu = mu.fold(f64::INFINITY, f64::min);
+    let square = apart.z.iter().zip(&parent.z).map(|(a, b)| (a - b).powi(2));
+    let expected = (-1.0 - mu) / square.sum::<f64>();
+    println!("doubling: {found} {expected} {mu}");
+    assert!((found / expected - 1.0).abs() < 0.05);
+    // No more than neutral, as the transverse motion is never damped.
+    assert_eq!(apart.multipliers.stability().name(), "neutral");
+}
+
+/// The same point found with the second key held.
+fn agrees(name: &str, key: &'static str, kind: Kind, point: &CurvePoint, range: f64) {
+    let base = parameters(&reference()["branches"][usize::from(name == "B")]["base"]);
+    let family = Moored::case(base, [Some("f_o"), Some(key)]);
+    let [f_o, _] = point.orbit.at;
+    let aside = [1.0 + range, 1.0 - range].into_iter().find_map(|by| {
+        let at = [f_o * by, point.orbit.at[1]];
+        let orbit = Orbit::find(&family, at, &point.orbit.z, &Wanted::default()).ok()?;
+        let same = orbit.lap.sequence.struck().len() == point.orbit.lap.sequence.struck().len();
+        same.then_some(orbit)
+    });
+    let along = Along {
+        range: [f_o * (1.0 - 1.5 * range), f_o * (1.0 + 1.5 * range)],
+        step: 0.01,
+        most: 500,
+    };
+    let branch = Branch::of(&family, &aside.unwrap(), &along, &unwatched).unwrap();
+    let of_kind = branch.events.iter().filter(|event| event.kind == kind);
+    let off = of_kind.map(|event| {
+        (event.value[0] - f_o).abs() + distance(&event.orbit.z, &point.orbit.z) * 1e-3
+    });
+    let off = off.fold(f64::INFINITY, f64::min);
+    println!("{name} {} {:?}: {off:e}", kind.name(), point.orbit.at);
+    assert!(
+        off < 1e-8,
+        "{name} {} {:?}: off by {off:e}",
+        kind.name(),
+        point.orbit.at
+    );
+}
+
+#[test]
+fn curves_of_the_breakwater_are_those_of_branches() {
+    for (name, key, kind, around, other) in [
+        ("A", "omega", Kind::Fold, [1.0, 2.0], [2.9, 3.3]),
+        ("A", "e", Kind::PeriodDoubling, [1.0, 2.5], [0.3, 0.4]),
+        ("B", "e", Kind::NeimarkSacker, [0.8, 2.5], [0.5, 0.65]),
+        ("B", "nu", Kind::Graze, [0.8, 2.5], [0.9, 1.1]),
+        ("B", "r", Kind::PeriodDoubling, [0.8, 2.5], [1.55, 1.65]),
+    ] {
+        let base = parameters(&reference()["branches"][usize::from(name == "B")]["base"]);
+        let start = match name {
+            "A" => [-0.2688, 0.3830, 0.0, 0.8084, -0.4263, 0.0],
+            _ => [-0.0086, 0.7632, 0.0, 1.0527, -0.7738, 0.0],
+        };
+        let keys = [Some("f_o"), Some(key)];
+        let family = Moored::case(base, keys);
+        let at = Moored::values(&base, keys);
+        let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
+        let along = Along {
+            range: around,
+            step: 0.02,
+            most: 2000,
+        };
+        let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+        let event = branch.event(kind, None).unwrap();
+        let found = curve(&family, event, [around, other], 0.01);
+        assert!(found.points.len() > 5);
+        let last = found.points.len() - 1;
+        for k in [0, last / 3, last] {
+            let point = &found.points[k];
+            if point.orbit.is_admissible() || kind != Kind::Graze {
+                agrees(name, key, kind, point, 0.02);
+            }
+        }
+        if kind == Kind::Graze {
+            let a = found.points[0].normal_acceleration.unwrap();
+            assert!(a > 0.0 && found.points[0].sqrt_coefficient.unwrap() > 0.0);
+        }
+    }
+}
