@@ -34,6 +34,10 @@ Start: TypeAlias = Mapping[str, float] | ArrayLike
 Wanted: TypeAlias = tuple[int | None, list[int] | None, float]
 
 
+#: So many events of an orbit are shown in a line.
+_SHOWN = 8
+
+
 class NoOrbitError(ValueError):
     """There is no orbit where one was looked for; the words say what was found instead.
 
@@ -245,7 +249,9 @@ class BaseOrbit:
     def __repr__(self) -> str:
         words = self.stable if isinstance(self.stable, str) else "stable" if self.stable else "unstable"
         laps = "1 period" if self.periods == 1 else f"{self.periods} periods"
-        symbol = ", ".join(self.symbol) or "no events"
+        symbol = ", ".join(self.symbol[:_SHOWN]) or "no events"
+        if len(self.symbol) > _SHOWN:
+            symbol += f", ... ({len(self.symbol)} events)"
         return f"<Orbit: {words}{'' if self.admissible else ', not admissible'}, {laps}, {symbol}>"
 
     def _repr_html_(self) -> str:

@@ -129,15 +129,16 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
     ax.set_ylabel("safe part of the starts")
     if not np.isnan(eroded.attrs["knee"]):
         ax.axvline(eroded.attrs["knee"], **REFERENCE)
-        ax.annotate("knee", (eroded.attrs["knee"], 0), (2, 3), textcoords="offset points", fontsize="small")
+        look: dict[str, Any] = {"textcoords": "offset points", "fontsize": "small", "ha": "right"}
+        ax.annotate("knee", (eroded.attrs["knee"], 0), (-3, 3), **look)
     lines, names = ax.get_legend_handles_labels()
     looks = (("lim", VERMILION, "--", "^", "nearest (LIM)"), ("if", GREEN, "-.", "s", "disc (IF)"))
     shown = [look for look in looks if not np.isnan(eroded[look[0]]).all()]
     if shown:
         right = ax.twinx()
         for name, colour, style, marker, words in shown:
-            look: dict[str, Any] = {"color": colour, "linestyle": style, "marker": marker, "markersize": 3}
-            right.plot(values, eroded[name], linewidth=1.1, label=words, **look)
+            of: dict[str, Any] = {"color": colour, "linestyle": style, "marker": marker, "markersize": 3}
+            right.plot(values, eroded[name], linewidth=1.1, label=words, **of)
         right.set_ylim(bottom=0)
         right.set_ylabel("distance in the window")
         more = right.get_legend_handles_labels()

@@ -330,7 +330,7 @@ def find_orbits(
     case : Case
         The case.
     starts : int
-        How many starts. A thousand take about a second for a rigid body, and minutes where snaps accumulate.
+        How many starts. A thousand take about a second.
     seed : int
         Which starts.
     periods : int, optional

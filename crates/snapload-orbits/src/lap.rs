@@ -45,6 +45,9 @@ pub struct Leg {
     pub end: Point,
 }
 
+/// Up to so many events all unknowns of a lap are solved for together.
+const MANY: usize = 64;
+
 /// Numbers of a jet, without its value.
 type Slopes = [f64; 10];
 
@@ -220,6 +223,64 @@ impl Linearised {
         (residual, jacobian)
     }
 
+    /// The largest residual of F, and Newton's step of the state's `variables` and the durations; no
+    /// step where the equations have none.
+    ///
+    /// Up to `MANY` events all unknowns are solved for together, so that a snap at zero speed does no
+    /// harm. Sequences of more events are those in which snaps accumulate; there the durations are
+    /// eliminated one after the other, each by the event that ends it, as the work for all together
+    /// grows with the cube of their number.
+    pub fn step(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
+        if self.events() > MANY {
+            return self.step_in_turn(z, variables);
+        }
+        let (residual, jacobian) = self.equations(z, variables, 0);
+        let size = residual.amax();
+        let step = jacobian.lu().solve(&(-residual));
+        (size, step)
+    }
+
+    /// The same with the durations eliminated: rows are over the state, and end with a constant.
+    fn step_in_turn(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
+        let m = variables.len();
+        let mut state = self.start(variables, m + 1);
+        let mut time = DMatrix::zeros(1, m + 1);
+        let zero = DMatrix::zeros(1, m + 1);
+        let mut durations = Vec::with_capacity(self.events());
+        let mut largest = 0.0_f64;
+        for leg in &self.legs {
+            let lasts = match leg.event {
+                Some((value, slopes)) => {
+                    largest = largest.max(value.abs());
+                    let mut row = chained(&slopes, &state, &time, &zero, m, 0);
+                    row[m] += value;
+                    durations.push(row * (-1.0 / slopes[DURATION]));
+                    durations[durations.len() - 1].clone()
+                }
+                None => -&time,
+            };
+            state = moved(&leg.slopes, &state, &time, &lasts, m, 0);
+            time += lasts;
+        }
+        let Some(last) = self.legs.last() else {
+            return (largest, None);
+        };
+        let off = DVector::from_fn(m, |i, _| last.after[variables[i]] - z[variables[i]]);
+        largest = largest.max(off.amax());
+        let matrix = DMatrix::from_fn(m, m, |i, j| {
+            state[(variables[i], j)] - f64::from(u8::from(i == j))
+        });
+        let constant = DVector::from_fn(m, |i, _| state[(variables[i], m)]);
+        let solved = matrix.lu().solve(&(-(off + constant)));
+        let step = solved.map(|solved| {
+            let by = |row: &Rows| (row.columns(0, m) * &solved)[0] + row[m];
+            let parts = durations.iter().map(by);
+            let all: Vec<f64> = solved.iter().copied().chain(parts).collect();
+            DVector::from_vec(all)
+        });
+        (largest, step)
+    }
+
     /// The monodromy matrix ∂P/∂z over the `variables`, the times being those of the events.
     pub fn monodromy(&self, variables: &[usize]) -> DMatrix<f64> {
         let m = variables.len();
@@ -285,4 +346,47 @@ fn moved(
         rows.row_mut(i).copy_from(&row);
     }
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Lap;
+    use crate::hybrid::Family;
+    use crate::moored::Moored;
+    use snapload::Parameters;
+
+    #[test]
+    fn durations_in_turn_and_all_unknowns_together_give_one_step() {
+        let case = Parameters {
+            inertia: None,
+            a: 0.0,
+            r: 1.7,
+            e: 0.35,
+            f_o: 1.4,
+            nu: 0.8,
+            omega: 3.1,
+            ..Parameters::STANDARD
+        };
+        let family = Moored::case(case, [None; 2]);
+        let z = [-0.27, 0.39, 0.0, 0.79, -0.43, 0.0];
+        let simulated = family.simulate([0.0; 2], 0.0, &z, 4.0 * family.period([0.0; 2]));
+        let timed = simulated.expect("a case can be run").lap;
+        let lap = Lap {
+            family: &family,
+            at: [0.0; 2],
+            sequence: &timed.sequence,
+            phase: 0.0,
+            periods: 4,
+        };
+        // Off the events, so that all residuals take part.
+        let durations: Vec<f64> = timed.durations.iter().map(|s| s + 1e-3).collect();
+        let linear = lap.linearise(&z, &durations);
+        assert!(linear.events() >= 8);
+        let (size, step) = linear.step(&z, family.variables());
+        let (same_size, in_turn) = linear.step_in_turn(&z, family.variables());
+        let (step, in_turn) = (step.expect("a step"), in_turn.expect("a step"));
+        assert_eq!(size, same_size);
+        assert_eq!(step.len(), in_turn.len());
+        assert!((&step - in_turn).amax() < 1e-11 * (1.0 + step.amax()));
+    }
 }

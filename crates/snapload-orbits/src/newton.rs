@@ -9,6 +9,9 @@ use nalgebra::DVector;
 const MOST_STEPS: usize = 25;
 /// No component of the state moves by more than this in one step.
 const LONGEST: f64 = 0.15;
+/// No duration is longer than so many laps: Newton's method that asks for more is lost, and to follow a
+/// taut motion so far would take for ever.
+const LAPS: f64 = 2.0;
 /// A step below this part of what it changes is rounding.
 const DONE: f64 = 4e-15;
 /// A residual below this closes the lap.
@@ -31,9 +34,9 @@ pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Cl
     let (mut z, mut durations) = (*z, durations.to_vec());
     let mut best: Option<Closed> = None;
     let mut before = f64::INFINITY;
+    let (_, length) = lap.times();
     for _ in 0..MOST_STEPS {
-        let (residual, jacobian) = lap.linearise(&z, &durations).equations(&z, variables, 0);
-        let size = residual.amax();
+        let (size, step) = lap.linearise(&z, &durations).step(&z, variables);
         if !size.is_finite() {
             return best;
         }
@@ -44,7 +47,7 @@ pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Cl
                 residual: size,
             });
         }
-        let Some(step) = jacobian.lu().solve(&(-residual)) else {
+        let Some(step) = step else {
             return best;
         };
         let moved = step.rows(0, variables.len()).amax();
@@ -53,6 +56,9 @@ pub fn close<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Option<Cl
         }
         let scale = (LONGEST / moved).min(1.0);
         add(&mut z, &mut durations, variables, &(&step * scale));
+        if durations.iter().any(|s| s.abs() > LAPS * length) {
+            return best;
+        }
         // Near the solution steps shrink until they are rounding.
         if best.is_some() && (moved < DONE || moved >= 0.5 * before) {
             break;
@@ -90,8 +96,8 @@ pub(crate) fn step_of_map<F: Family>(
     };
     let variables = family.variables();
     let (z, durations) = guess;
-    let (residual, jacobian) = lap.linearise(z, durations).equations(z, variables, 0);
-    let step = jacobian.lu().solve(&(-residual))?;
+    let (_, step) = lap.linearise(z, durations).step(z, variables);
+    let step = step?;
     let size = step.rows(0, variables.len()).amax();
     if !size.is_finite() {
         return None;
