@@ -177,7 +177,7 @@ impl Model {
         still.forcing.harmonics.clear();
         if let Some(mut drag) = still.drag.take() {
             drag.water.retain(|water| water.omega == CURRENT);
-            let [x, y, _] = drag.at(0.0, &State::default());
+            let [x, y, _] = drag.at(drag.velocity_of_water(0.0), &State::default());
             let constant = still.forcing.constant;
             still.forcing.constant = [constant.x + x, constant.y + y].into();
         }

@@ -50,7 +50,7 @@ fn wave_force_and_drag_follow_from_the_potential() {
             let water = velocity(t);
             let u = [water[0] - v[0], water[1] - v[1]];
             let factor = 5e3 + 0.5 * 1025.0 * 60.0 * u[0].hypot(u[1]);
-            let [x, y, theta] = drag.at(t / scales.time_s, &state);
+            let [x, y, theta] = drag.at(drag.velocity_of_water(t / scales.time_s), &state);
             for (found, expected) in [(x, u[0]), (-y, u[1])] {
                 let (found, expected) = (scales.force_n * found, factor * expected);
                 assert!(

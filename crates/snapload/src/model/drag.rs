@@ -37,13 +37,20 @@ impl<T: Real> Drag<T> {
         }
     }
 
-    /// What it adds to (ẍ, ÿ, θ̈).
-    pub fn at(&self, t: T, state: &State<T>) -> [T; 3] {
-        let body = state.velocity().map(|v| -v);
-        let Vector2 { x: u, y: v } = self
-            .water
-            .iter()
-            .fold(body, |sum, wave| sum + wave.shifted(t).cosine);
+    /// w at a time.
+    #[inline(always)]
+    pub fn velocity_of_water(&self, t: T) -> Vector2<T> {
+        let mut velocity = Vector2::ZERO;
+        for wave in &self.water {
+            velocity = velocity + wave.shifted(t).cosine;
+        }
+        velocity
+    }
+
+    /// What it adds to (ẍ, ÿ, θ̈) in water of the velocity w.
+    #[inline(always)]
+    pub fn at(&self, water: Vector2<T>, state: &State<T>) -> [T; 3] {
+        let Vector2 { x: u, y: v } = water - state.velocity();
         let speed = (u * u + v * v + T::from_f64(STANDSTILL).squared()).sqrt();
         let factor = self.linear + self.quadratic * speed;
         [factor * u, factor * v, -(self.turning * state.vtheta)]
@@ -62,12 +69,10 @@ pub(crate) struct DragSeries<T: Real> {
 }
 
 impl<T: Real> DragSeries<T> {
-    /// About time `t`, of a body that does not move.
-    pub(crate) fn begin(&mut self, drag: &Drag<T>, t: T) {
-        self.relative = Default::default();
-        for wave in &drag.water {
-            wave.expand(t, &mut self.relative);
-        }
+    /// Of a body that does not move, in water of the velocity w.
+    #[inline(always)]
+    pub(crate) fn begin(&mut self, water: &[Polynomial<T>; 2]) {
+        self.relative = *water;
     }
 
     /// The k-th coefficient of D, from that of the body's velocity; S = |u|² gives |u| by

@@ -16,6 +16,7 @@
 //! 101; a linear system in place of the convolution, E. Kristiansen, Å. Hjulstad and O. Egeland,
 //! *Ocean Engineering* 32 (2005) 2195.
 
+use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::model::mass::{Matrix3, dot, times};
 use crate::model::state::State;
@@ -122,6 +123,21 @@ impl<T: Real> Excitation<T> {
         local
     }
 
+    /// Adds its Taylor series about time `t`: even orders are the cosine's, odd ones the sine's.
+    #[inline(always)]
+    pub(crate) fn expand(&self, t: T, into: &mut [Polynomial<T>; 3]) {
+        let mut powers = [T::ONE; ORDER + 1];
+        let mut power = T::ONE;
+        for (k, entry) in powers.iter_mut().enumerate() {
+            *entry = if k % 4 < 2 { power } else { -power };
+            power = power * self.omega / (k + 1) as f64;
+        }
+        let local = self.shifted(t);
+        for (i, series) in into.iter_mut().enumerate() {
+            series.add_alternating(&powers, local.cosine[i], local.sine[i]);
+        }
+    }
+
     fn map<U: Real>(&self, number: impl Fn(T) -> U + Copy) -> Excitation<U> {
         Excitation {
             omega: number(self.omega),
@@ -202,19 +218,33 @@ impl<T: Real> Floating<T> {
         force
     }
 
-    /// All of its force at a time, of which the memory's is given.
-    pub(crate) fn force(&self, t: T, state: &State<T>, memory_force: [T; 3]) -> [T; 3] {
+    /// F_w + F_c at a time.
+    #[inline(always)]
+    pub(crate) fn excitation_at(&self, t: T) -> [T; 3] {
+        let mut force = self.constant;
+        for wave in &self.excitation {
+            let now = wave.shifted(t).cosine;
+            for i in 0..3 {
+                force[i] += now[i];
+            }
+        }
+        force
+    }
+
+    /// All of its force, of which that of the waves and the constant one, and the memory's, are given.
+    #[inline(always)]
+    pub(crate) fn force(
+        &self,
+        excitation: [T; 3],
+        state: &State<T>,
+        memory_force: [T; 3],
+    ) -> [T; 3] {
         let place = [state.x, state.y, state.theta];
         let (stiff, damped) = (
             times(&self.stiffness, place),
             times(&self.damping, [state.vx, state.vy, state.vtheta]),
         );
-        let mut force = self.constant;
-        for wave in &self.excitation {
-            for (force, now) in force.iter_mut().zip(wave.shifted(t).cosine) {
-                *force += now;
-            }
-        }
+        let mut force = excitation;
         for (i, force) in force.iter_mut().enumerate() {
             *force -= stiff[i] + damped[i] + memory_force[i];
         }
@@ -263,7 +293,7 @@ mod tests {
             vx: 2.0,
             ..State::default()
         };
-        let force = water.force(t, &state, pull);
+        let force = water.force(water.excitation_at(t), &state, pull);
         let (s, c) = (omega * t).sin_cos();
         let known = [
             0.3 * c - 0.2 * s - 0.2 - 2.0,

@@ -11,5 +11,6 @@ pub(crate) mod mass;
 pub(crate) mod quantity;
 pub(crate) mod rules;
 pub(crate) mod state;
+pub(crate) mod surroundings;
 pub(crate) mod system;
 pub(crate) mod taut_set;

@@ -9,6 +9,7 @@ use crate::model::drag::Drag;
 use crate::model::floating::{Complex, Floating};
 use crate::model::forcing::{Forcing, Harmonic};
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 
 /// A body on inextensible cables, under forces that depend on time alone, in water that may resist or
@@ -151,18 +152,23 @@ impl<T: Real> System<T> {
     /// (ẍ, ÿ, θ̈) if no cable pulled: M⁻¹ times the forces, the drag and what the water does, of
     /// which the force of its memory is given; that is zero where the body does not float.
     #[inline(always)]
-    pub fn free_acceleration(&self, t: T, state: &State<T>, memory_force: [T; 3]) -> [T; 3] {
+    pub fn free_acceleration(
+        &self,
+        around: &Surroundings<T>,
+        state: &State<T>,
+        memory_force: [T; 3],
+    ) -> [T; 3] {
         let mass = &self.body.mass;
-        let Vector2 { x, y } = self.forcing.at(t);
+        let Vector2 { x, y } = around.force;
         let mut load = match &self.drag {
             None => [x, y, T::ZERO],
             Some(drag) => {
-                let [u, v, turning] = drag.at(t, state);
+                let [u, v, turning] = drag.at(around.water, state);
                 [x + u, y + v, mass.load_of_turning(turning)]
             }
         };
         if let Some(water) = &self.floating {
-            let [x, y, moment] = water.force(t, state, memory_force);
+            let [x, y, moment] = water.force(around.excitation, state, memory_force);
             load = [
                 load[0] + x,
                 load[1] + y,

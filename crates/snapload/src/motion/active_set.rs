@@ -6,6 +6,7 @@ use crate::arithmetic::real::Real;
 use crate::model::cable::Normal;
 use crate::model::mass::{Mass, Matrix3};
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::complementarity::{complementary, independent, solve};
@@ -34,7 +35,7 @@ pub(crate) struct ActiveSet {
 #[inline(always)]
 pub(crate) fn taut_next<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     candidates: TautSet,
@@ -43,7 +44,7 @@ pub(crate) fn taut_next<T: Real>(
         if candidates.is_empty() {
             return ActiveSet::default();
         }
-        let (w, load) = problem(system, t, state, memory_force, candidates);
+        let (w, load) = problem(system, around, state, memory_force, candidates);
         let (tension, pulling) = complementary(candidates, w, &load);
         let stays_closed = |&cable: &usize| {
             let pulls = |j: usize| w(cable, j) * tension[j];
@@ -80,12 +81,12 @@ pub(crate) fn taut_next<T: Real>(
 #[inline(always)]
 pub(crate) fn tensions<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     taut: TautSet,
 ) -> PerCable<T> {
-    let (w, load) = problem(system, t, state, memory_force, taut);
+    let (w, load) = problem(system, around, state, memory_force, taut);
     if independent(taut, w) {
         return solve(taut, w, &load);
     }
@@ -101,12 +102,12 @@ pub(crate) fn tensions<T: Real>(
 #[inline(always)]
 fn some_tensions<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     taut: TautSet,
 ) -> PerCable<T> {
-    let (w, load) = problem(system, t, state, memory_force, taut);
+    let (w, load) = problem(system, around, state, memory_force, taut);
     solve(taut, w, &load)
 }
 
@@ -115,16 +116,16 @@ fn some_tensions<T: Real>(
 #[inline(always)]
 pub(crate) fn acceleration<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     taut: TautSet,
 ) -> [T; 3] {
-    let free = system.free_acceleration(t, state, memory_force);
+    let free = system.free_acceleration(around, state, memory_force);
     if taut.is_empty() {
         return free;
     }
-    let tension = some_tensions(system, t, state, memory_force, taut);
+    let tension = some_tensions(system, around, state, memory_force, taut);
     let mass = &system.body.mass;
     taut.iter().fold(free, |acceleration, cable| {
         let normal = system.cables[cable].normal(state);
@@ -227,7 +228,7 @@ impl TautCable {
 #[inline(always)]
 pub(crate) fn slopes_of_acceleration(
     system: &System,
-    t: f64,
+    around: &Surroundings,
     state: &State,
     taut: TautSet,
 ) -> Option<[[f64; 6]; 3]> {
@@ -240,7 +241,7 @@ pub(crate) fn slopes_of_acceleration(
     if system.drag.is_some() || system.floating.is_some() || cables.next().is_some() {
         return None;
     }
-    let (force, spin) = (system.forcing.at(t), state.vtheta);
+    let (force, spin) = (around.force, state.vtheta);
     // One cable is two of which the other carries nothing.
     let one = TautCable::new(system, state, first);
     let two = TautCable::new(system, state, second.unwrap_or(first));
@@ -334,14 +335,14 @@ fn along(normal: &Normal, [x, y, theta]: &[f64; 3]) -> f64 {
 #[inline(always)]
 pub(crate) fn normal_acceleration<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     cable: usize,
     taut: TautSet,
 ) -> T {
-    let tension = some_tensions(system, t, state, memory_force, taut);
-    let (w, load) = problem(system, t, state, memory_force, taut.with(cable));
+    let tension = some_tensions(system, around, state, memory_force, taut);
+    let (w, load) = problem(system, around, state, memory_force, taut.with(cable));
     taut.iter()
         .fold(load[cable], |sum, j| sum - w(cable, j) * tension[j])
 }
@@ -350,12 +351,12 @@ pub(crate) fn normal_acceleration<T: Real>(
 #[inline(always)]
 fn problem<T: Real>(
     system: &System<T>,
-    t: T,
+    around: &Surroundings<T>,
     state: &State<T>,
     memory_force: [T; 3],
     set: TautSet,
 ) -> (impl Fn(usize, usize) -> T + Copy, PerCable<T>) {
-    let free = system.free_acceleration(t, state, memory_force);
+    let free = system.free_acceleration(around, state, memory_force);
     let mut load = [T::ZERO; MAX_CABLES];
     for cable in set.iter() {
         load[cable] = system.free_normal_acceleration(cable, state, free);
@@ -405,8 +406,10 @@ mod tests {
             }));
             for taut in [TautSet::only(0), TautSet::only(1), TautSet::only(0).with(1)] {
                 let still = [Dual::constant(0.0); 3];
-                let dual = acceleration(&over, Dual::constant(0.3), &variables, still, taut);
-                let slopes = slopes_of_acceleration(&system, 0.3, &state, taut);
+                let around = Surroundings::of(&system, 0.3);
+                let dual = around.map(Dual::constant);
+                let dual = acceleration(&over, &dual, &variables, still, taut);
+                let slopes = slopes_of_acceleration(&system, &around, &state, taut);
                 let slopes = slopes.expect("two cables that are independent");
                 for (written, law) in slopes.iter().zip(dual) {
                     for (ours, theirs) in written.iter().zip(law.slope) {

@@ -9,6 +9,7 @@
 use crate::arithmetic::real::Real;
 use crate::model::rules::Rules;
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::active_set::{ActiveSet, tensions};
@@ -17,6 +18,7 @@ use crate::motion::complementarity::solve;
 use crate::motion::contact::Contact;
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::taut_series::Series;
+use crate::motion::waves::Waves;
 
 /// The motions of a system with given sets of taut cables; the water keeps no memory of them.
 #[derive(Clone, Debug)]
@@ -58,6 +60,7 @@ impl<T: Real> Held<T> {
     /// Taylor series after Taylor series.
     fn driven(&self, taut: TautSet, mut t: T, state: &State<T>, mut s: T) -> State<T> {
         let mut series = Box::new(Series::new(&self.system, &Rules::until(T::ZERO)));
+        let mut waves = Waves::new(&self.system);
         let mut state = *state;
         loop {
             let mut contacts = [Contact::RESTING; MAX_CABLES];
@@ -70,7 +73,8 @@ impl<T: Real> Held<T> {
                 taut,
                 carrying: taut,
             };
-            series.begin(&self.system, t, &state, &[], &contacts, active);
+            waves.cover(t, t);
+            series.begin(&self.system, &waves, t, &state, &[], &contacts, active);
             let step = T::from_f64(series.step().to_f64());
             if step <= T::ZERO || !step.is_finite() || s.abs() <= step {
                 return series.state(s);
@@ -83,7 +87,8 @@ impl<T: Real> Held<T> {
 
     /// The tensions that hold the cables of `taut`, of either sign.
     pub fn tensions(&self, taut: TautSet, t: T, state: &State<T>) -> PerCable<T> {
-        tensions(&self.system, t, state, [T::ZERO; 3], taut)
+        let around = Surroundings::of(&self.system, t);
+        tensions(&self.system, &around, state, [T::ZERO; 3], taut)
     }
 
     /// The impact of `struck` cables, of which and of others `pulling` ones take up impulses of

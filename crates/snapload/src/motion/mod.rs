@@ -28,3 +28,4 @@ pub(crate) mod two_cable_flight;
 pub(crate) mod two_cables;
 pub(crate) mod water_flow;
 pub(crate) mod water_series;
+pub(crate) mod waves;

@@ -9,6 +9,7 @@ use crate::motion::flight::Flight;
 use crate::motion::segments::Segment;
 use crate::motion::taut_series::Series;
 use crate::motion::trajectory::Trajectory;
+use crate::motion::waves::Waves;
 
 /// The motion at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,7 @@ pub struct Playback<'a> {
     reached: Option<(usize, Segment)>,
     flight: Flight<f64>,
     series: Series<f64>,
+    waves: Waves<f64>,
 }
 
 impl<'a> Playback<'a> {
@@ -56,6 +58,7 @@ impl<'a> Playback<'a> {
             reached: None,
             flight: Flight::new(run.system(), &rules),
             series: Series::new(run.system(), &rules),
+            waves: Waves::new(run.system()),
         }
     }
 
@@ -77,6 +80,8 @@ impl<'a> Playback<'a> {
             self.series.state(s)
         };
         let (system, t) = (self.run.system(), segment.t + s);
+        self.waves.cover(t, t);
+        let around = self.waves.at(system, t);
         let memory_force = if s > 0.0 {
             self.series.memory_force(s)
         } else {
@@ -86,7 +91,7 @@ impl<'a> Playback<'a> {
             t,
             state,
             taut,
-            tensions: tensions(system, t, &state, memory_force, taut),
+            tensions: tensions(system, &around, &state, memory_force, taut),
             energy: system.energy(&state),
             memory_force,
         }
@@ -109,7 +114,7 @@ impl<'a> Playback<'a> {
             let mut later = segment.t + self.series.step();
             while segment.t < later && later <= t && later < next {
                 segment = segment.following(system, &self.series);
-                segment.expand(system, &mut self.series);
+                segment.expand(system, &mut self.waves, &mut self.series);
                 later = segment.t + self.series.step();
             }
         }
@@ -124,7 +129,7 @@ impl<'a> Playback<'a> {
             let contacts = [Contact::RESTING; MAX_CABLES];
             self.flight.begin(system, t, start, start, &contacts);
         } else {
-            segment.expand(system, &mut self.series);
+            segment.expand(system, &mut self.waves, &mut self.series);
         }
     }
 }

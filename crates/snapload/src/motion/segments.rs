@@ -15,6 +15,7 @@ use crate::motion::events::Reached;
 use crate::motion::projection::{project_position, project_velocity};
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
+use crate::motion::waves::Waves;
 
 /// A stretch of motion with one taut set, from which the state at any time in it is computed.
 #[derive(Clone, Debug)]
@@ -47,11 +48,13 @@ pub(crate) struct Segments {
 
 impl Segment {
     /// Its first expansion.
-    pub(crate) fn expand(&self, system: &System, series: &mut Series<f64>) {
+    pub(crate) fn expand(&self, system: &System, waves: &mut Waves<f64>, series: &mut Series<f64>) {
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
+        waves.cover(self.t, self.t);
         series.begin(
             system,
+            waves,
             self.t,
             &self.start,
             &self.memory,

@@ -23,6 +23,7 @@ use crate::motion::start;
 use crate::motion::start::StartError;
 use crate::motion::taut_series::Series;
 use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
+use crate::motion::waves::Waves;
 
 mod bounces;
 mod event_laws;
@@ -58,6 +59,8 @@ pub struct Simulation<T: Real = f64> {
     /// What was known of it, if it was a bounce and nothing more.
     facts: Option<FlightFacts<T>>,
     flight: Flight<T>,
+    /// The sums over all sinusoids.
+    waves: Waves<T>,
     /// Made for the first stretch without a closed form: it is large, and most runs have none.
     series: Option<Box<Series<T>>>,
     extremes: Extremes<T>,
@@ -190,8 +193,11 @@ impl<T: Real> Simulation<T> {
         state: State<T>,
     ) -> Result<Self, StartError> {
         let start = apart!(T, { start::prepare(&system, &rules, t, &state) })?;
+        let mut waves = Waves::new(&system);
+        waves.cover(t, t);
         Ok(Self {
             flight: Flight::new(&system, &rules),
+            waves,
             series: None,
             memory: system.memory_at_rest(),
             extremes: Extremes::at(&start.state),
@@ -355,6 +361,7 @@ impl<T: Real> Simulation<T> {
                     .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
                 series.begin(
                     &self.system,
+                    &self.waves,
                     self.t,
                     &self.state,
                     &self.memory,
@@ -406,6 +413,7 @@ impl<T: Real> Simulation<T> {
                 self.t + s
             };
             (self.state, self.extremes, self.contacts) = (state, extremes, contacts);
+            self.waves.cover(self.begun, self.t);
             let closed = self.closed();
             project_position(&self.system, &mut self.state, closed);
             project_velocity(&self.system, &mut self.state, self.active.taut);

@@ -4,6 +4,7 @@ use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
 use crate::model::rules::{Limit, Rules, Stop};
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, taut_next};
@@ -110,7 +111,8 @@ pub(crate) fn prepare<T: Real>(
     }
     // The water has been at rest, and has nothing to remember.
     let still = [T::ZERO; 3];
-    let active = taut_next(system, t, &state, still, resting);
+    let around = Surroundings::of(system, t);
+    let active = taut_next(system, &around, &state, still, resting);
     let snaps = closed
         .iter()
         .any(|cable| !resting.contains(cable) && velocity(&state, cable) > T::ZERO);

@@ -22,6 +22,7 @@ use crate::arithmetic::dual::Dual;
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::model::floating::Floating;
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::TautSet;
 use crate::motion::active_set::{acceleration, response_to_force, slopes_of_acceleration};
@@ -62,13 +63,9 @@ impl Kernel for Mapping<'_> {
 impl Tangent {
     /// Of the motions of a system.
     pub fn new(system: &System) -> Self {
-        let mut system = system.map(Number::constant);
-        // What does not depend on the state is told with the memory's force.
-        if let Some(water) = &mut system.floating {
-            water.constant = [Number::constant(0.0); 3];
-            water.excitation.clear();
+        Self {
+            system: system.map(Number::constant),
         }
-        Self { system }
     }
 
     /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
@@ -99,16 +96,18 @@ impl Tangent {
             water: afloat.map(|water| Box::new(self.water_flow(simulation, step, water))),
         };
         let pull = simulation.memory_force_within(step, 0.0);
-        let first = rate(system, step.t_start, &step.start, pull, step.taut);
+        let around = simulation.surroundings(step.t_start);
+        let first = rate(system, &around, &step.start, pull, step.taut);
         // An event leaves the water's memory as it is.
         let pull = simulation.memory_force();
-        let last = rate(system, step.t_end, &step.before, pull, step.taut);
+        let around = simulation.surroundings(step.t_end);
+        let last = rate(system, &around, &step.before, pull, step.taut);
         let rate_after = if step.taut == step.taut_after && system.flies_freely(step.taut) {
             // In flight the force alone accelerates, and it does not jump.
             let State { vx, vy, vtheta, .. } = step.after;
             [vx, vy, vtheta, last[3], last[4], last[5]]
         } else {
-            rate(system, step.t_end, &step.after, pull, step.taut_after)
+            rate(system, &around, &step.after, pull, step.taut_after)
         };
         let mut begun = join(&first, 0.0).map(|component| [component]);
         let memory = if let Some(water) = afloat {
@@ -202,13 +201,15 @@ impl Tangent {
     /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.
     #[inline(always)]
     fn slopes_within(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
-        let (t, state) = (step.t_start + s, simulation.within(step, s));
-        match slopes_of_acceleration(simulation.system(), t, &state, step.taut) {
+        let around = simulation.surroundings(step.t_start + s);
+        let state = simulation.within(step, s);
+        match slopes_of_acceleration(simulation.system(), &around, &state, step.taut) {
             Some(slopes) => slopes,
             None => {
-                let t = Number::constant(t);
-                let held = simulation.held_within(step, s).map(Number::constant);
-                acceleration(&self.system, t, &variables(&state), held, step.taut).map(|a| a.slope)
+                let around = around.map(Number::constant);
+                let held = simulation.memory_force_within(step, s);
+                let (held, state) = (held.map(Number::constant), variables(&state));
+                acceleration(&self.system, &around, &state, held, step.taut).map(|a| a.slope)
             }
         }
     }
@@ -261,8 +262,14 @@ fn variables(state: &State) -> State<Number> {
 
 /// ż.
 #[inline(always)]
-fn rate(system: &System, t: f64, state: &State, memory_force: [f64; 3], taut: TautSet) -> [f64; 6] {
-    let [x, y, theta] = acceleration(system, t, state, memory_force, taut);
+fn rate(
+    system: &System,
+    around: &Surroundings,
+    state: &State,
+    memory_force: [f64; 3],
+    taut: TautSet,
+) -> [f64; 6] {
+    let [x, y, theta] = acceleration(system, around, state, memory_force, taut);
     [state.vx, state.vy, state.vtheta, x, y, theta]
 }
 
@@ -361,7 +368,7 @@ mod tests {
             }
             let rates = rate(
                 simulation.system(),
-                step.t_end,
+                &Surroundings::of(simulation.system(), step.t_end),
                 &step.after,
                 [0.0; 3],
                 step.taut_after,

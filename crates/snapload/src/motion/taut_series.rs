@@ -58,6 +58,7 @@ use crate::motion::events::EventFunction;
 use crate::motion::extremes::rises_above_zero;
 use crate::motion::limits::Limits;
 use crate::motion::water_series::WaterSeries;
+use crate::motion::waves::Waves;
 
 mod events;
 mod water;
@@ -139,6 +140,7 @@ impl<T: Real> Series<T> {
     pub(crate) fn begin(
         &mut self,
         system: &System<T>,
+        waves: &Waves<T>,
         t: T,
         start: &State<T>,
         memory: &[Complex<T>],
@@ -152,7 +154,7 @@ impl<T: Real> Series<T> {
             for (cable, tether) in system.cables.iter().enumerate() {
                 self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
             }
-            self.expand_force(system, t, memory);
+            self.expand_force(system, waves, t, memory);
             (self.x[0], self.x[1]) = (start.x, start.vx);
             (self.y[0], self.y[1]) = (start.y, start.vy);
             self.circle = VectorSeries::default();
@@ -185,18 +187,12 @@ impl<T: Real> Series<T> {
 
     /// f(t0 + s) as a power series.
     #[inline(always)]
-    fn expand_force(&mut self, system: &System<T>, t: T, memory: &[Complex<T>]) {
-        self.force = [Polynomial::default(); 2];
-        let constant = system.forcing.constant;
-        (self.force[0][0], self.force[1][0]) = (constant.x, constant.y);
-        for harmonic in &system.forcing.harmonics {
-            harmonic.expand(t, &mut self.force);
-        }
-        if let Some(drag) = &system.drag {
-            self.drag.begin(drag, t);
-        }
-        if let (Some(series), Some(water)) = (&mut self.water, &system.floating) {
-            series.begin(water, t, memory);
+    fn expand_force(&mut self, system: &System<T>, waves: &Waves<T>, t: T, memory: &[Complex<T>]) {
+        let around = waves.expanded(system, t);
+        self.force = around.force;
+        self.drag.begin(&around.water);
+        if let Some(series) = &mut self.water {
+            series.begin(&around.excitation, memory);
         }
     }
 

@@ -57,8 +57,6 @@ pub(crate) struct WaterSeries<T: Real> {
     residues: [[Vec<T>; 2]; 3],
     /// z_k of all states, order by order.
     memory: [Vec<T>; 2],
-    /// Of each sinusoid ±Ω^k/k!, with the signs of the derivatives of sine and cosine.
-    powers: Vec<[T; ORDER + 1]>,
     /// f_k, F_c included.
     excitation: [Polynomial<T>; 3],
     /// The coefficients of F_mem.
@@ -86,24 +84,11 @@ impl<T: Real> WaterSeries<T> {
         let column =
             |row: usize, part: usize| channels.iter().map(|c| c.residue[row][part]).collect();
         let room = vec![T::ZERO; channels.len() * (ORDER + 1)];
-        let powers = |omega: T| {
-            let (mut powers, mut power) = ([T::ZERO; ORDER + 1], T::ONE);
-            for (k, entry) in powers.iter_mut().enumerate() {
-                *entry = if k % 4 < 2 { power } else { -power };
-                power = power * omega / (k + 1) as f64;
-            }
-            powers
-        };
         Self {
             ends: [0, 1, 2].map(up_to),
             poles: [part(0), part(1)],
             residues: [0, 1, 2].map(|row| [column(row, 0), column(row, 1)]),
             memory: [room.clone(), room],
-            powers: water
-                .excitation
-                .iter()
-                .map(|wave| powers(wave.omega))
-                .collect(),
             excitation: [Polynomial::default(); 3],
             pull: [Polynomial::default(); 3],
             norm: Norm::of(system, water),
@@ -111,21 +96,11 @@ impl<T: Real> WaterSeries<T> {
         }
     }
 
-    /// Begins the series about time `t`, with the memory there.
+    /// Begins the series where the memory is this, with the series of F_w + F_c.
     #[inline(always)]
-    pub(crate) fn begin(&mut self, water: &Floating<T>, t: T, memory: &[Complex<T>]) {
-        self.excitation = [Polynomial::default(); 3];
+    pub(crate) fn begin(&mut self, excitation: &[Polynomial<T>; 3], memory: &[Complex<T>]) {
+        self.excitation = *excitation;
         self.pull = [Polynomial::default(); 3];
-        for (series, constant) in self.excitation.iter_mut().zip(water.constant) {
-            series[0] = constant;
-        }
-        for (wave, powers) in water.excitation.iter().zip(&self.powers) {
-            let local = wave.shifted(t);
-            for (i, series) in self.excitation.iter_mut().enumerate() {
-                // Even orders are the cosine's, odd ones the sine's.
-                series.add_alternating(powers, local.cosine[i], local.sine[i]);
-            }
-        }
         let [real, imaginary] = &mut self.memory;
         for ((re, im), z) in real.iter_mut().zip(imaginary.iter_mut()).zip(memory) {
             [*re, *im] = *z;
@@ -262,16 +237,6 @@ impl<T: Real> WaterSeries<T> {
         let mut force = [T::ZERO; 3];
         for (force, pull) in force.iter_mut().zip(&self.pull) {
             [*force, ..] = pull.jet(s, ORDER);
-        }
-        force
-    }
-
-    /// F_mem − F_w − F_c then.
-    pub(crate) fn held_force(&self, s: T) -> [T; 3] {
-        let mut force = self.memory_force(s);
-        for (force, pushed) in force.iter_mut().zip(&self.excitation) {
-            let [pushed, ..] = pushed.jet(s, ORDER);
-            *force -= pushed;
         }
         force
     }

@@ -1,14 +1,14 @@
 //! A body on lines that stretch: what they do at a state, and how it is accelerated.
 
 use super::law::Spring;
-use super::waves::Surroundings;
-use snapload::{State, System, TautSet};
+use snapload::{State, System, TautSet, Waves};
+use std::cell::RefCell;
 
 /// A body on springs.
 pub(super) struct SprungBody<'a> {
     pub(super) system: &'a System,
     pub(super) springs: &'a [Spring],
-    surroundings: Surroundings<'a>,
+    waves: RefCell<Waves>,
 }
 
 /// What one line does at one state.
@@ -30,7 +30,7 @@ impl<'a> SprungBody<'a> {
         Self {
             system,
             springs,
-            surroundings: Surroundings::new(system),
+            waves: RefCell::new(Waves::new(system)),
         }
     }
 
@@ -101,7 +101,10 @@ impl<'a> SprungBody<'a> {
         memory_force: [f64; 3],
         pulling: TautSet,
     ) -> [f64; 3] {
-        let free = self.surroundings.free_acceleration(t, state, memory_force);
+        let mut waves = self.waves.borrow_mut();
+        waves.cover(t, t);
+        let around = waves.at(self.system, t);
+        let free = self.system.free_acceleration(&around, state, memory_force);
         pulling.iter().fold(free, |[x, y, theta], line| {
             let Stretch { n, arm, force, .. } = self.stretch(line, state);
             let pull = [force * n[0], force * n[1], force * arm];

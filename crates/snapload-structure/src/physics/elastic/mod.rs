@@ -5,7 +5,6 @@ mod law;
 mod motion;
 mod record;
 mod rest;
-mod waves;
 
 pub(super) use law::undamped;
 pub use law::{Spring, damping_ratio, springs};

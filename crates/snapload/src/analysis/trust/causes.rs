@@ -195,7 +195,7 @@ impl Closing {
             let memory_force = simulation.memory_force();
             normal_acceleration(
                 system,
-                step.t_end,
+                &simulation.surroundings(step.t_end),
                 &step.before,
                 memory_force,
                 cable,

@@ -66,7 +66,7 @@ impl<T: Real> Simulation<T> {
             let mut halted = result.after;
             project_velocity(&self.system, &mut halted, candidates);
             let memory_force = self.memory_force();
-            self.active = taut_next(&self.system, self.t, &halted, memory_force, candidates);
+            self.active = self.taut_next(self.t, &halted, memory_force, candidates);
             let at_rest = if caught.is_empty() {
                 project_velocity(&self.system, &mut self.state, self.active.taut);
                 at_rest
@@ -157,6 +157,22 @@ impl<T: Real> Simulation<T> {
     /// one of them. Which, the instant itself does not say, so it is decided a little later on the
     /// same motion, when the tension would be negative: there the problem on accelerations tells
     /// who goes on carrying, and who leaves.
+    /// The cables that are taut from a time on, among candidates.
+    #[inline(always)]
+    fn taut_next(
+        &self,
+        t: T,
+        state: &State<T>,
+        memory_force: [T; 3],
+        candidates: TautSet,
+    ) -> ActiveSet {
+        if candidates.is_empty() {
+            return ActiveSet::default();
+        }
+        let around = self.surroundings(t);
+        taut_next(&self.system, &around, state, memory_force, candidates)
+    }
+
     fn release(&mut self, released: TautSet) {
         self.end_slow_row();
         let ActiveSet { taut, carrying } = self.active;
@@ -173,10 +189,10 @@ impl<T: Real> Simulation<T> {
             let later = steps.into_iter().find(clear).unwrap_or(last);
             let state = series.state(since + later);
             let memory_force = series.memory_force(since + later);
-            taut_next(&self.system, self.t + later, &state, memory_force, taut)
+            self.taut_next(self.t + later, &state, memory_force, taut)
         } else {
             let kept = released.iter().fold(taut, TautSet::without);
-            taut_next(&self.system, self.t, &self.state, self.memory_force(), kept)
+            self.taut_next(self.t, &self.state, self.memory_force(), kept)
         };
     }
 
@@ -220,8 +236,9 @@ impl<T: Real> Simulation<T> {
         let mut limit = None;
         for cable in cables.iter() {
             let (system, memory_force) = (&self.system, self.memory_force());
+            let around = self.surroundings(self.t);
             let alpha =
-                normal_acceleration(system, self.t, &self.state, memory_force, cable, others);
+                normal_acceleration(system, &around, &self.state, memory_force, cable, others);
             if alpha > T::ZERO {
                 let at = self.t + self.system.contact_law().time_of_bounces(v_n, alpha)?;
                 limit = Some(limit.map_or(at, |limit: T| limit.max(at)));

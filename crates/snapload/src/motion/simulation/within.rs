@@ -5,6 +5,7 @@ use crate::arithmetic::real::Real;
 use crate::model::floating::Complex;
 use crate::model::rules::Limit;
 use crate::model::state::State;
+use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::tensions;
@@ -119,12 +120,10 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// The same less the waves and the constant force on a floating body.
-    pub(crate) fn held_within(&self, step: &Step<T>, s: T) -> [T; 3] {
-        match self.expanded(step.taut) {
-            Some(series) => series.held_force(s),
-            None => [T::ZERO; 3],
-        }
+    /// What acts on the body from outside at a time of the latest step.
+    #[inline(always)]
+    pub(crate) fn surroundings(&self, t: T) -> Surroundings<T> {
+        self.waves.at(&self.system, t)
     }
 
     /// The motion of the latest stretch.
@@ -326,9 +325,10 @@ impl<T: Real> Simulation<T> {
             return now;
         };
         if step.taut != step.carrying {
-            let t = step.t_start + s;
+            let around = self.surroundings(step.t_start + s);
             let memory_force = series.memory_force(s);
-            return tensions(&self.system, t, &series.state(s), memory_force, step.taut);
+            let state = series.state(s);
+            return tensions(&self.system, &around, &state, memory_force, step.taut);
         }
         for cable in step.taut.iter() {
             now[cable] = series.tension(cable, s);

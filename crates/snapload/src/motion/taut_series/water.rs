@@ -136,14 +136,6 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// The same less the waves and the constant force.
-    pub(crate) fn held_force(&self, s: T) -> [T; 3] {
-        match &self.water {
-            None => [T::ZERO; 3],
-            Some(water) => water.held_force(s),
-        }
-    }
-
     /// The memory itself then.
     #[inline(always)]
     pub(crate) fn memory(&self, s: T, into: &mut [Complex<T>]) {

@@ -1,0 +1,44 @@
+//! What acts on the body from outside at one instant, however it moves.
+
+use crate::arithmetic::plane::Vector2;
+use crate::arithmetic::real::Real;
+use crate::model::system::System;
+
+/// The sums over all sinusoids at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Surroundings<T = f64> {
+    /// The force f, the constant part of it included \[F\].
+    pub force: Vector2<T>,
+    /// The velocity w of the water where the body is; zero where it does not resist \[L/T\].
+    pub water: Vector2<T>,
+    /// F_w + F_c of linear water; zero where the body does not float \[F, F, F L\].
+    pub excitation: [T; 3],
+}
+
+impl<T: Real> Surroundings<T> {
+    /// Of a system at a time, each sinusoid by itself.
+    #[inline(always)]
+    pub fn of(system: &System<T>, t: T) -> Self {
+        Self {
+            force: system.forcing.at(t),
+            water: match &system.drag {
+                Some(drag) => drag.velocity_of_water(t),
+                None => Vector2::ZERO,
+            },
+            excitation: match &system.floating {
+                Some(water) => water.excitation_at(t),
+                None => [T::ZERO; 3],
+            },
+        }
+    }
+
+    /// The same in another arithmetic.
+    #[inline(always)]
+    pub(crate) fn map<U>(&self, number: impl Fn(T) -> U + Copy) -> Surroundings<U> {
+        Surroundings {
+            force: self.force.map(number),
+            water: self.water.map(number),
+            excitation: self.excitation.map(number),
+        }
+    }
+}
