@@ -176,12 +176,14 @@ fn largest<T: Real>(coefficients: &[T], x: T, least: T) -> T {
 }
 
 /// Σ a_j b_{k−j}, the k-th coefficient of a product.
+#[inline(always)]
 pub(crate) fn convolve<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
     sum_of_products(&a.0[..=k], &b.0[..=k])
 }
 
 /// The first list's entries times the second's in reverse: four sums that take turns and are added
 /// at the end, as a processor can do several at once.
+#[inline(always)]
 fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sums = [T::ZERO; 4];
     let (fours, reversed) = (a.chunks_exact(4), b.rchunks_exact(4));

@@ -77,6 +77,7 @@ impl<T: Real> DragSeries<T> {
 
     /// The k-th coefficient of D, from that of the body's velocity; S = |u|² gives |u| by
     /// 2 s₀ s_k = S_k − Σ s_j s_{k−j}, 0 < j < k.
+    #[inline(always)]
     pub(crate) fn extend(&mut self, drag: &Drag<T>, velocity: [T; 2], k: usize) -> [T; 2] {
         for (relative, velocity) in self.relative.iter_mut().zip(velocity) {
             relative[k] -= velocity;

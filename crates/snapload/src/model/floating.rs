@@ -171,6 +171,7 @@ impl<T: Real> Floating<T> {
 
     /// The states of the memory, those of one component of the velocity after the other. Columns
     /// of zeros have none.
+    #[inline(always)]
     pub(crate) fn channels(&self) -> impl Iterator<Item = Channel<T>> + '_ {
         (0..3).flat_map(move |input| {
             self.memory.iter().filter_map(move |term| {
@@ -191,6 +192,7 @@ impl<T: Real> Floating<T> {
     }
 
     /// ż = p z + q̇.
+    #[inline(always)]
     pub(crate) fn memory_rates(
         &self,
         state: &State<T>,
@@ -208,6 +210,7 @@ impl<T: Real> Floating<T> {
     }
 
     /// F_mem = Re Σ R z.
+    #[inline(always)]
     pub(crate) fn memory_force(&self, memory: &[Complex<T>]) -> [T; 3] {
         let mut force = [T::ZERO; 3];
         for (channel, [re, im]) in self.channels().zip(memory) {

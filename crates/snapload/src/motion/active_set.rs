@@ -135,6 +135,7 @@ pub(crate) fn acceleration<T: Real>(
 
 /// What (ẍ, ÿ, θ̈) change by with a force (f_x, f_y) and a moment, by columns, while the cables of
 /// `taut` pull: M⁻¹ (1 − Gᵀ W⁻¹ G M⁻¹).
+#[inline(always)]
 pub(crate) fn response_to_force(system: &System, state: &State, taut: TautSet) -> Matrix3 {
     let (normals, mass) = (system.normals(state, taut), &system.body.mass);
     let w = |i: usize, j: usize| mass.coupling(&normals[i], &normals[j]);

@@ -1,5 +1,6 @@
 //! The motion between the events of a finished run.
 
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
@@ -48,6 +49,17 @@ pub struct Playback<'a> {
     waves: Waves<f64>,
 }
 
+/// A motion to be computed, by the best instructions for it.
+struct MotionAt<'p, 'a>(&'p mut Playback<'a>, f64);
+
+impl Kernel for MotionAt<'_, '_> {
+    type Output = Motion;
+    #[inline(always)]
+    fn run(self) -> Motion {
+        self.0.at_here(self.1)
+    }
+}
+
 impl<'a> Playback<'a> {
     /// Of a run.
     pub fn new(run: &'a Trajectory) -> Self {
@@ -64,6 +76,11 @@ impl<'a> Playback<'a> {
 
     /// State, taut set, tensions and energy at time t, held to the run's span.
     pub fn at(&mut self, t: f64) -> Motion {
+        dispatch(MotionAt(self, t))
+    }
+
+    #[inline(always)]
+    fn at_here(&mut self, t: f64) -> Motion {
         let t = t.min(self.run.end().t);
         let segments = self.run.segments();
         let after = segments.partition_point(|segment| segment.t <= t);
@@ -99,6 +116,7 @@ impl<'a> Playback<'a> {
 
     /// Expands the motion about the latest start of an expansion up to time `t`, in the chain of a
     /// kept segment.
+    #[inline(always)]
     fn come_to(&mut self, index: usize, t: f64) -> Segment {
         let kept = self.run.segments();
         let system = self.run.system();
@@ -122,6 +140,7 @@ impl<'a> Playback<'a> {
         segment
     }
 
+    #[inline(always)]
     fn begin(&mut self, segment: &Segment) {
         let (system, t, start) = (self.run.system(), segment.t, &segment.start);
         if system.flies_freely(segment.active.taut) {

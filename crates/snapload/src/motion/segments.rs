@@ -48,6 +48,7 @@ pub(crate) struct Segments {
 
 impl Segment {
     /// Its first expansion.
+    #[inline(always)]
     pub(crate) fn expand(&self, system: &System, waves: &mut Waves<f64>, series: &mut Series<f64>) {
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
@@ -64,11 +65,13 @@ impl Segment {
     }
 
     /// The force of the water's memory at its start.
+    #[inline(always)]
     pub(crate) fn memory_force(&self, system: &System) -> [f64; 3] {
         system.memory_force(&self.memory)
     }
 
     /// The next of the chain, by the arithmetic of the run.
+    #[inline(always)]
     pub(crate) fn following(&self, system: &System, series: &Series<f64>) -> Self {
         let mut start = series.state(series.step());
         project_position(system, &mut start, self.closed);

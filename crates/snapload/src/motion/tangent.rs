@@ -93,7 +93,10 @@ impl Tangent {
             } else {
                 Some(self.driven_flow(simulation, step))
             },
-            water: afloat.map(|water| Box::new(self.water_flow(simulation, step, water))),
+            water: match afloat {
+                Some(water) => Some(Box::new(self.water_flow(simulation, step, water))),
+                None => None,
+            },
         };
         let pull = simulation.memory_force_within(step, 0.0);
         let around = simulation.surroundings(step.t_start);
@@ -178,14 +181,11 @@ impl Tangent {
 
     /// Φ of a floating body: a power series where its motion is linear, else by the rule of Runge and
     /// Kutta.
+    #[inline(always)]
     fn water_flow(&self, simulation: &Simulation, step: &Step, water: &Floating) -> WaterFlow {
         let s = step.t_end - step.t_start;
         let system = simulation.system();
-        let slopes = |at: f64| Slopes {
-            by_state: self.slopes_within(simulation, step, at),
-            by_force: response_to_force(system, &simulation.within(step, at), step.taut),
-        };
-        let first = slopes(0.0);
+        let first = self.water_slopes(simulation, step, 0.0);
         if step.taut.is_empty() && system.drag.is_none() {
             return WaterFlow::constant(water, s, first);
         }
@@ -194,8 +194,21 @@ impl Tangent {
         let pace = (SUBSTEPS / simulation.expansion()).max(pace);
         let count = (pace * s).ceil().max(1.0);
         let h = s / count;
-        let nodes = (1..=2 * count as u32).map(|k| slopes(0.5 * h * f64::from(k)));
-        WaterFlow::varying(water, h, std::iter::once(first).chain(nodes).collect())
+        let mut nodes = vec![first];
+        for k in 1..=2 * count as u32 {
+            nodes.push(self.water_slopes(simulation, step, 0.5 * h * f64::from(k)));
+        }
+        WaterFlow::varying(water, h, nodes)
+    }
+
+    /// What the accelerations of a floating body change by a time `s` into a step.
+    #[inline(always)]
+    fn water_slopes(&self, simulation: &Simulation, step: &Step, s: f64) -> Slopes {
+        let (system, state) = (simulation.system(), simulation.within(step, s));
+        Slopes {
+            by_state: self.slopes_within(simulation, step, s),
+            by_force: response_to_force(system, &state, step.taut),
+        }
     }
 
     /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.

@@ -383,12 +383,14 @@ impl<T: Real> Series<T> {
     }
 
     /// The tension of a taut cable a time `s` after the start.
+    #[inline(always)]
     pub(crate) fn tension(&self, cable: usize, s: T) -> T {
         let [tension, ..] = self.lines[cable].tension.jet(s, ORDER - 2);
         tension
     }
 
     /// g and ġ of a slack cable a time `s` after the start.
+    #[inline(always)]
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {
         let [gap, rate, _] = self.lines[cable].gap.jet(s, ORDER);
         (gap, rate)

@@ -12,6 +12,7 @@
 //! is found by the rule of Runge and Kutta.
 
 use crate::arithmetic::polynomial::ORDER;
+use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::model::floating::{Channel, Floating};
 use crate::model::mass::Matrix3;
 use crate::model::state::State;
@@ -42,6 +43,17 @@ struct Deviations<const M: usize> {
     memory: Vec<[f64; M]>,
 }
 
+/// Deviations to be carried, by the best instructions for it.
+struct Carrying<'a, const M: usize>(&'a WaterFlow, &'a mut [[f64; M]; 7], &'a mut [[f64; M]]);
+
+impl<const M: usize> Kernel for Carrying<'_, M> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        self.0.carry_here(self.1, self.2);
+    }
+}
+
 impl WaterFlow {
     /// With slopes that do not change over a time `s`.
     pub(crate) fn constant(water: &Floating, s: f64, slopes: Slopes) -> Self {
@@ -63,6 +75,11 @@ impl WaterFlow {
 
     /// Carries deviations along the stretch; the last row of `block`, the time, stays.
     pub(crate) fn carry<const M: usize>(&self, block: &mut [[f64; M]; 7], memory: &mut [[f64; M]]) {
+        dispatch(Carrying(self, block, memory));
+    }
+
+    #[inline(always)]
+    fn carry_here<const M: usize>(&self, block: &mut [[f64; M]; 7], memory: &mut [[f64; M]]) {
         let mut w = Deviations {
             state: [[0.0; M]; 6],
             memory: memory.to_vec(),
@@ -81,6 +98,7 @@ impl WaterFlow {
     }
 
     /// Σ (L h)^k w/k!.
+    #[inline(always)]
     fn carried_by_series<const M: usize>(
         &self,
         slopes: &Slopes,
@@ -98,6 +116,7 @@ impl WaterFlow {
     }
 
     /// One step of Runge and Kutta.
+    #[inline(always)]
     fn carried_by_rule<const M: usize>(
         &self,
         [left, middle, right]: [&Slopes; 3],
@@ -113,6 +132,7 @@ impl WaterFlow {
     }
 
     /// ẇ and ζ̇.
+    #[inline(always)]
     fn change<const M: usize>(&self, slopes: &Slopes, w: &Deviations<M>) -> Deviations<M> {
         let mut changed = Deviations {
             state: [[0.0; M]; 6],
@@ -148,6 +168,7 @@ impl WaterFlow {
 }
 
 impl<const M: usize> Deviations<M> {
+    #[inline(always)]
     fn plus(mut self, other: &Self, factor: f64) -> Self {
         let rows = self.state.iter_mut().zip(&other.state);
         for (row, more) in rows.chain(self.memory.iter_mut().zip(&other.memory)) {
@@ -156,6 +177,7 @@ impl<const M: usize> Deviations<M> {
         self
     }
 
+    #[inline(always)]
     fn scale(&mut self, factor: f64) {
         for row in self.state.iter_mut().chain(&mut self.memory) {
             for entry in row {
@@ -165,6 +187,7 @@ impl<const M: usize> Deviations<M> {
     }
 }
 
+#[inline(always)]
 fn add<const M: usize>(to: &mut [f64; M], row: &[f64; M], factor: f64) {
     for (sum, entry) in to.iter_mut().zip(row) {
         *sum += factor * entry;

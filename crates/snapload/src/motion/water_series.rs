@@ -241,6 +241,15 @@ impl<T: Real> WaterSeries<T> {
         force
     }
 
+    /// z at the start.
+    #[inline(always)]
+    pub(crate) fn memory_at_start(&self, into: &mut [Complex<T>]) {
+        let [real, imaginary] = &self.memory;
+        for ((z, re), im) in into.iter_mut().zip(real).zip(imaginary) {
+            *z = [*re, *im];
+        }
+    }
+
     /// z a time `s` after the start.
     #[inline(always)]
     pub(crate) fn memory(&self, s: T, into: &mut [Complex<T>]) {

@@ -39,6 +39,17 @@ impl<T: Real> Kernel for GapAndRate<'_, T> {
     }
 }
 
+/// Tensions to be looked at, likewise.
+struct TensionsWithin<'a, T: Real>(&'a Simulation<T>, &'a Step<T>, T);
+
+impl<T: Real> Kernel for TensionsWithin<'_, T> {
+    type Output = [T; MAX_CABLES];
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        self.0.tensions_here(self.1, self.2)
+    }
+}
+
 /// A state to be looked at, likewise.
 pub(super) struct StateAt<'a, T: Real>(pub(super) &'a Stretch<'a, T>, pub(super) T);
 
@@ -104,15 +115,17 @@ impl<T: Real> Simulation<T> {
     }
 
     /// What the water remembered when the latest step began.
+    #[inline(always)]
     pub(crate) fn memory_at_start(&self) -> Box<[Complex<T>]> {
         let mut memory: Box<[Complex<T>]> = self.memory().into();
         if let (Some(series), false) = (&self.series, memory.is_empty()) {
-            series.memory(T::ZERO, &mut memory);
+            series.memory_at_start(&mut memory);
         }
         memory
     }
 
     /// The force of the water's memory a time `s` into the stretch that the latest step made.
+    #[inline(always)]
     pub(crate) fn memory_force_within(&self, step: &Step<T>, s: T) -> [T; 3] {
         match self.expanded(step.taut) {
             Some(series) => series.memory_force(s),
@@ -320,6 +333,11 @@ impl<T: Real> Simulation<T> {
     }
 
     fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
+        dispatch_over::<T, _>(TensionsWithin(self, step, s))
+    }
+
+    #[inline(always)]
+    fn tensions_here(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
         let mut now = [T::ZERO; MAX_CABLES];
         let Some(series) = self.expanded(step.taut) else {
             return now;

@@ -67,13 +67,15 @@ impl<T: Real> Series<T> {
         });
         let longest = system.cables.iter().map(Cable::length);
         let longest = longest.fold(T::ONE, T::max) * (T::EPSILON * 0.1);
-        let allowed = |s: T| ((first + second * s) * s + STILL) * longest;
-        let too_long = |s: T| {
-            let left_out = self.left_out_of_gaps(system, s);
-            let of_motion = self.left_out_of_motion(s);
-            left_out.into_iter().fold(of_motion, T::max) > allowed(s)
-        };
-        while step > T::EPSILON && too_long(step) {
+        while step > T::EPSILON {
+            let mut left_out = self.left_out_of_motion(step);
+            let of_gaps = self.left_out_of_gaps(system, step);
+            for cable in 0..system.cables.len() {
+                left_out = left_out.max(of_gaps[cable]);
+            }
+            if left_out <= ((first + second * step) * step + STILL) * longest {
+                break;
+            }
             step = step * 0.7;
         }
         step
@@ -136,7 +138,15 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// The memory itself then.
+    /// The memory itself at the start.
+    #[inline(always)]
+    pub(crate) fn memory_at_start(&self, into: &mut [Complex<T>]) {
+        if let Some(water) = &self.water {
+            water.memory_at_start(into);
+        }
+    }
+
+    /// The memory a time `s` after it.
     #[inline(always)]
     pub(crate) fn memory(&self, s: T, into: &mut [Complex<T>]) {
         if let Some(water) = &self.water {
