@@ -366,3 +366,60 @@ fn the_limits_are_told_of_lines_that_stretch() {
         .collect();
     assert_eq!(answers, [Answer::Unknown]);
 }
+
+/// Heave on stretched lines that stay taut is, for small waves, the linear answer with the stiffness
+/// of the lines and their dampers beside the water's:
+///
+/// ```text
+/// (C + k − ω² (m + A) − iω (B + c)) Z = F,    k = Σ k_i n_z² + T (1 − n_z²)/l,   c = Σ c_i n_z²
+/// ```
+#[test]
+fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
+    let (report, _) = by_hand();
+    let hydro = &report.reading.hydro;
+    let at = hydro.omega_rad_s.iter().position(|omega| *omega > 1.0);
+    let k = at.expect("a frequency above 1 rad/s");
+    let omega = hydro.omega_rad_s[k];
+    let height = 0.02;
+    let wave = format!("[wave]\nheight = {height}\nperiod = {}", 2.0 * PI / omega);
+    let text = case(-0.2, 2.0, 9.666, &wave, "duration = 130\ntransient = 0");
+    let structure = structure(&text.replace("stiffness = 1.2e8", "stiffness = 2e7"));
+    let afloat = structure.afloat.clone().unwrap();
+    let prepared = Prepared::new(structure).unwrap();
+    let law = springs(&prepared, 1.0).unwrap();
+    let sprung = prepared.on_springs(&law).unwrap();
+
+    let rest = &sprung.rest;
+    let [across, up] = [4.0, 10.0 + rest.place_m[1] - 1.2 + 0.2];
+    let length = f64::hypot(across, up);
+    let steep = (up / length).powi(2);
+    let scales = &prepared.model.scales;
+    let (mut stiffness, mut damping) = (afloat.body.stiffness[(1, 1)], afloat.body.damping[(1, 1)]);
+    for (spring, tension) in law.iter().zip(&rest.tension_n) {
+        stiffness += 2e7 / 9.666 * steep + tension / length * (1.0 - steep);
+        damping += spring.damping * scales.force_n * scales.time_s / scales.length_m * steep;
+    }
+    let fit = &report.fit;
+    let memory = fit.memory.transform(omega)[(1, 1)];
+    let mass = afloat.body.mass[(1, 1)] + fit.added_mass_inf[(1, 1)] + memory.im / omega;
+    let resistance = nalgebra::Complex::new(
+        stiffness - omega * omega * mass,
+        -omega * (damping + memory.re),
+    );
+    let z = hydro.excitation_to(1.0).unwrap().force[k][1] / resistance * (height / 2.0);
+
+    let run = run_elastic(&prepared, &law, 0.2, &unwatched).unwrap();
+    let mut compared = 0;
+    for look in run.looks.iter().filter(|look| look.t_s > 90.0) {
+        let [_, heave] = scales.to_si([look.state.x, look.state.y]);
+        let (sine, cosine) = (omega * look.t_s).sin_cos();
+        let known = rest.place_m[1] + z.re * sine - z.im * cosine;
+        let off = (heave - known).abs() / z.norm();
+        assert!(off < 2e-3, "{}: {heave} {known}", look.t_s);
+        compared += 1;
+    }
+    assert!(compared > 100 && z.norm() > 1e-5);
+    // The waves change the tension, and take no line slack.
+    let (least, most) = (run.least_n[0].unwrap(), run.peaks_n[0]);
+    assert!(least > 0.5 * rest.tension_n[0] && most > 1.01 * rest.tension_n[0]);
+}
