@@ -2,7 +2,6 @@
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::real::Real;
-use crate::model::system::System;
 
 /// The sums over all sinusoids at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -16,22 +15,6 @@ pub struct Surroundings<T = f64> {
 }
 
 impl<T: Real> Surroundings<T> {
-    /// Of a system at a time, each sinusoid by itself.
-    #[inline(always)]
-    pub fn of(system: &System<T>, t: T) -> Self {
-        Self {
-            force: system.forcing.at(t),
-            water: match &system.drag {
-                Some(drag) => drag.velocity_of_water(t),
-                None => Vector2::ZERO,
-            },
-            excitation: match &system.floating {
-                Some(water) => water.excitation_at(t),
-                None => [T::ZERO; 3],
-            },
-        }
-    }
-
     /// The same in another arithmetic.
     #[inline(always)]
     pub(crate) fn map<U>(&self, number: impl Fn(T) -> U + Copy) -> Surroundings<U> {

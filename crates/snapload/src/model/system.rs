@@ -149,6 +149,22 @@ impl<T: Real> System<T> {
         normals
     }
 
+    /// What acts from outside at a time, each sinusoid by itself.
+    #[inline(always)]
+    pub fn surroundings(&self, t: T) -> Surroundings<T> {
+        Surroundings {
+            force: self.forcing.at(t),
+            water: match &self.drag {
+                Some(drag) => drag.velocity_of_water(t),
+                None => Vector2::ZERO,
+            },
+            excitation: match &self.floating {
+                Some(water) => water.excitation_at(t),
+                None => [T::ZERO; 3],
+            },
+        }
+    }
+
     /// (ẍ, ÿ, θ̈) if no cable pulled: M⁻¹ times the forces, the drag and what the water does, of
     /// which the force of its memory is given; that is zero where the body does not float.
     #[inline(always)]

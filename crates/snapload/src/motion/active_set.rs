@@ -407,7 +407,7 @@ mod tests {
             }));
             for taut in [TautSet::only(0), TautSet::only(1), TautSet::only(0).with(1)] {
                 let still = [Dual::constant(0.0); 3];
-                let around = Surroundings::of(&system, 0.3);
+                let around = system.surroundings(0.3);
                 let dual = around.map(Dual::constant);
                 let dual = acceleration(&over, &dual, &variables, still, taut);
                 let slopes = slopes_of_acceleration(&system, &around, &state, taut);

@@ -9,7 +9,6 @@
 use crate::arithmetic::real::Real;
 use crate::model::rules::Rules;
 use crate::model::state::State;
-use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::active_set::{ActiveSet, tensions};
@@ -87,7 +86,7 @@ impl<T: Real> Held<T> {
 
     /// The tensions that hold the cables of `taut`, of either sign.
     pub fn tensions(&self, taut: TautSet, t: T, state: &State<T>) -> PerCable<T> {
-        let around = Surroundings::of(&self.system, t);
+        let around = self.system.surroundings(t);
         tensions(&self.system, &around, state, [T::ZERO; 3], taut)
     }
 

@@ -4,7 +4,6 @@ use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
 use crate::model::rules::{Limit, Rules, Stop};
 use crate::model::state::State;
-use crate::model::surroundings::Surroundings;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::{ActiveSet, taut_next};
@@ -111,7 +110,7 @@ pub(crate) fn prepare<T: Real>(
     }
     // The water has been at rest, and has nothing to remember.
     let still = [T::ZERO; 3];
-    let around = Surroundings::of(system, t);
+    let around = system.surroundings(t);
     let active = taut_next(system, &around, &state, still, resting);
     let snaps = closed
         .iter()

@@ -381,7 +381,7 @@ mod tests {
             }
             let rates = rate(
                 simulation.system(),
-                &Surroundings::of(simulation.system(), step.t_end),
+                &simulation.system().surroundings(step.t_end),
                 &step.after,
                 [0.0; 3],
                 step.taut_after,

@@ -10,10 +10,10 @@
 //!
 //! with c' and d' the amplitudes seen from t_m. What is left out is at most (Ωs)^36/36! of the
 //! amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series, on
-//! which Ωs < 2.4, beyond an end of the stretch. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes, and
-//! so is it in each coefficient of the series about another time, relative to what a sinusoid has
-//! there. The stretches are the same whatever is asked for first, so that the same case has the same
-//! numbers, and up to [`FEW`] sinusoids are summed up each time, to the bit as they always were.
+//! which Ωs < 2.4, beyond an end of the stretch. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes; so it
+//! is in the series about another time, which is the same polynomial. The stretches are the same
+//! whatever is asked for first, so that the same case has the same numbers, and up to [`FEW`]
+//! frequencies are summed up each time, to the bit as they always were.
 
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::{Kernel, dispatch_over};
@@ -26,7 +26,7 @@ use std::sync::Arc;
 const TERMS: usize = 36;
 /// h Ω.
 const RADIANS: f64 = 2.0;
-/// Fewer frequencies are summed up each time.
+/// So many frequencies or fewer are summed up each time.
 const FEW: usize = 8;
 /// How many stretches are kept: a step touches three at most.
 const KEPT: usize = 4;
@@ -115,7 +115,7 @@ impl<T: Real> Waves<T> {
     pub fn at(&self, system: &System<T>, t: T) -> Surroundings<T> {
         match self.stretch(t) {
             Some((stretch, half)) => stretch.at(half, t),
-            None => Surroundings::of(system, t),
+            None => system.surroundings(t),
         }
     }
 
@@ -425,7 +425,7 @@ mod tests {
                 waves.cover(t - 0.3, t);
                 assert!(waves.stretch(t).is_some());
             }
-            let known = numbers(&Surroundings::of(&system, t));
+            let known = numbers(&system.surroundings(t));
             let found = numbers(&waves.at(&system, t));
             for (found, known) in found.into_iter().zip(known) {
                 assert!((found - known).abs() < 2e-13, "{t}: {found} {known}");
@@ -447,8 +447,8 @@ mod tests {
             .collect()
     }
 
-    /// The series about a time have the coefficients that each sinusoid's series add up to, relative
-    /// to what the quickest wave has there, and give the sums as far as a step reaches.
+    /// The series about a time have the coefficients that each sinusoid's series add up to, and give
+    /// the sums, as far as a step reaches.
     #[test]
     fn series_are_those_of_the_sinusoids() {
         let system = sea();
@@ -459,16 +459,16 @@ mod tests {
             waves.cover(t, t);
             let found = all(&waves.expanded(&system, t));
             let known = all(&Expanded::of(&system, t));
-            let mut size = 1.0;
+            let s = 2.4 / quickest;
+            let mut power = 1.0;
             for order in 0..=ORDER {
                 for (found, known) in found.iter().zip(&known) {
                     let error = (found[order] - known[order]).abs();
-                    assert!(error < 1e-13 * size, "{t}, order {order}: {error:e}");
+                    assert!(error * power < 1e-13, "{t}, order {order}: {error:e}");
                 }
-                size *= quickest / (order + 1) as f64;
+                power *= s;
             }
-            let s = 2.4 / quickest;
-            let later = numbers(&Surroundings::of(&system, t + s));
+            let later = numbers(&system.surroundings(t + s));
             for (series, later) in found.iter().zip(later) {
                 let [value, ..] = series.jet(s, ORDER);
                 assert!((value - later).abs() < 1e-13, "{t}: {value} {later}");
@@ -488,6 +488,6 @@ mod tests {
         let mut waves = Waves::new(&system);
         waves.cover(0.3, 0.9);
         assert!(waves.stretches.is_none());
-        assert_eq!(waves.at(&system, 0.7), Surroundings::of(&system, 0.7));
+        assert_eq!(waves.at(&system, 0.7), system.surroundings(0.7));
     }
 }

@@ -4,7 +4,7 @@
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
     Body, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise, Real, Rules,
-    Shape, Simulation, State, Steps, Surroundings, System, Tangent,
+    Shape, Simulation, State, Steps, System, Tangent,
 };
 
 type Digits = Precise<4>;
@@ -279,7 +279,7 @@ fn derivatives_grow_towards_a_graze() {
         let before = State::from_components(exact.before.components().map(Digits::to_f64));
         let (v_n, t) = (exact.v_n.to_f64(), exact.t.to_f64());
         let Normal { n, arm } = system.cables[0].normal(&before);
-        let free = system.free_acceleration(&Surroundings::of(&system, t), &before, [0.0; 3]);
+        let free = system.free_acceleration(&system.surroundings(t), &before, [0.0; 3]);
         let alpha = -system.free_normal_acceleration(0, &before, free);
         assert!(alpha > 0.5 && v_n < 0.2, "it slows down where it snaps");
         let inverse_inertia = system.body.inverse_inertia();
