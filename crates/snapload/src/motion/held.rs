@@ -73,7 +73,8 @@ impl<T: Real> Held<T> {
                 carrying: taut,
             };
             waves.cover(t, t);
-            series.begin(&self.system, &waves, t, &state, &[], &contacts, active);
+            let around = waves.expanded(&self.system, t);
+            series.begin(&self.system, &around, &state, &[], &contacts, active);
             let step = T::from_f64(series.step().to_f64());
             if step <= T::ZERO || !step.is_finite() || s.abs() <= step {
                 return series.state(s);

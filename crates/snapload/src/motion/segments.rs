@@ -53,10 +53,10 @@ impl Segment {
         // Gaps are not looked at here, so nothing need be known of them.
         let contacts = [Contact::RESTING; MAX_CABLES];
         waves.cover(self.t, self.t);
+        let around = waves.expanded(system, self.t);
         series.begin(
             system,
-            waves,
-            self.t,
+            &around,
             &self.start,
             &self.memory,
             &contacts,

@@ -359,10 +359,10 @@ impl<T: Real> Simulation<T> {
                 let series = self
                     .series
                     .get_or_insert_with(|| Box::new(Series::new(&self.system, &self.rules)));
+                let around = self.waves.expanded(&self.system, self.t);
                 series.begin(
                     &self.system,
-                    &self.waves,
-                    self.t,
+                    &around,
                     &self.state,
                     &self.memory,
                     &self.contacts,

@@ -86,6 +86,14 @@ impl Tangent {
     pub(crate) fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
         let afloat = system.floating.as_ref();
+        #[expect(
+            clippy::manual_map,
+            reason = "a closure would be compiled for every processor"
+        )]
+        let water = match afloat {
+            Some(water) => Some(Box::new(self.water_flow(simulation, step, water))),
+            None => None,
+        };
         let flow = Flow {
             s: step.t_end - step.t_start,
             driven: if system.flies_freely(step.taut) || afloat.is_some() {
@@ -93,10 +101,7 @@ impl Tangent {
             } else {
                 Some(self.driven_flow(simulation, step))
             },
-            water: match afloat {
-                Some(water) => Some(Box::new(self.water_flow(simulation, step, water))),
-                None => None,
-            },
+            water,
         };
         let pull = simulation.memory_force_within(step, 0.0);
         let around = simulation.surroundings(step.t_start);

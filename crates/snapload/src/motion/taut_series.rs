@@ -58,7 +58,7 @@ use crate::motion::events::EventFunction;
 use crate::motion::extremes::rises_above_zero;
 use crate::motion::limits::Limits;
 use crate::motion::water_series::WaterSeries;
-use crate::motion::waves::Waves;
+use crate::motion::waves::Expanded;
 
 mod events;
 mod water;
@@ -135,13 +135,13 @@ impl<T: Real> Series<T> {
         }
     }
 
-    /// Expands the motion about time `t`, and chooses how far the expansion is used.
+    /// Expands the motion from a start, with the series of what acts from outside about its time, and
+    /// chooses how far the expansion is used.
     #[inline(always)]
     pub(crate) fn begin(
         &mut self,
         system: &System<T>,
-        waves: &Waves<T>,
-        t: T,
+        around: &Expanded<T>,
         start: &State<T>,
         memory: &[Complex<T>],
         contacts: &Contacts<T>,
@@ -154,7 +154,11 @@ impl<T: Real> Series<T> {
             for (cable, tether) in system.cables.iter().enumerate() {
                 self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
             }
-            self.expand_force(system, waves, t, memory);
+            self.force = around.force;
+            self.drag.begin(&around.water);
+            if let Some(series) = &mut self.water {
+                series.begin(&around.excitation, memory);
+            }
             (self.x[0], self.x[1]) = (start.x, start.vx);
             (self.y[0], self.y[1]) = (start.y, start.vy);
             self.circle = VectorSeries::default();
@@ -183,17 +187,6 @@ impl<T: Real> Series<T> {
                 .collect();
             self.choose_watched();
         })
-    }
-
-    /// f(t0 + s) as a power series.
-    #[inline(always)]
-    fn expand_force(&mut self, system: &System<T>, waves: &Waves<T>, t: T, memory: &[Complex<T>]) {
-        let around = waves.expanded(system, t);
-        self.force = around.force;
-        self.drag.begin(&around.water);
-        if let Some(series) = &mut self.water {
-            series.begin(&around.excitation, memory);
-        }
     }
 
     /// Adds the k-th coefficients of the drag, which those of the velocities give.

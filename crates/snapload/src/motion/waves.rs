@@ -234,17 +234,17 @@ impl<T: Real> Kernel for Summing<'_, T> {
         for wave in &sinusoids.each {
             let (s, c) = (wave.omega * middle).sin_cos();
             let mut parts = [[T::ZERO; 8]; 2];
-            for i in 0..8 {
-                parts[0][i] = s.mul_add(wave.sine[i], c * wave.cosine[i]);
-                parts[1][i] = c.mul_add(wave.sine[i], -(s * wave.cosine[i]));
+            for (i, (cosine, sine)) in wave.cosine.iter().zip(&wave.sine).enumerate() {
+                parts[0][i] = s.mul_add(*sine, c * *cosine);
+                parts[1][i] = c.mul_add(*sine, -(s * *cosine));
             }
             let radians = wave.omega * half;
             let mut factor = T::ONE;
             for k in 0..TERMS {
                 let sign = if k % 4 < 2 { factor } else { -factor };
                 let part = &parts[k % 2];
-                for i in 0..8 {
-                    terms[k][i] = sign.mul_add(part[i], terms[k][i]);
+                for (term, part) in terms[k].iter_mut().zip(part) {
+                    *term = sign.mul_add(*part, *term);
                 }
                 factor = factor * radians * SHARES[k];
             }
@@ -274,8 +274,8 @@ impl<T: Real> Stretch<T> {
         let u = (t - self.middle) / half;
         let mut sum = [T::ZERO; 8];
         for k in (0..TERMS).rev() {
-            for i in 0..8 {
-                sum[i] = sum[i].mul_add(u, self.terms[k][i]);
+            for (sum, term) in sum.iter_mut().zip(&self.terms[k]) {
+                *sum = sum.mul_add(u, *term);
             }
         }
         Surroundings {
@@ -298,8 +298,9 @@ impl<T: Real> Stretch<T> {
         let (mut scale, share) = (T::ONE, T::ONE / half);
         for order in 0..=ORDER {
             for k in (order..TERMS - 1).rev() {
-                for i in 0..8 {
-                    terms[k][i] = terms[k + 1][i].mul_add(u, terms[k][i]);
+                let (known, next) = terms.split_at_mut(k + 1);
+                for (term, next) in known[k].iter_mut().zip(&next[0]) {
+                    *term = next.mul_add(u, *term);
                 }
             }
             let found = terms[order];
@@ -332,8 +333,8 @@ impl<T: Real> Expanded<T> {
         }
         let mut excitation = [Polynomial::default(); 3];
         if let Some(floating) = &system.floating {
-            for i in 0..3 {
-                excitation[i][0] = floating.constant[i];
+            for (series, constant) in excitation.iter_mut().zip(floating.constant) {
+                series[0] = constant;
             }
             for wave in &floating.excitation {
                 wave.expand(t, &mut excitation);

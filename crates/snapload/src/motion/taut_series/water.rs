@@ -70,8 +70,8 @@ impl<T: Real> Series<T> {
         while step > T::EPSILON {
             let mut left_out = self.left_out_of_motion(step);
             let of_gaps = self.left_out_of_gaps(system, step);
-            for cable in 0..system.cables.len() {
-                left_out = left_out.max(of_gaps[cable]);
+            for of_gap in &of_gaps[..system.cables.len()] {
+                left_out = left_out.max(*of_gap);
             }
             if left_out <= ((first + second * step) * step + STILL) * longest {
                 break;
