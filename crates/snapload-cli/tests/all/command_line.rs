@@ -371,7 +371,7 @@ fn bad_files_are_refused_with_the_line() {
         (b"e = -inf\n", &["e = -inf"]),
         (
             b"e = 0.5\ne = 0.6\n",
-            &["bad.toml", "line 2, column 1", "duplicate key"],
+            &["bad.toml", "line 2, column 1", "the key e stands twice"],
         ),
         (b"e = \n", &["bad.toml", "line 1, column 5"]),
         (b"h = 1.2\n", &["bad.toml, line 1", "derived"]),

@@ -150,7 +150,7 @@ impl fmt::Display for CaseError {
 impl std::error::Error for CaseError {}
 
 /// Somebody's input made fit to repeat: control characters escaped, cut where it is long.
-fn echo(text: &str) -> String {
+pub(crate) fn echo(text: &str) -> String {
     let shown = text
         .chars()
         .take(LONGEST_ECHO)

@@ -2,7 +2,7 @@
 //! files opens them.
 
 use crate::case::entries::Entries;
-use crate::case::error::CaseError;
+use crate::case::error::{CaseError, echo};
 use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
 use toml::Spanned;
@@ -209,16 +209,19 @@ fn line_of(text: &str, at: usize) -> usize {
 }
 
 /// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated,
-/// since it may be long, or hold what a terminal would obey.
+/// since it may be long, or hold what a terminal would obey; a key that stands twice is named.
 fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -> CaseError {
-    let at = error.span().unwrap_or_default().start;
+    let span = error.span().unwrap_or_default();
+    let at = span.start;
     let before = text.get(..at).unwrap_or_default();
     let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-    let said: String = error
-        .message()
-        .chars()
-        .filter(|c| !c.is_control())
-        .collect();
+    let said = match text.get(span) {
+        Some(key) if error.message() == "duplicate key" => {
+            format!("the key {} stands twice", echo(key))
+        }
+        _ => error.message().to_owned(),
+    };
+    let said: String = said.chars().filter(|c| !c.is_control()).collect();
     let form = schema.form;
     CaseError::syntax(said)
         .with_hint(format!(
