@@ -60,10 +60,16 @@ pub fn summary_lines(
     let rho2 = norm("rho2", norms.rho2, errors.rho2);
     let rho3 = norm("rho3", norms.rho3, errors.rho3);
     lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
-    let (y_max, theta_max) = (digits(norms.y_max), digits(norms.theta_max));
+    let y_max = norm("y_max", norms.y_max, errors.y_max);
+    let (turned, turned_known) = (
+        digits(norms.theta_max),
+        known(norms.theta_max, errors.theta_max),
+    );
+    lines.push((
+        "",
+        format!("{y_max}, theta_max = {turned} rad ({turned_known})"),
+    ));
     let doubt = doubt_at(trusted, run.end().t);
-    let extremes = format!("y_max = {y_max}{doubt}, theta_max = {theta_max} rad{doubt}");
-    lines.push(("", extremes));
     lines.push(("Modes", modes(run.modes()) + doubt));
     if (2..=FEW_MODES).contains(&run.modes().len()) {
         let words = |mode: &ModeInterval| interval(mode) + doubt_at(trusted, mode.t_end);

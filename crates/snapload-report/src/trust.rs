@@ -74,11 +74,26 @@ struct NormErrorRow {
     rho1: Option<f64>,
     rho2: Option<f64>,
     rho3: Option<f64>,
+    y_max: Option<f64>,
+    theta_max: Option<f64>,
 }
 
 impl NormErrorRow {
-    fn new(NormErrors { rho1, rho2, rho3 }: NormErrors) -> Self {
-        Self { rho1, rho2, rho3 }
+    fn new(errors: NormErrors) -> Self {
+        let NormErrors {
+            rho1,
+            rho2,
+            rho3,
+            y_max,
+            theta_max,
+        } = errors;
+        Self {
+            rho1,
+            rho2,
+            rho3,
+            y_max,
+            theta_max,
+        }
     }
 }
 
