@@ -58,7 +58,7 @@ use crate::motion::events::EventFunction;
 use crate::motion::extremes::rises_above_zero;
 use crate::motion::limits::Limits;
 use crate::motion::water_series::WaterSeries;
-use crate::motion::waves::Expanded;
+use crate::motion::waves::sinusoids::Expanded;
 
 mod events;
 mod water;
