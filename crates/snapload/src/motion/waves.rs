@@ -12,7 +12,7 @@
 //! amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series, on
 //! which Ωs < 2.4, beyond an end of the stretch. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes; so it
 //! is in the series about another time, which is the same polynomial. The stretches are the same
-//! whatever is asked for first, so that the same case has the same numbers, and up to [`FEW`]
+//! whatever is asked for first, so that the same case has the same numbers, and up to eight
 //! frequencies are summed up each time, to the bit as they always were.
 
 use crate::arithmetic::processor::dispatch_over;
