@@ -5,6 +5,7 @@ mod layout;
 mod plots;
 
 pub use crate::runs::scan::{Scan, scan};
+pub use plots::window;
 
 use crate::physics::gumbel::{Estimate, Gumbel};
 use crate::physics::periods::in_words;

@@ -61,7 +61,7 @@ fn extend(pieces: &mut Vec<Vec<Point>>, joined: bool, point: Point) {
 }
 
 /// A few periods about the hardest snap that is judged, or the last few \[s\].
-pub(super) fn window(assessment: &Assessment) -> [f64; 2] {
+pub fn window(assessment: &Assessment) -> [f64; 2] {
     let end = assessment.outcome.end_s;
     let period = match assessment.prepared.structure.water {
         Water::Still => end / CLOSE,

@@ -69,6 +69,8 @@ impl Assessment {
             row["breaking_load_n"] = json!(line.breaking_load_n);
             row["rest_tension_n"] = json!(rest.tension_n[index]);
             row["utilisation"] = json!(utilisations[index]);
+            // What remains of its strength; infinite, and so null, where nothing pulls.
+            row["safety_factor"] = json!(utilisations[index].map(f64::recip));
             row
         };
         let checks = self.checks().into_iter().map(|(check, agreeing)| {

@@ -43,7 +43,8 @@ pub struct Assessment {
     pub snaps: Vec<Snap>,
     /// What it comes to.
     pub outcome: Outcome,
-    /// The same with less and with more restitution, each with its coefficient.
+    /// The same with less and with more restitution, each with its coefficient; empty without
+    /// neighbours.
     pub restitutions: Vec<(f64, Outcome)>,
     /// Neighbours of the run; empty in still water, where there are no waves to vary.
     pub neighbours: Vec<Outcome>,
@@ -70,51 +71,7 @@ pub fn assess(
     neighbours: u32,
     on_progress: OnProgress,
 ) -> Result<Assessment, Unfinished> {
-    let prepared = Prepared::new(structure)?;
-    let simulation = prepared.begin(1.0)?;
-    let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
-    let mut tally = Tally::new(&prepared);
-    let mut snaps = Vec::new();
-    let run = record(simulation, on_progress, |simulation, step| {
-        monitor.follow(simulation, step);
-        snaps.extend(tally.follow(simulation, step));
-    })?;
-    let outcome = tally.finish(run.end().t, run.end().reason);
-    let still = matches!(prepared.structure.water, Water::Still);
-    let count = if still { 0 } else { neighbours };
-    let coefficients = restitutions_about(prepared.structure.restitution);
-    let all = coefficients.len() + count as usize;
-    let counter = Counter::new("neighbours", 0, all as u64, on_progress);
-    let mut outcomes = in_parallel(all, |index| {
-        let outcome = match index.checked_sub(coefficients.len()) {
-            None => Outcome::of(&prepared.with_restitution(coefficients[index]), 1.0)?,
-            Some(index) => Outcome::of(&prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
-        };
-        counter.add(1)?;
-        Ok::<_, Unfinished>(outcome)
-    })?;
-    let neighbours = outcomes.split_off(coefficients.len());
-    let mut assessment = Assessment {
-        warnings: warnings(&prepared.structure, &prepared.rest),
-        periods: NaturalPeriods::of(&prepared),
-        run,
-        trust: monitor.verdict(),
-        snaps,
-        outcome,
-        restitutions: coefficients.into_iter().zip(outcomes).collect(),
-        neighbours,
-        prepared,
-    };
-    let ([x, z], [sides, _]) = (assessment.prepared.rest.place_m, assessment.reach_m());
-    let excursion = (sides[1] - x).max(x - sides[0]);
-    let phase = phase_warning(&assessment.prepared.structure, z, excursion);
-    let turned = assessment.outcome.turned_rad;
-    let turning = turning_warning(&assessment.prepared.structure, turned);
-    let seen = assessment.outcome.waterline.as_ref();
-    let limits = limits_afloat(&assessment.prepared.structure, seen, turned);
-    let found = phase.into_iter().chain(turning).chain(limits);
-    assessment.warnings.extend(found);
-    Ok(assessment)
+    Assessment::alone(structure, on_progress)?.with_neighbours(neighbours, on_progress)
 }
 
 /// Less and more restitution than that of the case, as far as there is.
@@ -134,6 +91,77 @@ fn side(index: u32) -> f64 {
 }
 
 impl Assessment {
+    /// Runs a structure by itself: its verdict, without neighbours and without other restitutions.
+    ///
+    /// # Errors
+    /// Those of [`assess`].
+    pub fn alone(structure: Structure, on_progress: OnProgress) -> Result<Self, Unfinished> {
+        let prepared = Prepared::new(structure)?;
+        let simulation = prepared.begin(1.0)?;
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
+        let mut tally = Tally::new(&prepared);
+        let mut snaps = Vec::new();
+        let run = record(simulation, on_progress, |simulation, step| {
+            monitor.follow(simulation, step);
+            snaps.extend(tally.follow(simulation, step));
+        })?;
+        let outcome = tally.finish(run.end().t, run.end().reason);
+        let mut assessment = Self {
+            warnings: warnings(&prepared.structure, &prepared.rest),
+            periods: NaturalPeriods::of(&prepared),
+            run,
+            trust: monitor.verdict(),
+            snaps,
+            outcome,
+            restitutions: Vec::new(),
+            neighbours: Vec::new(),
+            prepared,
+        };
+        let found = assessment.warnings_of_the_run();
+        assessment.warnings.extend(found);
+        Ok(assessment)
+    }
+
+    /// What is seen once it has moved: how far it went, how far it turned, how it lay in the water.
+    fn warnings_of_the_run(&self) -> Vec<Warning> {
+        let structure = &self.prepared.structure;
+        let ([x, z], [sides, _]) = (self.prepared.rest.place_m, self.reach_m());
+        let excursion = (sides[1] - x).max(x - sides[0]);
+        let turned = self.outcome.turned_rad;
+        let phase = phase_warning(structure, z, excursion);
+        let turning = turning_warning(structure, turned);
+        let limits = limits_afloat(structure, self.outcome.waterline.as_ref(), turned);
+        phase.into_iter().chain(turning).chain(limits).collect()
+    }
+
+    /// The same with so many neighbours, and with less and with more restitution.
+    ///
+    /// # Errors
+    /// Those of [`assess`].
+    pub fn with_neighbours(
+        mut self,
+        neighbours: u32,
+        on_progress: OnProgress,
+    ) -> Result<Self, Unfinished> {
+        let prepared = &self.prepared;
+        let still = matches!(prepared.structure.water, Water::Still);
+        let count = if still { 0 } else { neighbours };
+        let coefficients = restitutions_about(prepared.structure.restitution);
+        let all = coefficients.len() + count as usize;
+        let counter = Counter::new("neighbours", 0, all as u64, on_progress);
+        let mut outcomes = in_parallel(all, |index| {
+            let outcome = match index.checked_sub(coefficients.len()) {
+                None => Outcome::of(&prepared.with_restitution(coefficients[index]), 1.0)?,
+                Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
+            };
+            counter.add(1)?;
+            Ok::<_, Unfinished>(outcome)
+        })?;
+        self.neighbours = outcomes.split_off(coefficients.len());
+        self.restitutions = coefficients.into_iter().zip(outcomes).collect();
+        Ok(self)
+    }
+
     /// Time up to which the run can be trusted \[s\]; none if all of it.
     pub fn horizon_s(&self) -> Option<f64> {
         let time = self.prepared.model.scales.time_s;

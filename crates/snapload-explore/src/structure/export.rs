@@ -1,0 +1,82 @@
+//! `/api/structure/export/NAME`: the case, its answer and the page for a design note.
+use super::opened::{Asked, Opened};
+use super::run::too_long;
+use crate::refusal::Refusal;
+use crate::work::Allowance;
+use serde::Deserialize;
+use snapload::analysis::{Progress, Unfinished};
+use snapload_structure::note::{self, Source};
+use snapload_structure::assess;
+use std::time::Duration;
+
+/// What a run and its neighbours may take.
+const BUDGET: Duration = Duration::from_secs(120);
+/// Neighbours as `snapload assess` has them.
+const NEIGHBOURS: u32 = 40;
+
+/// A file that can be asked for.
+#[derive(Clone, Copy)]
+pub(crate) enum File {
+    Case,
+    Assessment,
+    Note,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    case: Asked,
+}
+
+impl File {
+    /// The file of a name.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        match name {
+            "case.toml" => Some(Self::Case),
+            "assess.json" => Some(Self::Assessment),
+            "note.html" => Some(Self::Note),
+            _ => None,
+        }
+    }
+
+    /// Its type, as browsers know it.
+    pub(crate) fn content_type(self) -> &'static str {
+        match self {
+            Self::Case => "application/toml",
+            Self::Assessment => "application/json",
+            Self::Note => "text/html; charset=utf-8",
+        }
+    }
+
+    /// What is in it.
+    pub(crate) fn write(
+        self,
+        request: &Request,
+        start: Option<&Opened>,
+        allowance: &Allowance,
+    ) -> Result<Vec<u8>, Refusal> {
+        let case = request.case.read(start)?;
+        if matches!(self, Self::Case) {
+            return Ok(case.opened.entries.to_toml().into_bytes());
+        }
+        let allowance = allowance.within(BUDGET);
+        let go_on = |progress: Progress| allowance.go_on(progress);
+        let refuse = |unfinished: Unfinished| too_long(&case, BUDGET, unfinished);
+        let assessment = assess(case.structure.clone(), NEIGHBOURS, &go_on).map_err(refuse)?;
+        let name = &case.opened.name;
+        if matches!(self, Self::Assessment) {
+            let told = assessment.to_json(name);
+            return serde_json::to_vec_pretty(&told).map_err(Refusal::failed);
+        }
+        let scan = note::scan(&case.structure, &go_on);
+        let scan = scan.map_err(|cancelled| refuse(Unfinished::Cancelled(cancelled)))?;
+        let command = case.command("assess");
+        let source = Source {
+            name,
+            command: &command,
+            sha256: None,
+        };
+        let page = note::page(source, &assessment, scan.as_ref());
+        page.map(String::into_bytes).map_err(Refusal::failed)
+    }
+}

@@ -1,0 +1,57 @@
+//! Structures on the page: in metres, kilonewtons and seconds, with the words and numbers of
+//! `snapload assess`.
+//!
+//! The page sends a case as the command line has it: a file, and changes as `--set` takes them. So
+//! errors are those of the command, and the command for the same answer can be copied.
+
+mod elastic;
+mod export;
+mod motion;
+mod opened;
+mod run;
+mod schema;
+
+pub(crate) use export::File;
+pub(crate) use opened::{Asked, Opened};
+pub(crate) use schema::{opened, schema};
+pub(crate) use {elastic::answer as elastic, run::answer as run};
+
+use snapload_structure::{Assessment, BothModels};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The latest runs: a page that looks at another part of their time does not have them run again.
+#[derive(Default)]
+pub(crate) struct Latest {
+    assessment: Kept<Assessment>,
+    both: Kept<BothModels>,
+}
+
+/// The latest thing that was computed, with what it was computed for.
+struct Kept<T>(Mutex<Option<(String, Arc<T>)>>);
+
+impl<T> Default for Kept<T> {
+    fn default() -> Self {
+        Self(Mutex::new(None))
+    }
+}
+
+impl<T> Kept<T> {
+    /// What is kept for this.
+    fn get(&self, asked: &str) -> Option<Arc<T>> {
+        // Whoever panicked with it has put nothing half-made into it.
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = kept.as_ref().filter(|(of, _)| of == asked);
+        same.map(|(_, found)| Arc::clone(found))
+    }
+
+    /// What is kept for this, or is computed now and kept.
+    fn of<E>(&self, asked: &str, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
+        if let Some(found) = self.get(asked) {
+            return Ok(found);
+        }
+        let found = Arc::new(compute()?);
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        *kept = Some((asked.to_owned(), Arc::clone(&found)));
+        Ok(found)
+    }
+}

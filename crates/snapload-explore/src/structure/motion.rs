@@ -1,0 +1,111 @@
+//! The motion of a structure within a stretch of time, as columns in metres, kilonewtons and seconds.
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use snapload::{Impact, Playback, State, Trajectory};
+use snapload_structure::{ElasticRun, Scales};
+
+/// Rows within the stretch that is looked at.
+const ROWS: u32 = 1500;
+
+/// Times, places, velocities and tensions, a row a time; angles and places are those of z up. Times are
+/// whole doubles; the rest is drawn, and as exact as that takes.
+#[derive(Default)]
+pub(super) struct Columns {
+    t: Vec<f64>,
+    state: [Vec<f32>; 6],
+    /// By line.
+    tension: Vec<Vec<f32>>,
+}
+
+impl Columns {
+    fn new(lines: usize) -> Self {
+        Self {
+            tension: vec![Vec::new(); lines],
+            ..Self::default()
+        }
+    }
+
+    /// Of lines that do not stretch, with rows just before and just after each snap.
+    pub(super) fn of(run: &Trajectory, scales: &Scales, [from, to]: [f64; 2]) -> Self {
+        let mut columns = Self::new(run.system().cables.len());
+        let mut playback = Playback::new(run);
+        let unit = scales.time_s;
+        let first = run.impacts().partition_point(|impact| impact.t * unit < from);
+        let within = run.impacts()[first..].iter().take_while(|impact| impact.t * unit <= to);
+        let mut snaps = within.peekable();
+        for k in 0..=ROWS {
+            let t = from + (to - from) * f64::from(k) / f64::from(ROWS);
+            while let Some(snap) = snaps.next_if(|snap| snap.t * unit <= t) {
+                columns.before_and_after(&mut playback, scales, snap);
+            }
+            columns.at(&mut playback, scales, t / unit);
+        }
+        columns
+    }
+
+    fn before_and_after(&mut self, playback: &mut Playback<'_>, scales: &Scales, snap: &Impact) {
+        let t = snap.t * scales.time_s;
+        // Snaps of several lines at one instant have its rows once.
+        if self.t.last().is_some_and(|last| *last >= t) {
+            return;
+        }
+        let before = playback.at(snap.t.next_down());
+        self.push(scales, t, &before.state, |line| before.tensions[line] * scales.force_n);
+        self.at(playback, scales, snap.t);
+    }
+
+    fn at(&mut self, playback: &mut Playback<'_>, scales: &Scales, t: f64) {
+        let motion = playback.at(t);
+        self.push(scales, t * scales.time_s, &motion.state, |line| {
+            motion.tensions[line] * scales.force_n
+        });
+    }
+
+    /// Of lines that stretch.
+    pub(super) fn of_elastic(run: &ElasticRun, scales: &Scales, [from, to]: [f64; 2]) -> Self {
+        let lines = run.looks.first().map_or(0, |look| look.tension_n.len());
+        let mut columns = Self::new(lines);
+        let first = run.looks.partition_point(|look| look.t_s < from);
+        let within = run.looks[first..].iter().take_while(|look| look.t_s <= to);
+        let count = within.clone().count();
+        // No more rows than the others have; the peaks between them are told by themselves.
+        let stride = count.div_ceil(ROWS as usize).max(1);
+        for look in within.step_by(stride) {
+            columns.push(scales, look.t_s, &look.state, |line| look.tension_n[line]);
+        }
+        columns
+    }
+
+    fn push(&mut self, scales: &Scales, t_s: f64, state: &State, newtons: impl Fn(usize) -> f64) {
+        let [x, z] = scales.to_si([state.x, state.y]);
+        let speed = scales.speed_m_s();
+        let turning = 1.0 / scales.time_s;
+        let row = [
+            x,
+            z,
+            -state.theta,
+            state.vx * speed,
+            -state.vy * speed,
+            -state.vtheta * turning,
+        ];
+        self.t.push(t_s);
+        for (column, number) in self.state.iter_mut().zip(row) {
+            column.push(number as f32);
+        }
+        for (line, column) in self.tension.iter_mut().enumerate() {
+            column.push((newtons(line).max(0.0) / 1e3) as f32);
+        }
+    }
+}
+
+impl Serialize for Columns {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("t", &self.t)?;
+        let names = ["x", "z", "theta", "vx", "vz", "vtheta"];
+        for (name, column) in names.iter().zip(&self.state) {
+            map.serialize_entry(name, column)?;
+        }
+        map.serialize_entry("tensions", &self.tension)?;
+        map.end()
+    }
+}

@@ -1,0 +1,184 @@
+//! The case of a structure as the page asks for it: a file, changed.
+use crate::refusal::Refusal;
+use serde::{Deserialize, Serialize};
+use snapload::{CaseError, Entries};
+use snapload_structure::{STRUCTURE, Structure};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// The case of a structure that the program was begun with, or that was opened on the page.
+#[derive(Clone, Debug)]
+pub struct Opened {
+    /// What errors and commands call it.
+    pub name: String,
+    /// Its keys.
+    pub entries: Entries,
+    /// Where files are that it names; none of a case that was opened on the page.
+    pub folder: Option<PathBuf>,
+}
+
+/// What moves the water; the keys of other waters are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum WaterKind {
+    Still,
+    Wave,
+    Sea,
+}
+
+/// Tables that stand for waves, with the water that each is.
+const WATERS: [(&str, WaterKind); 2] = [("wave", WaterKind::Wave), ("sea", WaterKind::Sea)];
+
+/// A case file that was opened on the page.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct File {
+    pub(crate) name: String,
+    text: String,
+}
+
+/// A case, as a request names it.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Asked {
+    /// A file in place of the one that the program was begun with.
+    #[serde(default)]
+    file: Option<File>,
+    /// Changes, each as `--set` takes it.
+    #[serde(default)]
+    set: Vec<String>,
+    /// What moves the water, where that is another than in the file.
+    #[serde(default)]
+    water: Option<WaterKind>,
+}
+
+/// A case that was read and checked.
+pub(crate) struct Case {
+    pub(crate) opened: Opened,
+    pub(crate) structure: Structure,
+    set: Vec<String>,
+    /// Whether the changes by themselves make it from the file.
+    by_set: bool,
+}
+
+impl File {
+    /// Reads it; nothing on the disk is looked at for a page.
+    pub(crate) fn read(&self) -> Result<Opened, CaseError> {
+        Ok(Opened {
+            name: self.name.clone(),
+            entries: Entries::parse(&STRUCTURE, &self.name, &self.text)?,
+            folder: None,
+        })
+    }
+}
+
+impl Opened {
+    /// What moves the water in it.
+    pub(crate) fn water(&self) -> WaterKind {
+        let there = WATERS.iter().find(|(table, _)| self.entries.count(table) > 0);
+        there.map_or(WaterKind::Still, |(_, kind)| *kind)
+    }
+
+    /// The structure.
+    pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
+        match &self.folder {
+            Some(folder) => Structure::from_entries_beside(&self.entries, folder),
+            None if self.entries.count("float") > 0 => Err(CaseError::value(
+                "float.file",
+                "(given)",
+                "nothing in a case that is opened on the page, which finds no files",
+            )
+            .with_hint("begin with it: snapload explore CASE.toml")),
+            None => Structure::from_entries(&self.entries),
+        }
+    }
+
+    /// The same with no other waves than of this kind.
+    fn with_water(self, water: WaterKind) -> Result<Self, CaseError> {
+        let mut entries = Entries::new(&STRUCTURE);
+        let left_out = |table: &str| WATERS.iter().any(|(name, kind)| *name == table && *kind != water);
+        for table in STRUCTURE.tables.iter().filter(|table| !left_out(table.name)) {
+            for index in 0..self.entries.count(table.name) {
+                entries.add(table.name);
+                let fields = self.entries.table(table.name, index);
+                for key in table.keys {
+                    if let Some(value) = fields.given(key.name) {
+                        let place = self.entries.place(&fields.path(key.name)).unwrap_or_default();
+                        entries.give(table.name, index, key.name, value.clone(), place)?;
+                    }
+                }
+            }
+        }
+        Ok(Self { entries, ..self })
+    }
+}
+
+impl Asked {
+    /// Reads and checks it; `start` is what the program was begun with.
+    pub(crate) fn read(&self, start: Option<&Opened>) -> Result<Case, Refusal> {
+        let mut opened = match (&self.file, start) {
+            (Some(file), _) => file.read()?,
+            (None, Some(start)) => start.clone(),
+            (None, None) => {
+                let message = "no structure is open; open a case file, such as docs/examples/cylinder.toml";
+                return Err(Refusal::values(message));
+            }
+        };
+        let own = opened.water();
+        let water = self.water.unwrap_or(own);
+        if water != own {
+            opened = opened.with_water(water)?;
+        }
+        for change in &self.set {
+            opened.entries.set(change)?;
+        }
+        Ok(Case {
+            structure: opened.structure()?,
+            by_set: water == own && self.file.is_none(),
+            set: self.set.clone(),
+            opened,
+        })
+    }
+
+    /// What tells two cases apart.
+    pub(crate) fn fingerprint(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+impl Case {
+    /// The command line that a verb has the same answer with: by changes of the file where they are
+    /// all that is changed, else of a file that has to be saved first.
+    pub(crate) fn command(&self, verb: &str) -> String {
+        if !self.by_set {
+            return format!("snapload {verb} case.toml");
+        }
+        let mut command = format!("snapload {verb} {}", self.opened.name);
+        for change in &self.set {
+            // Writing to a string can not fail.
+            let _ = write!(command, " --set '{change}'");
+        }
+        command
+    }
+
+    /// The same in Python.
+    pub(crate) fn python(&self) -> String {
+        let (name, changes) = match self.by_set {
+            true => (self.opened.name.as_str(), &*self.set),
+            false => ("case.toml", &[][..]),
+        };
+        let changes = changes.iter().filter_map(|change| change.split_once('='));
+        let changes: Vec<String> = changes
+            .map(|(key, value)| match value.parse::<f64>() {
+                Ok(_) => format!("{key:?}: {value}"),
+                Err(_) if value.starts_with(['[', '"']) => format!("{key:?}: {value}"),
+                Err(_) => format!("{key:?}: {value:?}"),
+            })
+            .collect();
+        let changes = match changes.is_empty() {
+            true => String::new(),
+            false => format!(", {{{}}}", changes.join(", ")),
+        };
+        format!("import snapload\nsnapload.Structure.from_toml({name:?}{changes}).assess()")
+    }
+}

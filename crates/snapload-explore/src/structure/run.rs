@@ -1,0 +1,245 @@
+//! `/api/structure/run`: a structure as `snapload assess` tells it, and all that the page draws of it.
+use super::motion::Columns;
+use super::opened::{Asked, Case, Opened};
+use super::{Kept, Latest};
+use crate::refusal::Refusal;
+use crate::work::Allowance;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value as JsonValue, json};
+use snapload::analysis::{Progress, Unfinished};
+use snapload_structure::{Assessment, Outline, Snap, Structure, Water, note};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What a run may take while the page waits for a picture.
+const BUDGET: Duration = Duration::from_secs(2);
+/// What a whole record may take, and its neighbours.
+const LONG_BUDGET: Duration = Duration::from_secs(60);
+/// Of a longer record the beginning is shown first \[s\].
+const PREVIEW_S: f64 = 300.0;
+/// Neighbours as `snapload assess` has them.
+const NEIGHBOURS: u32 = 40;
+/// A page can not show more snaps than this.
+const MOST_SHOWN: usize = 20_000;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    case: Asked,
+    /// Whether to run all of a long record, and not its beginning alone.
+    #[serde(default)]
+    whole: bool,
+    /// Whether to run neighbours, too, and other restitutions.
+    #[serde(default)]
+    neighbours: bool,
+    /// The stretch of time that is looked at \[s\]; by default that about the hardest snap.
+    #[serde(default)]
+    window: Option<[f64; 2]>,
+}
+
+/// The answer, as JSON.
+pub(crate) fn answer(
+    request: &Request,
+    start: Option<&Opened>,
+    latest: &Latest,
+    allowance: &Allowance,
+) -> Result<Vec<u8>, Refusal> {
+    let began = Instant::now();
+    if let Some([from, to]) = request.window.filter(|[from, to]| !(0.0 <= *from && from < to)) {
+        let message = format!("window = [{from}, {to}]: allowed is two times, 0 <= from < to, or null");
+        return Err(Refusal::values(message));
+    }
+    let case = request.case.read(start)?;
+    let lasts_s = case.structure.duration_s;
+    let preview = !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
+    let assessment = assessed(request, &case, preview, &latest.assessment, allowance)?;
+    let answer = Answer::new(&case, &assessment, request.window, preview, began);
+    serde_json::to_vec(&answer).map_err(Refusal::failed)
+}
+
+/// The run that is asked for, or the same that was asked for before.
+fn assessed(
+    request: &Request,
+    case: &Case,
+    preview: bool,
+    kept: &Kept<Assessment>,
+    allowance: &Allowance,
+) -> Result<Arc<Assessment>, Refusal> {
+    let time = if request.whole || request.neighbours { LONG_BUDGET } else { BUDGET };
+    let allowance = allowance.within(time);
+    let go_on = |progress: Progress| allowance.go_on(progress);
+    let refuse = |unfinished| too_long(case, time, unfinished);
+    let fingerprint = format!("{} {preview}", request.case.fingerprint());
+    let beside = format!("{fingerprint} beside its neighbours");
+    let structure = match preview {
+        true => beginning(&case.structure),
+        false => case.structure.clone(),
+    };
+    if let Some(found) = kept.get(&beside) {
+        return Ok(found);
+    }
+    let alone = kept.of(&fingerprint, || Assessment::alone(structure, &go_on)).map_err(refuse)?;
+    if !request.neighbours {
+        return Ok(alone);
+    }
+    let alone = Arc::unwrap_or_clone(alone);
+    kept.of(&beside, || alone.with_neighbours(NEIGHBOURS, &go_on)).map_err(refuse)
+}
+
+/// The first minutes of a record.
+fn beginning(structure: &Structure) -> Structure {
+    Structure {
+        duration_s: PREVIEW_S,
+        transient_s: structure.transient_s.min(PREVIEW_S / 2.0),
+        ..structure.clone()
+    }
+}
+
+/// Work that was refused, or did not come to its end in time.
+pub(super) fn too_long(case: &Case, time: Duration, unfinished: Unfinished) -> Refusal {
+    match unfinished {
+        Unfinished::Case(error) => error.into(),
+        Unfinished::Cancelled(_) => Refusal::values(format!(
+            "this takes more than the {} s that the page waits\nhint: lower run.duration, or ask without the page: {}",
+            time.as_secs(),
+            case.command("assess")
+        )),
+    }
+}
+
+#[derive(Serialize)]
+struct Answer {
+    /// As `snapload assess --json` tells it, but for its lists of snaps and neighbours.
+    assessment: JsonValue,
+    /// As it prints it.
+    summary: String,
+    /// Whether this is the beginning of a longer record, and how long that is \[s\].
+    preview: bool,
+    lasts_s: f64,
+    transient_s: f64,
+    geometry: JsonValue,
+    /// The waves as sinusoids: amplitude \[m\], ω \[rad/s\], wave number \[1/m\] along +x, phase \[rad\].
+    waves: Vec<[f64; 4]>,
+    snaps: Snaps,
+    modes: Modes,
+    window: [f64; 2],
+    motion: Columns,
+    shell: String,
+    python: String,
+    took_ms: f64,
+}
+
+/// The snaps that count as columns, in kN and m/s.
+#[derive(Serialize)]
+struct Snaps {
+    t: Vec<f64>,
+    line: Vec<usize>,
+    jolt: Vec<bool>,
+    speed: Vec<f64>,
+    peak: Vec<Option<f64>>,
+    utilisation: Vec<Option<f64>>,
+    /// How many there are; the first are shown.
+    all: usize,
+}
+
+/// Which lines are taut from when on \[s\], within the stretch that is looked at; counted from 1.
+#[derive(Serialize)]
+struct Modes {
+    t_start: Vec<f64>,
+    taut: Vec<Vec<usize>>,
+}
+
+impl Answer {
+    fn new(
+        case: &Case,
+        assessment: &Assessment,
+        window: Option<[f64; 2]>,
+        preview: bool,
+        began: Instant,
+    ) -> Self {
+        let (prepared, name) = (&assessment.prepared, &case.opened.name);
+        let end = assessment.outcome.end_s;
+        let window = window.filter(|[from, _]| *from < end);
+        let window = window.unwrap_or_else(|| note::window(assessment));
+        let window = [window[0], window[1].min(end)];
+        let mut told = assessment.to_json(name);
+        if let Some(told) = told.as_object_mut() {
+            told.remove("snaps");
+            told.remove("neighbour_peaks_n");
+        }
+        let heading = case.structure.heading;
+        let wave = |wave: &snapload_structure::LinearWave| {
+            let k = heading * wave.wave_number_1_m;
+            [wave.amplitude_m, wave.omega_rad_s, k, wave.phase_rad]
+        };
+        Self {
+            assessment: told,
+            summary: assessment.summary(name),
+            preview,
+            lasts_s: case.structure.duration_s,
+            transient_s: prepared.structure.transient_s,
+            geometry: geometry(assessment),
+            waves: prepared.model.waves.iter().map(wave).collect(),
+            snaps: Snaps::of(assessment),
+            modes: Modes::of(assessment, window),
+            motion: Columns::of(&assessment.run, &prepared.model.scales, window),
+            window,
+            shell: case.command("assess"),
+            python: case.python(),
+            took_ms: 1e3 * began.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// What there is to draw, in metres.
+fn geometry(assessment: &Assessment) -> JsonValue {
+    let structure = &assessment.prepared.structure;
+    let body = &structure.body;
+    let lines = structure.lines.iter().map(|line| {
+        let arm = [0, 1].map(|i| line.fairlead_m[i] - body.position_m[i]);
+        json!({ "anchor": line.anchor_m, "arm": arm, "length": line.length_m })
+    });
+    json!({
+        "outline": match body.outline {
+            Outline::Circle => "circle",
+            Outline::Rectangle => "rectangle",
+        },
+        "width": body.width_m,
+        "height": body.height_m,
+        "floats": structure.afloat.is_some(),
+        "depth": structure.site.depth_m,
+        "rest": assessment.prepared.rest.place_m,
+        "lines": lines.collect::<Vec<_>>(),
+    })
+}
+
+impl Snaps {
+    fn of(assessment: &Assessment) -> Self {
+        let all: Vec<&Snap> = assessment.snaps.iter().filter(|snap| snap.counts()).collect();
+        let shown = &all[..all.len().min(MOST_SHOWN)];
+        Self {
+            t: shown.iter().map(|snap| snap.t_s).collect(),
+            line: shown.iter().map(|snap| snap.line + 1).collect(),
+            jolt: shown.iter().map(|snap| snap.is_jolt).collect(),
+            speed: shown.iter().map(|snap| snap.effective_speed_m_s).collect(),
+            peak: shown.iter().map(|snap| snap.peak_n.map(|peak| peak / 1e3)).collect(),
+            utilisation: shown.iter().map(|snap| snap.utilisation).collect(),
+            all: all.len(),
+        }
+    }
+}
+
+impl Modes {
+    fn of(assessment: &Assessment, [from, to]: [f64; 2]) -> Self {
+        let unit = assessment.prepared.model.scales.time_s;
+        let modes = assessment.run.modes().iter();
+        let within = modes.filter(|mode| mode.t_end * unit >= from && mode.t_start * unit <= to);
+        let (t_start, taut) = within
+            .map(|mode| {
+                let lines = mode.taut.iter().map(|line| line + 1);
+                (mode.t_start * unit, lines.collect())
+            })
+            .unzip();
+        Self { t_start, taut }
+    }
+}

@@ -1,0 +1,65 @@
+//! Which keys a structure has, and what a case gives for them.
+use super::opened::{File, Opened};
+use crate::refusal::Refusal;
+use crate::schema::kind;
+use serde_json::{Map, Value as JsonValue, json};
+use snapload::Heading;
+use snapload_report::ValueRow;
+use snapload_structure::STRUCTURE;
+
+/// The keys, and the case that the program was begun with, if it is one of a structure.
+pub(crate) fn schema(start: Option<&Opened>) -> JsonValue {
+    let tables = STRUCTURE.tables.iter().map(|table| {
+        let keys = table.keys.iter().map(|key| {
+            json!({
+                "name": key.name,
+                "unit": key.unit,
+                "meaning": key.meaning,
+                "kind": kind(key),
+                "default": key.default.value().map(ValueRow),
+                "default_in_words": key.default_words(),
+                "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
+            })
+        });
+        json!({
+            "name": table.name,
+            "meaning": table.meaning,
+            "many": table.heading == Heading::Many,
+            "keys": keys.collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "tables": tables.collect::<Vec<_>>(),
+        "start": start.map(case),
+    })
+}
+
+/// What a file gives that was opened on the page.
+pub(crate) fn opened(file: &File) -> Result<JsonValue, Refusal> {
+    let opened = file.read()?;
+    opened.structure()?;
+    Ok(case(&opened))
+}
+
+/// A case: its name, its waters and lines, and what it gives, by path.
+fn case(opened: &Opened) -> JsonValue {
+    let mut given = Map::new();
+    for table in STRUCTURE.tables {
+        for index in 0..opened.entries.count(table.name) {
+            let fields = opened.entries.table(table.name, index);
+            for key in table.keys {
+                if let Some(value) = fields.given(key.name) {
+                    given.insert(fields.path(key.name), json!(ValueRow(value.clone())));
+                }
+            }
+        }
+    }
+    json!({
+        "name": opened.name,
+        "water": opened.water(),
+        "lines": opened.entries.count("line"),
+        "floats": opened.entries.count("float") > 0,
+        "given": given,
+    })
+}
