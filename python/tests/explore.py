@@ -23,12 +23,11 @@ SIDEWAYS = {"width": 740, "height": 360}
 PICTURES = ["trajectory", "rotation", "snaps", "tensions", "energy"]
 
 
-@pytest.fixture(scope="module")
-def url() -> Iterator[str]:
-    """The address at which the program serves the page; it ends with 0 when interrupted."""
+def served(*args: str) -> Iterator[str]:
+    """The address at which the program serves a page; it ends with 0 when interrupted."""
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", "0"]
-    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server:
+    program = [target / "debug" / "snapload", "explore", "--no-browser", "--port", "0", *args]
+    with subprocess.Popen(program, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=ROOT) as server:
         assert server.stdout is not None
         said = server.stdout.readline()
         found = re.search(r"http://127\.0\.0\.1:\d+/", said)
@@ -38,7 +37,13 @@ def url() -> Iterator[str]:
         assert server.wait(timeout=10) == 0
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
+def url() -> Iterator[str]:
+    """The address of a program that began with the standard case; all tests share it."""
+    yield from served()
+
+
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     chromium = shutil.which("chromium")
     assert chromium, "there is no chromium on the PATH; ./test.sh installs it"
@@ -51,11 +56,13 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture
-def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
-    """Opens the page with a state; afterwards nothing may have gone wrong in it, nor asked another host."""
+def open_at(browser: Browser) -> Iterator[Callable[..., Page]]:
+    """Opens a page at an address; afterwards nothing may have gone wrong in it, nor asked another host."""
     contexts, wrong = [], []
 
-    def visit(fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any) -> Page:
+    def visit(
+        url: str, fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any
+    ) -> Page:
         # A page without a link plays at once, unless nobody wants motion.
         still = {} if fragment else {"reduced_motion": "reduce"}
         context = browser.new_context(viewport=viewport, accept_downloads=True, **{**still, **options})
@@ -63,6 +70,7 @@ def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
         contexts.append(context)
         page = context.new_page()
         page.set_default_timeout(15_000)
+        outside = lambda address: not address.startswith((url, "blob:" + url, "data:"))  # noqa: E731
         page.on("pageerror", lambda error: wrong.append(f"error in the page: {error}"))
         page.on("request", lambda request: outside(request.url) and wrong.append(f"asked {request.url}"))
         # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
@@ -71,13 +79,16 @@ def open_page(browser: Browser, url: str) -> Iterator[Callable[..., Page]]:
         settled(page)
         return page
 
-    def outside(address: str) -> bool:
-        return not address.startswith((url, "blob:" + url, "data:"))
-
     yield visit
     for context in contexts:
         context.close()
     assert wrong == []
+
+
+@pytest.fixture
+def open_page(open_at: Callable[..., Page], url: str) -> Callable[..., Page]:
+    """Opens the page of the thesis's model with a state."""
+    return lambda fragment="", **options: open_at(url, fragment, **options)
 
 
 def settled(page: Page, after: int = 0) -> None:

@@ -64,7 +64,7 @@ def test_dragging_through_slow_runs_shows_some_of_them(open_page):
             const fetch = window.fetch;
             window.fetch = (path, { signal }) => slow(signal);
             const shown = [];
-            const runner = new Runner({ onAnswer: (_, since) => shown.push(since), onError() {}, onBusy() {} });
+            const runner = new Runner({ onAnswer: (_, since) => shown.push(since), onError() {} });
             for (let i = 0; i < 50; i += 1) {
                 runner.ask({}, i);
                 await new Promise(done => setTimeout(done, 40));

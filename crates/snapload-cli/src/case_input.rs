@@ -49,6 +49,12 @@ impl CaseArgs {
         self.file.as_deref()
     }
 
+    /// What is changed after it.
+    #[cfg(feature = "explore")]
+    pub(crate) fn changes(&self) -> &[String] {
+        &self.set
+    }
+
     /// Reads the keys that `schema` describes: of the built-in case or the file, then of `--set`.
     /// Returns them with the name to show for them.
     pub(crate) fn entries(&self, schema: &'static Schema) -> Result<(String, Entries), Failure> {

@@ -1,9 +1,12 @@
 //! `snapload explore`: a run on a page in the browser, which this program serves itself.
-use crate::case_input::CaseArgs;
+use crate::case_input::{CaseArgs, read_text};
 use crate::failure::{Failure, plain, print};
 use crate::interrupt::{Graceful, end_gracefully, say};
-use snapload_explore::{Server, Start};
+use crate::structure_input::{entries_of, structure_of};
+use snapload::Parameters;
+use snapload_explore::{Opened, Server, Start};
 use std::io;
+use std::path::Path;
 
 /// The port where none is asked for.
 const USUAL_PORT: u16 = 7627;
@@ -20,6 +23,8 @@ Examples:
       begin with a built-in case, changed
   snapload explore mooring.toml
       begin with a case of your own
+  snapload explore docs/examples/cylinder.toml
+      a structure in metres, kilonewtons and seconds
   snapload explore --port 8000 --no-browser
       at http://127.0.0.1:8000/, for a browser that you open yourself
 
@@ -41,16 +46,19 @@ pub(crate) struct Args {
 
 /// Serves it until it is interrupted.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let input = args.case.read()?;
-    let name = match input.name.as_str() {
-        "standard case" => "the standard case".to_owned(),
-        name => name.to_owned(),
-    };
-    let start = Start {
-        name,
-        parameters: *input.case.parameters(),
+    let opened = opened(&args.case)?;
+    let start = match opened {
+        Some(_) => Start {
+            name: "the standard case".to_owned(),
+            parameters: Parameters::STANDARD,
+        },
+        None => start(&args.case)?,
     };
     let server = bind(args.port, &start)?;
+    let server = match opened {
+        Some(opened) => server.opening(opened),
+        None => server,
+    };
     let (address, stop) = (server.address(), server.stop());
     end_gracefully(Graceful {
         on_first: Box::new(move || stop.now()),
@@ -65,6 +73,38 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let served = server.serve();
     served
         .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
+}
+
+/// The case of the thesis's model to begin with.
+fn start(case: &CaseArgs) -> Result<Start, Failure> {
+    let input = case.read()?;
+    let name = match input.name.as_str() {
+        "standard case" => "the standard case".to_owned(),
+        name => name.to_owned(),
+    };
+    Ok(Start {
+        name,
+        parameters: *input.case.parameters(),
+    })
+}
+
+/// The structure to begin with, if the file is the case of one.
+fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
+    let Some(path) = case.file() else {
+        return Ok(None);
+    };
+    let text = read_text(path)?;
+    if !snapload_structure::is_structure(&text) {
+        return Ok(None);
+    }
+    let (name, entries) = entries_of(path, &text, case.changes())?;
+    structure_of(path, &name, &entries)?;
+    let folder = Some(path.parent().unwrap_or(Path::new("")).to_owned());
+    Ok(Some(Opened {
+        name,
+        entries,
+        folder,
+    }))
 }
 
 /// Links hold the port, so that it is the same every time where nobody says otherwise; a second page

@@ -5,7 +5,7 @@ use crate::json::{Json, JsonArgs, is_same_file, room_of};
 use crate::stage::{Room, Stage};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use snapload::Entries;
+use snapload::{CaseError, Entries};
 use snapload_structure::{STRUCTURE, Structure, told};
 use std::fmt::Write as _;
 use std::io;
@@ -41,19 +41,9 @@ impl StructureArgs {
                  to begin with)",
             )
         })?;
-        let name = path.display().to_string();
         let text = read_text(path)?;
-        let mut entries = Entries::parse(&STRUCTURE, &name, &text)?;
-        self.set.iter().try_for_each(|text| entries.set(text))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let structure = Structure::from_entries_beside(&entries, folder).map_err(|error| {
-            let located = entries.locate(error);
-            // A key that is left out has no line; the file it is missing from is known.
-            match located.place {
-                Some(_) => located,
-                None => located.at(name.clone()),
-            }
-        });
+        let (name, entries) = entries_of(path, &text, &self.set)?;
+        let structure = structure_of(path, &name, &entries);
         let sum = Sha256::digest(&text);
         Ok(ReadStructure {
             structure: structure?,
@@ -71,6 +61,35 @@ impl StructureArgs {
         }
         command
     }
+}
+
+/// What a file gives, changed as `--set` says, with the name of its case.
+pub(crate) fn entries_of(
+    path: &Path,
+    text: &str,
+    set: &[String],
+) -> Result<(String, Entries), CaseError> {
+    let name = path.display().to_string();
+    let mut entries = Entries::parse(&STRUCTURE, &name, text)?;
+    set.iter().try_for_each(|change| entries.set(change))?;
+    Ok((name, entries))
+}
+
+/// The structure of what a file gives.
+pub(crate) fn structure_of(
+    path: &Path,
+    name: &str,
+    entries: &Entries,
+) -> Result<Structure, CaseError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    Structure::from_entries_beside(entries, folder).map_err(|error| {
+        let located = entries.locate(error);
+        // A key that is left out has no line; the file it is missing from is known.
+        match located.place {
+            Some(_) => located,
+            None => located.at(name),
+        }
+    })
 }
 
 /// The ending of a file that is asked for, one of those allowed.

@@ -31,10 +31,10 @@ const PATIENCE_MS = 120;
 
 /** Runs, one at a time; of the questions that come meanwhile only the latest is asked. */
 export class Runner {
-  constructor({ onAnswer, onError, onBusy }) {
+  constructor({ onAnswer, onError, path = "api/run" }) {
     this.onAnswer = onAnswer;
     this.onError = onError;
-    this.onBusy = onBusy;
+    this.path = path;
     this.flying = null;
     this.waiting = null;
   }
@@ -56,16 +56,14 @@ export class Runner {
     const controller = new AbortController();
     this.waiting = null;
     this.flying = { controller, begun: performance.now(), afterOneCutShort };
-    this.onBusy(true);
     let answer = null;
     try {
-      answer = await (await post("api/run", question, controller.signal)).json();
+      answer = await (await post(this.path, question, controller.signal)).json();
     } catch (error) {
       if (error.name !== "AbortError") this.onError(inWords(error), question);
     }
     this.flying = null;
     if (this.waiting) this.#next(controller.signal.aborted);
-    else this.onBusy(false);
     if (answer) this.onAnswer(answer, since, question);
   }
 }
@@ -75,19 +73,32 @@ export async function fetchRun(question) {
   return (await post("api/run", question)).json();
 }
 
-/** The values that a case file gives. */
-export async function fetchCase(name, text) {
-  return (await post("api/case", { name, text })).json();
+/** The keys of a structure, and the one that the program was begun with. */
+export async function fetchStructures() {
+  return (await fetch("api/structure")).json();
 }
 
-/** What of a run is proved. */
-export async function fetchProof(question, signal) {
+/** What the case file of a structure gives. */
+export async function fetchStructureFile(file) {
+  return (await post("api/structure", file)).json();
+}
+
+/** Work that takes its time, and can be given up. */
+export async function fetchLong(path, question, signal) {
   try {
-    return await (await post("api/proof", question, signal)).json();
+    return await (await post(path, question, signal)).json();
   } catch (error) {
     throw error.name === "AbortError" ? error : inWords(error);
   }
 }
+
+/** The values that a case file gives. */
+export async function fetchCase(file) {
+  return (await post("api/case", file)).json();
+}
+
+/** What of a run is proved. */
+export const fetchProof = (question, signal) => fetchLong("api/proof", question, signal);
 
 /** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
 function inWords(error) {
@@ -112,7 +123,7 @@ export async function* fetchMap(question, signal) {
 }
 
 /** A file as the command writes it. */
-export async function fetchFile(name, question) {
-  const response = await post(`api/export/${name}`, question);
+export async function fetchFile(path, question) {
+  const response = await post(path, question);
   return response.blob();
 }

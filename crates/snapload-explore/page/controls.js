@@ -11,6 +11,9 @@ const GROUPS = [
   ["stops", "Stops"],
 ];
 
+/** Words that are longer than this have no room beside their label. */
+const LONG_OPTION = 8;
+
 /** What a point mass can not have, and why. */
 const NOT_OF_A_POINT = {
   a: "a point mass has no size",
@@ -20,31 +23,41 @@ const NOT_OF_A_POINT = {
   vtheta: "a point mass has no rotation",
 };
 
+/** The groups of the keys of the thesis's case, of which the stops and, in a narrow window, most begin closed. */
+export const caseGroups = (schema) =>
+  GROUPS.map(([group, title]) => ({
+    title,
+    keys: schema.keys.filter((key) => key.group === group),
+    open: group !== "stops" && (group === "forcing" || matchMedia("(min-width: 700px)").matches),
+  }));
+
+/** Why a key of the thesis's case can not be given. */
+export const notOfAPoint = (name, state) => (state.value("body") === "point" ? NOT_OF_A_POINT[name] : undefined);
+
 export class Controls {
   /**
-   * Builds them into `root`. `onChange({ since, settled, gesture })` follows a change of a value; settled: not being
+   * Builds `groups` of keys, each with its title and whether it begins open, into `root`. `whyNot(name, state)` says why
+   * a key can not be given. `onChange({ since, settled, gesture })` follows a change of a value; settled: not being
    * dragged; gesture: the same number while one types, or goes on with the arrow keys, in one place.
    */
-  constructor(root, state, { onChange }) {
+  constructor(root, state, { groups, whyNot, onChange }) {
     this.root = root;
     this.state = state;
+    this.whyNot = whyNot;
     this.onChange = onChange;
     this.rows = new Map();
     this.latest = null;
     this.typing = null;
     this.gesture = 0;
     for (const begin of ["focusin", "pointerdown"]) root.addEventListener(begin, () => (this.gesture += 1), true);
-    for (const [group, title] of GROUPS) {
-      const keys = state.schema.keys.filter((key) => key.group === group);
-      if (keys.length) root.append(this.#group(title, keys, group));
-    }
+    for (const group of groups) if (group.keys.length) root.append(this.#group(group));
     this.show();
   }
 
-  #group(title, keys, group) {
-    const details = element("details", { className: "group" });
-    details.open = group !== "stops" && (group === "forcing" || matchMedia("(min-width: 700px)").matches);
-    details.append(element("summary", { textContent: title }));
+  #group({ title, keys, open, more = [], water = null }) {
+    const details = element("details", { className: "group", open });
+    if (water) details.dataset.water = water;
+    details.append(element("summary", { textContent: title }), ...more);
     for (const key of keys) details.append(this.#row(key));
     return details;
   }
@@ -71,7 +84,7 @@ export class Controls {
     if (wordy) name.textContent = key.symbol.replaceAll("_", " ");
     else name.innerHTML = symbolHtml(key.symbol);
     const meaning = element("span", { className: "meaning", id: `meaning-${key.name}` });
-    meaning.textContent = prose(key.kind.type === "choice" ? key.meaning : key.title);
+    meaning.textContent = prose(["choice", "text"].includes(key.kind.type) ? key.meaning : key.title);
     label.title = prose(key.meaning) + (key.default_in_words ? `. Default: ${prose(key.default_in_words)}` : "");
     label.append(name, meaning);
     if (unit) meaning.append(element("span", { className: "unit", textContent: ` [${unit}]` }));
@@ -90,6 +103,8 @@ export class Controls {
       title: "Back to the default",
     });
     reset.setAttribute("aria-label", `${key.name}: back to the default`);
+    // What is no single number needs room.
+    if (key.kind.type === "text") row.classList.add("key-wide");
     row.append(this.#label(key), reset, field);
     Object.assign(parts, { field, reset });
     if (key.usual) row.append(this.#ranged(parts, this.#slider(parts)));
@@ -185,9 +200,11 @@ export class Controls {
   #choice(parts) {
     const { key, row } = parts;
     const field = element("select", { id: `field-${key.name}`, className: "choice" });
+    if (key.default === null) field.append(element("option", { value: "", textContent: "–" }));
     for (const option of key.kind.options) field.append(element("option", { value: option, textContent: option }));
+    if (key.kind.options.some((option) => option.length > LONG_OPTION)) row.classList.add("key-wide");
     row.append(this.#label(key), field);
-    field.addEventListener("change", (event) => this.#give(parts, field.value, event, true));
+    field.addEventListener("change", (event) => this.#give(parts, field.value || null, event, true));
     parts.field = field;
   }
 
@@ -208,11 +225,10 @@ export class Controls {
     for (const [name, { key, field, slider, reset, why }] of this.rows) {
       // Where the default depends on other keys, what it comes to is known from the run.
       const given = this.state.values[name];
-      const value =
-        given === undefined && key.default_in_words
-          ? (effective[name] ?? this.state.value(name))
-          : this.state.value(name);
-      const text = plain(given ?? (key.default_in_words ? rounded(value) : value));
+      const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
+      const value = follows ? effective[name] : this.state.value(name);
+      const text = follows ? rounded(value) : plain(value);
+      if (value === null && key.default_in_words) field.placeholder = key.default_in_words;
       if (key.kind.type === "flag") field.checked = value;
       else if (this.typing !== name) field.value = text;
       if (reset) {
@@ -221,7 +237,7 @@ export class Controls {
       if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
       if (slider) slider.setAttribute("aria-valuetext", `${text} ${unitText(key.unit)}`.trim());
       // What is given all the same is refused by the server, and has to be open to be mended.
-      const reason = given === undefined && this.state.value("body") === "point" ? NOT_OF_A_POINT[name] : undefined;
+      const reason = given === undefined ? this.whyNot(name, this.state) : undefined;
       field.disabled = reason !== undefined;
       if (slider) slider.disabled = field.disabled;
       Object.assign(why, { textContent: reason ?? "", hidden: !reason });
@@ -249,7 +265,11 @@ export class Controls {
 }
 
 /** A number that was computed, as short as it is read. */
-const rounded = (value) => (typeof value === "number" ? Number(value.toPrecision(6)) : value);
+function rounded(value) {
+  if (typeof value !== "number") return plain(value);
+  const [mantissa, exponent] = value.toExponential(3).split("e");
+  return Math.abs(value) < 1e6 ? plain(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
+}
 
 /** A round step, some hundreds of which make the range. */
 function sliderStep(low, high) {

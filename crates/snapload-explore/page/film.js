@@ -2,10 +2,9 @@
 // browser can.
 
 import { paint } from "./shapes.js";
-import { sceneShapes } from "./scene.js";
 import { colours } from "./theme.js";
 import { webm } from "./webm.js";
-import { fixed, modeName } from "./words.js";
+import { fixed } from "./words.js";
 
 /** Codecs as browsers call them, and as the file does. */
 const CODECS = [
@@ -22,8 +21,10 @@ const BITS_A_SECOND = 6e6;
 const MOST_WAITING = 8;
 
 export class Film {
-  constructor({ run, from, to, options, size }) {
+  /** `picture` makes shapes and a caption of a run at a time. */
+  constructor({ run, picture, from, to, options, size }) {
     this.run = run;
+    this.picture = picture;
     this.from = from;
     this.to = to;
     this.options = options;
@@ -102,13 +103,12 @@ export class Film {
     context.fillStyle = paints.paper;
     context.fillRect(0, 0, width, height);
     const past = this.run.beyond(t) ? " · past the horizon of trust" : "";
-    const words = `t = ${fixed(t, 2)} T · ${modeName(this.run.tautAt(t))}${past}`;
     const caption = {
-      text: words,
-      at: [14, this.options.picture === "real" ? 26 : height - 14],
+      text: `${this.picture.caption(this.run, t)}${past}`,
+      at: [14, this.options.picture === "thesis" ? height - 14 : 26],
       size: 15,
       fill: paints.ink,
     };
-    paint(context, [...sceneShapes(this.run, t, this.options), caption]);
+    paint(context, [...this.picture.shapes(this.run, t, this.options), caption]);
   }
 }

@@ -35,8 +35,11 @@ export class Hands {
     for (const name of ["touchstart", "touchmove"]) canvas.addEventListener(name, keep, { passive: false });
   }
 
-  /** What there is to take hold of at a place of the canvas; nothing where there is nothing. */
-  #at(px) {
+  /**
+   * What there is to take hold of at a place of the canvas; nothing where there is nothing.
+   * @returns {string | null}
+   */
+  at(px) {
     const { run, moment, cam, size } = this.stage.view();
     const near = (point, reach) => Math.hypot(point[0] - px[0], point[1] - px[1]) <= reach;
     const { cables } = run.geometry;
@@ -57,7 +60,7 @@ export class Hands {
     const px = [event.offsetX, event.offsetY];
     this.fingers.set(event.pointerId, px);
     if (this.fingers.size > 1) return this.#beginPinch();
-    const what = this.#at(px);
+    const what = this.at(px);
     const view = this.stage.view();
     if (what) {
       const centre = view.cam.place([view.moment.x, view.moment.y]);
@@ -74,7 +77,7 @@ export class Hands {
     if (this.pinch) return this.#pinch();
     if (this.held) {
       this.held.moved = true;
-      return this.#drag(px);
+      return this.drag(px);
     }
     if (this.pan) {
       const { cam } = this.pan.view;
@@ -82,7 +85,7 @@ export class Hands {
       const [k, x, y] = this.pan.zoom;
       return this.state.set({ zoom: [k, rounded(x + from[0] - to[0], 5), rounded(y + from[1] - to[1], 5)] });
     }
-    this.stage.canvas.style.cursor = this.#at(px) ? "grab" : this.state.zoom ? "move" : "";
+    this.stage.canvas.style.cursor = this.at(px) ? "grab" : this.state.zoom ? "move" : "";
   }
 
   #release(event) {
@@ -94,11 +97,11 @@ export class Hands {
     this.stage.hold(null);
     if (!held?.moved) return;
     this.onChange({ since: event.timeStamp, settled: true });
-    if (held.what === "body" && event.type === "pointerup") this.onLetGo();
+    if (held.what.startsWith("body") && event.type === "pointerup") this.onLetGo();
   }
 
   /** The values that put what is held under the pointer. */
-  #drag(px) {
+  drag(px) {
     const { what, view, offset } = this.held;
     const { run, moment, cam, size } = view;
     const centred = what === "body" ? [px[0] - offset[0], px[1] - offset[1]] : px;

@@ -9,6 +9,23 @@ import { $ } from "./dom.js";
 function keyTable({ playback, transport, state, map, pins }) {
   const toggle = (name, one, other) => state.set({ [name]: state[name] === one ? other : one, zoom: null });
   return [
+    ...timeKeys({ playback, transport }),
+    [["v"], "v", "real picture, or the thesis's", () => toggle("picture", "real", "thesis")],
+    [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
+    [["g"], "g", "ghost on or off", () => $("ghost").click()],
+    [["l"], "l", "loop on or off", () => state.set({ loop: !state.loop })],
+    [["p"], "p", "pin this run", () => pins.add()],
+    [["m"], "m", "map open or closed", () => map.toggle()],
+    [["?"], "?", "these keys", () => $("help").click()],
+  ];
+}
+
+/**
+ * Those of time, which every page has.
+ * @returns {[string[], string, string, ((event: KeyboardEvent) => void) | null][]}
+ */
+export function timeKeys({ playback, transport }) {
+  return [
     [[" "], "space", "play or pause", () => playback.toggle()],
     [["ArrowRight"], "→", "next event", (event) => (event.shiftKey ? playback.fine(1) : playback.next())],
     [["ArrowLeft"], "←", "previous event", (event) => (event.shiftKey ? playback.fine(-1) : playback.previous())],
@@ -19,13 +36,6 @@ function keyTable({ playback, transport, state, map, pins }) {
     [["-", "_"], "−", "slower", () => playback.faster(-1)],
     [["["], "[", "zoom in on the time cursor", () => transport.zoom(0.5)],
     [["]"], "]", "zoom out", () => transport.zoom(2)],
-    [["v"], "v", "real picture, or the thesis's", () => toggle("picture", "real", "thesis")],
-    [["c"], "c", "whole scene, or close to the body", () => toggle("view", "whole", "close")],
-    [["g"], "g", "ghost on or off", () => $("ghost").click()],
-    [["l"], "l", "loop on or off", () => state.set({ loop: !state.loop })],
-    [["p"], "p", "pin this run", () => pins.add()],
-    [["m"], "m", "map open or closed", () => map.toggle()],
-    [["?"], "?", "these keys", () => $("help").click()],
   ];
 }
 
@@ -43,8 +53,8 @@ function needed(target, key) {
 }
 
 export class Keyboard {
-  constructor(parts) {
-    const table = keyTable(parts);
+  /** `table` has the keys of a page: as `keyTable` has those of the thesis's case. */
+  constructor(parts, table = keyTable(parts)) {
     const dialog = $("help-dialog");
     $("help-keys").innerHTML = table
       .map(([, shown, words]) => `<dt><kbd>${shown}</kbd></dt><dd>${words}</dd>`)

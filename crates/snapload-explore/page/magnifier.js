@@ -9,9 +9,7 @@ const GLASS = { size: 0.3, most: 190, inset: 12, below: 0.22 };
 
 /** Its shapes in a glass beside the cables; `path` makes those of a path with a camera. */
 export function magnifier(run, t, cam, { width, height, colours, view, zoom, camera: held }, path) {
-  const { x, y } = run.motion;
-  const of = (column) => [column.reduce((a, b) => Math.min(a, b)), column.reduce((a, b) => Math.max(a, b))];
-  const [across, up] = [of(x), of(y)];
+  const { x: across, y: up } = run.reach;
   const extent = Math.max(across[1] - across[0], up[1] - up[0]);
   const side = Math.min(width, height);
   if (view === "close" || zoom || held || !(extent > 0) || extent * cam.scale > SMALL * side) return [];

@@ -8,18 +8,21 @@ import { Hands } from "./hands.js";
 import { Keyboard } from "./keyboard.js";
 import { SweepMap } from "./map.js";
 import { Take } from "./take.js";
-import { Controls } from "./controls.js";
+import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
+import { note, openStructure, opening, paintedSince, purposeAndSkip, themeButton } from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { Pins } from "./pins.js";
 import { Proof } from "./proof.js";
 import { Run } from "./run.js";
+import { sceneShapes } from "./scene.js";
 import { Stage } from "./stage.js";
 import { State } from "./state.js";
-import { chooseTheme, chosenTheme, colours, keep, kept, onSystemScheme, stillness, THEMES } from "./theme.js";
+import { chooseTheme, chosenTheme, colours, stillness } from "./theme.js";
 import { PLANES, Trajectory } from "./trajectory.js";
 import { Transport } from "./transport.js";
+import { fixed, modeName } from "./words.js";
 
 /** Rows of the motion that are asked for: few enough to come at once, and more for a long run that stays. */
 const SAMPLES = { first: 1200, finer: 3000 };
@@ -52,6 +55,8 @@ class Page {
       this.drawMoment();
     };
     this.controls = new Controls($("controls"), this.state, {
+      groups: caseGroups(schema),
+      whyNot: notOfAPoint,
       onChange: (change) => this.changed(change),
     });
     const jump = (t) => {
@@ -79,6 +84,10 @@ class Page {
       now: () => this.run,
       question: () => ({ values: this.state.values, ghost: null, samples: SAMPLES.first }),
       address: () => this.link.address,
+      picture: {
+        shapes: sceneShapes,
+        caption: (run, t) => `t = ${fixed(t, 2)} T · ${modeName(run.tautAt(t))}`,
+      },
     });
     this.pins = new Pins(this.state, () => this.run, { onChange: () => this.drawAll() });
     this.proof = new Proof();
@@ -86,7 +95,6 @@ class Page {
     this.runner = new Runner({
       onAnswer: (answer, since, question) => this.take(answer, since, question),
       onError: (error, question) => this.fail(error, question),
-      onBusy: (busy) => document.body.classList.toggle("busy", busy),
     });
     this.state.listen((changed) => this.follow(changed));
     this.keyboard = new Keyboard({
@@ -274,76 +282,25 @@ class Page {
     $("case").lastElementChild.hidden = name !== null;
   }
 
-  /** A case file is opened by its button, or by dropping it anywhere. */
-  opening() {
-    const open = async (file) => {
-      if (!file) return;
-      try {
-        const values = await fetchCase(file.name, await file.text());
-        note("");
-        this.state.set({ values, t: 0, window: null });
-        this.link.write({ now: true });
-      } catch (error) {
-        note(error.message);
-      }
-    };
-    $("open-case").addEventListener("change", () => {
-      open($("open-case").files[0]);
-      $("open-case").value = "";
-    });
-    document.addEventListener("dragover", (event) => event.preventDefault());
-    document.addEventListener("drop", (event) => {
-      event.preventDefault();
-      open(event.dataTransfer.files[0]);
-    });
+  /** A case file is opened here; that of a structure has a page of its own. */
+  async open(file) {
+    const { structure, values } = await fetchCase(file);
+    if (structure) return openStructure(file);
+    note("");
+    this.state.set({ values, t: 0, window: null });
+    this.link.write({ now: true });
   }
 
   tools() {
-    const show = () => ($("theme").textContent = `Theme: ${chosenTheme()}`);
-    $("theme").addEventListener("click", () => {
-      chooseTheme(THEMES[(THEMES.indexOf(chosenTheme()) + 1) % THEMES.length]);
-      show();
-      this.drawAll();
-    });
-    show();
-    onSystemScheme(() => this.drawAll());
-    this.opening();
+    themeButton(() => this.drawAll());
+    opening((file) => this.open(file));
+    purposeAndSkip(PURPOSE_READ);
     for (const [name, { words }] of Object.entries(PLANES)) $("axes").append(new Option(words, name));
     $("axes").addEventListener("change", () => this.state.set({ plane: $("axes").value }));
-    $("purpose").hidden = kept(PURPOSE_READ) === "yes";
-    $("purpose-close").addEventListener("click", () => {
-      $("purpose").hidden = true;
-      keep(PURPOSE_READ, "yes");
-    });
-    // The address belongs to the state: a link within the page must not write into it.
-    $("skip").addEventListener("click", (event) => {
-      event.preventDefault();
-      $("scene").focus();
-    });
   }
 }
 
 const keyOf = ({ values, ghost }) => JSON.stringify([values, ghost]);
-
-function note(text) {
-  $("note").textContent = text;
-  $("note").hidden = !text;
-}
-
-/** Says how long it took from an event to the picture that follows from it. */
-function paintedSince(since) {
-  requestAnimationFrame(() => {
-    // After the frame's paint, and not before it.
-    const channel = new MessageChannel();
-    channel.port1.onmessage = () => {
-      const took = performance.now() - since;
-      $("took").textContent = `picture in ${Math.round(took)} ms`;
-      $("took").dataset.ms = took.toFixed(2);
-      $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;
-    };
-    channel.port2.postMessage(null);
-  });
-}
 
 try {
   new Page(await fetchSchema());

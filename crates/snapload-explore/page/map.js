@@ -2,10 +2,9 @@
 
 import { Refused, fetchMap } from "./api.js";
 import { CIVIDIS, cividis, hatch, outline, outlineBox, rangeOf } from "./cells.js";
-import { label } from "./charts.js";
 import { $ } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
-import { Frame, drawAxes, fontOf, inside, prepare, ticks } from "./plot.js";
+import { Frame, drawAxes, fontOf, inside, label, prepare, ticks } from "./plot.js";
 import { MOST_CELLS, readValue } from "./state.js";
 import { copy, save } from "./take.js";
 import { number, plain, prose, reasonText, unitText } from "./words.js";
@@ -17,6 +16,7 @@ const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 const REST_MS = 500;
 /** Values that span this are coloured by their logarithms. */
 const DECADES = 100;
+
 export class SweepMap {
   constructor(state, { colours, onPick }) {
     this.state = state;

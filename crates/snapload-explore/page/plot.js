@@ -53,10 +53,6 @@ export class Frame {
     return this.x0 + ((px - this.left) / this.width) * (this.x1 - this.x0);
   }
 
-  atY(px) {
-    return this.y0 + ((this.top + this.height - px) / this.height) * (this.y1 - this.y0);
-  }
-
   holdsX(value) {
     return value >= this.x0 && value <= this.x1;
   }
@@ -116,6 +112,18 @@ export function stroke(context, points) {
   context.stroke();
 }
 
+/** A text in the middle of a place, perhaps turned. */
+export function label(context, colours, text, x, y, angle = 0, font = FONT) {
+  context.save();
+  context.translate(x, y);
+  context.rotate(angle);
+  context.font = font;
+  context.fillStyle = colours.muted;
+  context.textAlign = "center";
+  context.fillText(text, 0, 0);
+  context.restore();
+}
+
 /** A column against another as one line, from row to row. */
 export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length) {
   context.beginPath();
@@ -127,16 +135,26 @@ export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length) {
   context.stroke();
 }
 
-/** The mark of a snap: a cross for cable 1, a ring for cable 2. */
+/** Marks of snaps: strokes between corners, in halves of their size; a ring for cable 2. */
+const MARKS = [
+  [[[-1, -1], [1, 1]], [[-1, 1], [1, -1]]],
+  null,
+  [[[0, -1.2], [1.1, 0.9], [-1.1, 0.9], [0, -1.2]]],
+  [[[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]],
+  [[[-1.3, 0], [1.3, 0]], [[0, -1.3], [0, 1.3]]],
+  [[[0, -1.4], [1.4, 0], [0, 1.4], [-1.4, 0], [0, -1.4]]],
+];
+
+/** The mark of a snap: a cross for cable 1, a ring for cable 2, and other shapes for more. */
 export function drawMark(context, cable, x, y, size) {
+  const strokes = MARKS[(cable - 1) % MARKS.length];
   context.beginPath();
-  if (cable === 1) {
-    context.moveTo(x - size, y - size);
-    context.lineTo(x + size, y + size);
-    context.moveTo(x - size, y + size);
-    context.lineTo(x + size, y - size);
-  } else {
-    context.arc(x, y, size * 1.1, 0, 2 * Math.PI);
+  if (!strokes) context.arc(x, y, size * 1.1, 0, 2 * Math.PI);
+  for (const points of strokes ?? []) {
+    points.forEach(([dx, dy], i) => {
+      if (i) context.lineTo(x + dx * size, y + dy * size);
+      else context.moveTo(x + dx * size, y + dy * size);
+    });
   }
   context.stroke();
 }

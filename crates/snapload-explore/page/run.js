@@ -1,7 +1,7 @@
 // A run as the server answers it: where everything is at any time, and what happened when.
 
 /** The last index whose time is at or before t; times ascend, and may repeat. */
-function lastAtOrBefore(times, t) {
+export function lastAtOrBefore(times, t) {
   let low = 0;
   let high = times.length - 1;
   while (low < high) {
@@ -13,7 +13,7 @@ function lastAtOrBefore(times, t) {
 }
 
 /** Value and derivative of the cubic with these ends and slopes, `u` of the way along an interval of length d. */
-function hermite(p0, v0, p1, v1, d, u) {
+export function hermite(p0, v0, p1, v1, d, u) {
   const w = 1 - u;
   const value = w * w * (1 + 2 * u) * p0 + u * u * (3 - 2 * u) * p1 + d * u * w * (w * v0 - u * v1);
   const rate = (6 * u * w * (p1 - p0)) / d + w * (1 - 3 * u) * v0 + u * (3 * u - 2) * v1;
@@ -95,6 +95,7 @@ export class Run {
     const { taut, t_start, t_end } = answer.modes;
     this.timeTaut = taut.reduce((sum, set, i) => sum + (set.length ? t_end[i] - t_start[i] : 0), 0);
     this.mostTension = Math.max(largest(answer.motion.T1), largest(answer.motion.T2));
+    this.reach = { x: ends(answer.motion.x), y: ends(answer.motion.y) };
   }
 
   at(t) {
@@ -157,6 +158,12 @@ export class Run {
     return found;
   }
 }
+
+/** The least and the largest of a column. */
+export const ends = (column) => [
+  column.reduce((least, value) => Math.min(least, value), Infinity),
+  column.reduce((most, value) => Math.max(most, value), -Infinity),
+];
 
 const largest = (column) => column.reduce((most, value) => Math.max(most, value ?? 0), 0);
 

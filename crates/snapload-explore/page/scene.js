@@ -17,14 +17,11 @@ const [BEYOND_FLOOR_PX, BEYOND_SURFACE_PX, MOST_BEYOND] = [34, 30, 0.4];
  * over, so that net buoyancy pulls down the page as a weight. y of the model grows towards the anchors.
  */
 export function camera(run, { width, height, picture, view, zoom }) {
-  const { x, y } = run.motion;
   const { a, b } = run.geometry.body;
   const size = Math.hypot(a, b);
   const anchorLevel = run.geometry.cables[0].anchor[1];
-  const span = (column) =>
-    column.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
-  let [left, right] = span(x);
-  let [low, high] = span(y);
+  let [left, right] = run.reach.x;
+  let [low, high] = run.reach.y;
   const surface = Math.min(low - size, -size) - 0.3;
   // Beyond floor and surface there is room for what is written there, however small the scale.
   let [beyondFloor, beyondSurface] = [0, 0];

@@ -21,8 +21,25 @@ const BEGINNING = {
   map: null,
 };
 
+/** Fields that are set together, with whoever listens to them. */
+export class Watched {
+  listeners = [];
+
+  /** Calls back with the names of what changed. */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  set(changes) {
+    const changed = Object.keys(changes).filter((name) => !same(this[name], changes[name]));
+    if (changed.length === 0) return;
+    Object.assign(this, changes);
+    for (const listener of this.listeners) listener(new Set(changed));
+  }
+}
+
 /** The state with whoever listens to it. */
-export class State {
+export class State extends Watched {
   /** What the page shows of the run: the fields of BEGINNING. */
   t = BEGINNING.t;
   speed = BEGINNING.speed;
@@ -38,23 +55,11 @@ export class State {
   map = BEGINNING.map;
 
   constructor(schema) {
+    super();
     this.schema = schema;
     this.defaults = Object.fromEntries(schema.keys.map((key) => [key.name, key.default]));
     this.derived = new Set(schema.keys.filter((key) => key.derived).map((key) => key.name));
     this.values = { ...schema.start.values };
-    this.listeners = [];
-  }
-
-  /** Calls back with the names of what changed. */
-  listen(listener) {
-    this.listeners.push(listener);
-  }
-
-  set(changes) {
-    const changed = Object.keys(changes).filter((name) => !same(this[name], changes[name]));
-    if (changed.length === 0) return;
-    Object.assign(this, changes);
-    for (const listener of this.listeners) listener(new Set(changed));
   }
 
   /** Some keys; a value of null, or its default, leaves one out. `more` of the state changes with them. */
@@ -125,14 +130,14 @@ export class State {
   }
 }
 
-const same = (one, other) => JSON.stringify(sorted(one)) === JSON.stringify(sorted(other));
+export const same = (one, other) => JSON.stringify(sorted(one)) === JSON.stringify(sorted(other));
 
 function sorted(value) {
   if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
   return Object.fromEntries(Object.entries(value).sort(([a], [b]) => (a < b ? -1 : 1)));
 }
 
-function decode(text) {
+export function decode(text) {
   try {
     return decodeURIComponent(text);
   } catch {
@@ -143,7 +148,7 @@ function decode(text) {
 /** A decimal number, with the minus sign of a keyboard or of print; what JavaScript takes beside that is none here. */
 const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 
-function finite(text) {
+export function finite(text) {
   const plain = text.trim().replaceAll("\u2212", "-");
   const value = DECIMAL.test(plain) ? Number(plain) : NaN;
   return Number.isFinite(value) ? value : undefined;
@@ -153,6 +158,7 @@ function finite(text) {
 export function readValue(key, text) {
   if (key.kind.type === "flag") return text === "true" ? true : text === "false" ? false : undefined;
   if (key.kind.type === "choice") return key.kind.options.includes(text) ? text : undefined;
+  if (key.kind.type === "text") return undefined;
   return finite(text);
 }
 

@@ -4,7 +4,6 @@ import { fetchFile } from "./api.js";
 import { $ } from "./dom.js";
 import { Film } from "./film.js";
 import { paint, svg } from "./shapes.js";
-import { sceneShapes } from "./scene.js";
 
 /** Size of the scene as a picture of its own [px], and how much finer its pixels are. */
 const SIZE = { width: 960, height: 676 };
@@ -12,12 +11,17 @@ const FINENESS = 2;
 const MAY_MS = 4000;
 
 export class Take {
-  /** `question` gives what is asked of the server now; `now` the run that is shown. */
-  constructor({ state, stage, now, question, address }) {
+  /**
+   * `question` gives what is asked of the server now, under `path`; `now` the run that is shown; `picture` makes shapes
+   * and a caption of a run at a time.
+   */
+  constructor({ state, stage, now, question, address, picture, path = "api/export" }) {
     this.state = state;
     this.stage = stage;
     this.now = now;
     this.question = question;
+    this.picture = picture;
+    this.path = path;
     this.address = address;
     this.film = null;
     for (const button of document.querySelectorAll("[data-file]")) {
@@ -62,7 +66,7 @@ export class Take {
     button.disabled = true;
     this.say(`${of}: writing`);
     try {
-      save(await fetchFile(name, this.question()), name);
+      save(await fetchFile(`${this.path}/${name}`, this.question()), name);
     } finally {
       button.disabled = false;
     }
@@ -71,7 +75,7 @@ export class Take {
 
   #shapes(scheme) {
     const { t } = this.state;
-    return sceneShapes(this.now(), Math.min(t, this.now().tEnd), this.stage.options(SIZE.width, SIZE.height, scheme));
+    return this.picture.shapes(this.now(), Math.min(t, this.now().tEnd), this.stage.options(SIZE.width, SIZE.height, scheme));
   }
 
   #sceneSvg() {
@@ -99,6 +103,7 @@ export class Take {
     const [from, to] = this.state.window ?? [0, run.tEnd];
     const film = (this.film = new Film({
       run,
+      picture: this.picture,
       from,
       to: Math.min(to, run.tEnd),
       options: { ...this.stage.options(SIZE.width, SIZE.height), playing: true },

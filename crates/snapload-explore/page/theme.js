@@ -1,34 +1,12 @@
 // Colours are named in theme.css alone; whoever paints on a canvas asks for them here.
 
-const NAMES = [
-  "paper",
-  "panel",
-  "ink",
-  "muted",
-  "faint",
-  "rule",
-  "accent",
-  "cable-1",
-  "cable-2",
-  "ghost",
-  "taut",
-  "strained",
-  "shade",
-  "past",
-  "water-high",
-  "water-deep",
-  "floor",
-  "body",
-  "body-edge",
-  "wave",
-  "snap",
-  "end-settled",
-  "end-rotation_limit",
-  "end-upper_bound",
-  "end-end_time",
-  "end-sliding_start",
-  "end-impact_limit",
-];
+/** The names that theme.css gives, without their dashes: those whose values are colours. */
+function names() {
+  const sheet = [...document.styleSheets].find(({ href }) => href?.endsWith("/theme.css"));
+  const root = /** @type {CSSStyleRule} */ (sheet?.cssRules[0]);
+  const all = root ? [...root.style].filter((name) => name.startsWith("--")) : [];
+  return all.filter((name) => CSS.supports("color", root.style.getPropertyValue(name))).map((name) => name.slice(2));
+}
 
 const caches = new Map();
 
@@ -43,7 +21,7 @@ export function colours(scheme = "") {
   if (scheme) probe.style.colorScheme = scheme;
   document.body.append(probe);
   const found = {};
-  for (const name of NAMES) {
+  for (const name of names()) {
     probe.style.color = `var(--${name})`;
     found[name] = getComputedStyle(probe).color;
   }
@@ -51,6 +29,9 @@ export function colours(scheme = "") {
   caches.set(scheme, found);
   return found;
 }
+
+/** Lines have colours of their own, up to six; more begin again. */
+export const lineColour = (paints, line) => paints[`cable-${((line - 1) % 6) + 1}`];
 
 /** Between two colours: `part` of the way from the first to the second. */
 export function mix(from, to, part) {

@@ -1,7 +1,7 @@
 // The path of the body's centre, with the boundaries at which a cable is taut; or another plane of the motion.
 
-import { about, label } from "./charts.js";
-import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, prepare, span, stroke, ticks } from "./plot.js";
+import { about } from "./charts.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, label, prepare, span, stroke, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };

@@ -7,11 +7,12 @@ import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
 
 export class Transport {
-  constructor(state, playback) {
+  /** `speedWords` tells of a speed. */
+  constructor(state, playback, speedWords = (speed) => `${speed} T/s`) {
     this.state = state;
     this.playback = playback;
     this.run = null;
-    for (const speed of SPEEDS) $("speed").append(new Option(`${speed} T/s`, String(speed)));
+    for (const speed of SPEEDS) $("speed").append(new Option(speedWords(speed), String(speed)));
     const on = (id, action) => $(id).addEventListener("click", action);
     on("play", () => playback.toggle());
     on("first", () => this.#jump(0));
@@ -59,16 +60,24 @@ export class Transport {
     const { t, speed, window } = this.state;
     const [from, to] = window ?? [0, this.run.tEnd];
     Object.assign($("scrub"), { min: from, max: to, value: t });
-    const words = `${fixed(t, 3)} of ${fixed(this.run.tEnd, 3)} T, ${modeName(this.run.tautAt(t))}`;
-    if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words);
-    const count = this.run.latestImpact(t) + 1;
+    const words = this.words(t, this.run);
+    if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words.value);
     $("clock").dataset.t = t;
-    $("clock").value = `t = ${fixed(t, 4)} T`;
-    $("counted").textContent = `impact ${count} of ${this.run.impacts.t.length}`;
+    $("clock").value = words.clock;
+    $("counted").textContent = words.counted;
     $("speed").value = speed;
     $("loop").checked = this.state.loop;
     $("window-words").value = window ? `t ${number(from, 4)} to ${number(to, 4)}` : "";
     $("zoom-all").disabled = window === null;
+  }
+
+  /** The time as it is read aloud and shown, and what happened before it. */
+  words(t, run) {
+    return {
+      value: `${fixed(t, 3)} of ${fixed(run.tEnd, 3)} T, ${modeName(run.tautAt(t))}`,
+      clock: `t = ${fixed(t, 4)} T`,
+      counted: `impact ${run.latestImpact(t) + 1} of ${run.impacts.t.length}`,
+    };
   }
 
   /**

@@ -18,6 +18,9 @@ export function fixed(value, decimals) {
   return value === null || value === undefined ? "–" : value.toFixed(decimals).replace("-", MINUS);
 }
 
+/** A number of so many digits as engineers write it: a large one to its unit, without a power of ten. */
+export const round = (value, digits = 3) => (Math.abs(value) >= 1000 ? fixed(value, 0) : number(value, digits));
+
 /** What a number field holds: every digit, and ASCII, so that it can be typed and sent. */
 export function plain(value) {
   if (value === null || value === undefined) return "";

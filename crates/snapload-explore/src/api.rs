@@ -3,6 +3,7 @@ use crate::guard::{Names, guard};
 use crate::refusal::Refusal;
 use crate::request::{Body, LARGEST_BODY};
 use crate::schema::{Start, schema};
+use crate::structure::{self, Latest, Opened};
 use crate::work::compute;
 use crate::{case_file, export, map, page, proof, run};
 use axum::extract::{DefaultBodyLimit, Path, State};
@@ -27,6 +28,9 @@ const PROVERS: usize = 2;
 /// What the answers are made from.
 struct Shared {
     start: Start,
+    /// The structure that the program was begun with, if it was one.
+    opened: Option<Opened>,
+    latest: Latest,
     workers: Arc<Semaphore>,
     writers: Arc<Semaphore>,
     mappers: Arc<Semaphore>,
@@ -34,21 +38,34 @@ struct Shared {
 }
 
 /// Which path is answered by what, on a server at this port that begins with this case.
-pub(crate) fn router(start: Start, port: u16) -> Router {
+pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router {
     let shared = Shared {
         start,
+        opened,
+        latest: Latest::default(),
         workers: Arc::new(Semaphore::new(WORKERS)),
         writers: Arc::new(Semaphore::new(WRITERS)),
         mappers: Arc::new(Semaphore::new(MAPPERS)),
         provers: Arc::new(Semaphore::new(PROVERS)),
     };
     Router::new()
+        .route("/", get(answer_page))
         .route("/api/schema", get(answer_schema))
         .route("/api/case", post(answer_case))
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
         .route("/api/proof", post(answer_proof))
         .route("/api/export/{name}", post(answer_export))
+        .route(
+            "/api/structure",
+            get(answer_structure).post(answer_structure_file),
+        )
+        .route("/api/structure/run", post(answer_structure_run))
+        .route("/api/structure/elastic", post(answer_structure_elastic))
+        .route(
+            "/api/structure/export/{name}",
+            post(answer_structure_export),
+        )
         .fallback_service(get(page::file).fallback(wrong_method))
         .method_not_allowed_fallback(wrong_method)
         .layer(DefaultBodyLimit::max(LARGEST_BODY))
@@ -59,6 +76,14 @@ pub(crate) fn router(start: Start, port: u16) -> Router {
 async fn wrong_method() -> Refusal {
     let message = "this path is not asked in this way";
     Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message)
+}
+
+/// The page of what the program was begun with.
+async fn answer_page(State(shared): State<Arc<Shared>>) -> Result<Response, Refusal> {
+    page::named(match shared.opened {
+        Some(_) => "structure.html",
+        None => "index.html",
+    })
 }
 
 async fn answer_schema(State(shared): State<Arc<Shared>>) -> impl IntoResponse {
@@ -114,7 +139,61 @@ async fn answer_export(
         file.write(request, allowance)
     })
     .await?;
+    Ok(file_named(&name, kind, bytes))
+}
+
+/// An answer that the browser keeps as a file.
+fn file_named(name: &str, kind: &str, bytes: Vec<u8>) -> Response {
     let place = format!("attachment; filename=\"{name}\"");
     let headers = [(CONTENT_TYPE, kind), (CONTENT_DISPOSITION, place.as_str())];
-    Ok((headers, bytes).into_response())
+    (headers, bytes).into_response()
+}
+
+async fn answer_structure(State(shared): State<Arc<Shared>>) -> impl IntoResponse {
+    Json(structure::schema(shared.opened.as_ref()))
+}
+
+/// What the case file of a structure gives that was opened on the page.
+async fn answer_structure_file(
+    Body(file): Body<structure::CaseFile>,
+) -> Result<impl IntoResponse, Refusal> {
+    structure::opened(&file).map(Json)
+}
+
+async fn answer_structure_run(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<structure::RunRequest>,
+) -> Result<impl IntoResponse, Refusal> {
+    let workers = Arc::clone(&shared.workers);
+    let answer = compute(&workers, move |allowance| {
+        structure::run(&request, shared.opened.as_ref(), &shared.latest, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_structure_elastic(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<structure::ElasticRequest>,
+) -> Result<impl IntoResponse, Refusal> {
+    let workers = Arc::clone(&shared.workers);
+    let answer = compute(&workers, move |allowance| {
+        structure::elastic(&request, shared.opened.as_ref(), &shared.latest, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_structure_export(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    Body(request): Body<structure::ExportRequest>,
+) -> Result<Response, Refusal> {
+    let file = structure::File::named(&name).ok_or_else(Refusal::nothing_there)?;
+    let writers = Arc::clone(&shared.writers);
+    let bytes = compute(&writers, move |allowance| {
+        file.write(&request, shared.opened.as_ref(), allowance)
+    })
+    .await?;
+    Ok(file_named(&name, file.content_type(), bytes))
 }

@@ -1,9 +1,10 @@
-//! `/api/case`: the values that a case file gives.
+//! `/api/case`: what a case file is, and the values that it gives.
 use crate::refusal::Refusal;
 use crate::schema::differing;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as JsonValue};
 use snapload::{CASE, Entries, Parameters};
+use snapload_structure::is_structure;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -13,11 +14,28 @@ pub(crate) struct Request {
     text: String,
 }
 
-/// The keys in which it differs from the standard case. Whether they can be run is asked with the
-/// run.
-pub(crate) fn answer(request: &Request) -> Result<Map<String, JsonValue>, Refusal> {
+#[derive(Serialize)]
+pub(crate) struct Answer {
+    /// Whether it is the case of a structure, which has a page of its own.
+    structure: bool,
+    /// The keys in which it differs from the standard case. Whether they can be run is asked with the
+    /// run.
+    values: Map<String, JsonValue>,
+}
+
+/// What a case file is, and gives.
+pub(crate) fn answer(request: &Request) -> Result<Answer, Refusal> {
+    if is_structure(&request.text) {
+        return Ok(Answer {
+            structure: true,
+            values: Map::new(),
+        });
+    }
     let entries = Entries::parse(&CASE, &request.name, &request.text)?;
     let parameters = Parameters::from_entries(entries.values("case"));
     let parameters = parameters.map_err(|error| entries.locate(error))?;
-    Ok(differing(&parameters))
+    Ok(Answer {
+        structure: false,
+        values: differing(&parameters),
+    })
 }

@@ -7,12 +7,13 @@ use include_dir::{Dir, include_dir};
 
 static PAGE: Dir = include_dir!("$CARGO_MANIFEST_DIR/page");
 
-/// The file of a path; the page itself at `/`.
+/// The file of a path.
 pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
-    let name = match uri.path().trim_start_matches('/') {
-        "" => "index.html",
-        name => name,
-    };
+    named(uri.path().trim_start_matches('/'))
+}
+
+/// The file of a name.
+pub(crate) fn named(name: &str) -> Result<Response, Refusal> {
     let kind = kind(name).ok_or_else(Refusal::nothing_there)?;
     let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
     Ok(([(CONTENT_TYPE, kind)], file.contents()).into_response())
@@ -39,6 +40,7 @@ mod tests {
             let name = file.path().to_str().expect("a name of plain letters");
             assert!(kind(name).is_some(), "{name}");
         }
-        assert!(PAGE.get_file("index.html").is_some() && PAGE.dirs().next().is_none());
+        assert!(PAGE.get_file("index.html").is_some() && PAGE.get_file("structure.html").is_some());
+        assert!(PAGE.dirs().next().is_none());
     }
 }

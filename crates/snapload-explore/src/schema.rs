@@ -8,7 +8,7 @@ use snapload::{
 use snapload_report::ValueRow;
 use std::sync::LazyLock;
 
-/// The case that the page begins with.
+/// The case of the thesis's model that the page begins with.
 #[derive(Clone, Debug)]
 pub struct Start {
     /// Its code, or the name of its file.
@@ -81,8 +81,9 @@ pub(crate) fn differing(parameters: &Parameters) -> Map<String, JsonValue> {
         .collect()
 }
 
-fn key(key: &Key) -> JsonValue {
-    let kind = match key.kind {
+/// The type of a key and its range.
+pub(crate) fn kind(key: &Key) -> JsonValue {
+    match key.kind {
         Kind::Number(Bounds {
             low,
             low_included,
@@ -92,7 +93,10 @@ fn key(key: &Key) -> JsonValue {
         Kind::Flag => json!({ "type": "flag" }),
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
         Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => json!({ "type": "text" }),
-    };
+    }
+}
+
+fn key(key: &Key) -> JsonValue {
     json!({
         "name": key.name,
         "symbol": key.symbol,
@@ -100,7 +104,7 @@ fn key(key: &Key) -> JsonValue {
         "meaning": key.meaning,
         "title": key.title(),
         "group": key.group,
-        "kind": kind,
+        "kind": kind(key),
         "allowed": key.allowed(),
         "default": Parameters::STANDARD.get(key.name).map(ValueRow),
         "default_in_words": match key.default {

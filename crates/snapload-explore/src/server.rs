@@ -1,6 +1,7 @@
 //! The server: a socket on the loopback address, and the connections to it.
 use crate::api::router;
 use crate::schema::Start;
+use crate::structure::Opened;
 use axum::Router;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -29,6 +30,7 @@ pub struct Server {
     listener: TcpListener,
     port: u16,
     start: Start,
+    opened: Option<Opened>,
     stop: Stop,
 }
 
@@ -56,8 +58,16 @@ impl Server {
             port: listener.local_addr()?.port(),
             listener,
             start,
+            opened: None,
             stop: Stop::default(),
         })
+    }
+
+    /// The same with the page of a structure in front.
+    #[must_use]
+    pub fn opening(self, structure: Opened) -> Self {
+        let opened = Some(structure);
+        Self { opened, ..self }
     }
 
     /// Where the page is.
@@ -87,7 +97,7 @@ impl Server {
     }
 
     async fn accept(self) -> io::Result<()> {
-        let router = router(self.start, self.port);
+        let router = router(self.start, self.opened, self.port);
         let listener = tokio::net::TcpListener::from_std(self.listener)?;
         let permits = Arc::new(Semaphore::new(MOST_CONNECTIONS));
         let accepting = async {

@@ -81,17 +81,17 @@ const FLOAT: &[Key] = &[
 
 #[rustfmt::skip] // one row a key
 const WAVE: &[Key] = &[
-    Key::new("height", "m", Kind::number(0.0, 50.0), Required, "from trough to crest"),
-    Key::new("period", "s", Kind::number(0.5, 60.0), Required, "from crest to crest"),
+    Key::new("height", "m", Kind::number(0.0, 50.0), Required, "from trough to crest").usual(0.0, 6.0),
+    Key::new("period", "s", Kind::number(0.5, 60.0), Required, "from crest to crest").usual(2.0, 16.0),
     Key::new("direction", "", DIRECTION, Word("+x"), "where it goes"),
 ];
 
 #[rustfmt::skip] // one row a key
 const SEA: &[Key] = &[
     Key::new("spectrum", "", Kind::Choice(&["jonswap", "pierson-moskowitz"]), Word("jonswap"), "shape of the spectrum"),
-    Key::new("hs", "m", Kind::number(0.0, 30.0), Required, "significant wave height, 4 sqrt(m0)"),
-    Key::new("tp", "s", Kind::number(1.0, 40.0), Required, "peak period"),
-    Key::new("gamma", "1", Kind::number(1.0, 10.0), Number(3.3), "peak enhancement of a JONSWAP spectrum"),
+    Key::new("hs", "m", Kind::number(0.0, 30.0), Required, "significant wave height, 4 sqrt(m0)").symbol("H_s").usual(0.0, 6.0),
+    Key::new("tp", "s", Kind::number(1.0, 40.0), Required, "peak period").symbol("T_p").usual(2.0, 16.0),
+    Key::new("gamma", "1", Kind::number(1.0, 10.0), Number(3.3), "peak enhancement of a JONSWAP spectrum").symbol("γ").usual(1.0, 7.0),
     Key::new("seed", "1", Kind::Count(0, u32::MAX as u64), Count(1), "of the random phases; the same seed is the same sea"),
     Key::new("components", "1", Kind::Count(10, 1000), Count(200), "sinusoids that the sea is made of"),
     Key::new("direction", "", DIRECTION, Word("+x"), "where it goes"),
@@ -100,7 +100,7 @@ const SEA: &[Key] = &[
 #[rustfmt::skip] // one row a key
 const RUN: &[Key] = &[
     Key::new("restitution", "1", Kind::number(0.0, 1.0), Required,
-        "part of the closing speed that a snap gives back: 0 a line that absorbs all, 1 one that absorbs nothing"),
+        "part of the closing speed that a snap gives back: 0 a line that absorbs all, 1 one that absorbs nothing").usual(0.0, 1.0),
     Key::new("duration", "s", Kind::positive(1e6), Derived("100 wave periods; three hours of a sea"), "time that is computed"),
     Key::new("transient", "s", Kind::number(0.0, 1e6), Derived("10 wave periods, or peak periods of a sea, at most half the duration; 0 in still water"),
         "snaps before this are shown but not judged, as the waves begin at once on a body at rest"),

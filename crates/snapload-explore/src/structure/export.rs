@@ -5,8 +5,8 @@ use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::Deserialize;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::note::{self, Source};
 use snapload_structure::assess;
+use snapload_structure::note::{self, Source};
 use std::time::Duration;
 
 /// What a run and its neighbours may take.

@@ -11,10 +11,12 @@ mod opened;
 mod run;
 mod schema;
 
-pub(crate) use export::File;
-pub(crate) use opened::{Asked, Opened};
+pub(crate) use elastic::{Request as ElasticRequest, answer as elastic};
+pub(crate) use export::{File, Request as ExportRequest};
+pub(crate) use opened::File as CaseFile;
+pub use opened::Opened;
+pub(crate) use run::{Request as RunRequest, answer as run};
 pub(crate) use schema::{opened, schema};
-pub(crate) use {elastic::answer as elastic, run::answer as run};
 
 use snapload_structure::{Assessment, BothModels};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -29,8 +29,12 @@ impl Columns {
         let mut columns = Self::new(run.system().cables.len());
         let mut playback = Playback::new(run);
         let unit = scales.time_s;
-        let first = run.impacts().partition_point(|impact| impact.t * unit < from);
-        let within = run.impacts()[first..].iter().take_while(|impact| impact.t * unit <= to);
+        let first = run
+            .impacts()
+            .partition_point(|impact| impact.t * unit < from);
+        let within = run.impacts()[first..]
+            .iter()
+            .take_while(|impact| impact.t * unit <= to);
         let mut snaps = within.peekable();
         for k in 0..=ROWS {
             let t = from + (to - from) * f64::from(k) / f64::from(ROWS);
@@ -49,7 +53,9 @@ impl Columns {
             return;
         }
         let before = playback.at(snap.t.next_down());
-        self.push(scales, t, &before.state, |line| before.tensions[line] * scales.force_n);
+        self.push(scales, t, &before.state, |line| {
+            before.tensions[line] * scales.force_n
+        });
         self.at(playback, scales, snap.t);
     }
 

@@ -75,7 +75,9 @@ impl File {
 impl Opened {
     /// What moves the water in it.
     pub(crate) fn water(&self) -> WaterKind {
-        let there = WATERS.iter().find(|(table, _)| self.entries.count(table) > 0);
+        let there = WATERS
+            .iter()
+            .find(|(table, _)| self.entries.count(table) > 0);
         there.map_or(WaterKind::Still, |(_, kind)| *kind)
     }
 
@@ -96,14 +98,25 @@ impl Opened {
     /// The same with no other waves than of this kind.
     fn with_water(self, water: WaterKind) -> Result<Self, CaseError> {
         let mut entries = Entries::new(&STRUCTURE);
-        let left_out = |table: &str| WATERS.iter().any(|(name, kind)| *name == table && *kind != water);
-        for table in STRUCTURE.tables.iter().filter(|table| !left_out(table.name)) {
+        let left_out = |table: &str| {
+            WATERS
+                .iter()
+                .any(|(name, kind)| *name == table && *kind != water)
+        };
+        for table in STRUCTURE
+            .tables
+            .iter()
+            .filter(|table| !left_out(table.name))
+        {
             for index in 0..self.entries.count(table.name) {
                 entries.add(table.name);
                 let fields = self.entries.table(table.name, index);
                 for key in table.keys {
                     if let Some(value) = fields.given(key.name) {
-                        let place = self.entries.place(&fields.path(key.name)).unwrap_or_default();
+                        let place = self
+                            .entries
+                            .place(&fields.path(key.name))
+                            .unwrap_or_default();
                         entries.give(table.name, index, key.name, value.clone(), place)?;
                     }
                 }
@@ -120,7 +133,8 @@ impl Asked {
             (Some(file), _) => file.read()?,
             (None, Some(start)) => start.clone(),
             (None, None) => {
-                let message = "no structure is open; open a case file, such as docs/examples/cylinder.toml";
+                let message =
+                    "no structure is open; open a case file, such as docs/examples/cylinder.toml";
                 return Err(Refusal::values(message));
             }
         };

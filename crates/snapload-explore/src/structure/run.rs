@@ -45,13 +45,18 @@ pub(crate) fn answer(
     allowance: &Allowance,
 ) -> Result<Vec<u8>, Refusal> {
     let began = Instant::now();
-    if let Some([from, to]) = request.window.filter(|[from, to]| !(0.0 <= *from && from < to)) {
-        let message = format!("window = [{from}, {to}]: allowed is two times, 0 <= from < to, or null");
+    if let Some([from, to]) = request
+        .window
+        .filter(|[from, to]| !(0.0 <= *from && from < to))
+    {
+        let message =
+            format!("window = [{from}, {to}]: allowed is two times, 0 <= from < to, or null");
         return Err(Refusal::values(message));
     }
     let case = request.case.read(start)?;
     let lasts_s = case.structure.duration_s;
-    let preview = !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
+    let preview =
+        !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
     let assessment = assessed(request, &case, preview, &latest.assessment, allowance)?;
     let answer = Answer::new(&case, &assessment, request.window, preview, began);
     serde_json::to_vec(&answer).map_err(Refusal::failed)
@@ -65,7 +70,11 @@ fn assessed(
     kept: &Kept<Assessment>,
     allowance: &Allowance,
 ) -> Result<Arc<Assessment>, Refusal> {
-    let time = if request.whole || request.neighbours { LONG_BUDGET } else { BUDGET };
+    let time = if request.whole || request.neighbours {
+        LONG_BUDGET
+    } else {
+        BUDGET
+    };
     let allowance = allowance.within(time);
     let go_on = |progress: Progress| allowance.go_on(progress);
     let refuse = |unfinished| too_long(case, time, unfinished);
@@ -78,12 +87,15 @@ fn assessed(
     if let Some(found) = kept.get(&beside) {
         return Ok(found);
     }
-    let alone = kept.of(&fingerprint, || Assessment::alone(structure, &go_on)).map_err(refuse)?;
+    let alone = kept
+        .of(&fingerprint, || Assessment::alone(structure, &go_on))
+        .map_err(refuse)?;
     if !request.neighbours {
         return Ok(alone);
     }
     let alone = Arc::unwrap_or_clone(alone);
-    kept.of(&beside, || alone.with_neighbours(NEIGHBOURS, &go_on)).map_err(refuse)
+    kept.of(&beside, || alone.with_neighbours(NEIGHBOURS, &go_on))
+        .map_err(refuse)
 }
 
 /// The first minutes of a record.
@@ -113,6 +125,10 @@ struct Answer {
     assessment: JsonValue,
     /// As it prints it.
     summary: String,
+    /// Its verdict in a word.
+    standing: &'static str,
+    /// What it would rest on with other restitutions, once those are run.
+    rebound: Option<String>,
     /// Whether this is the beginning of a longer record, and how long that is \[s\].
     preview: bool,
     lasts_s: f64,
@@ -161,7 +177,8 @@ impl Answer {
         let end = assessment.outcome.end_s;
         let window = window.filter(|[from, _]| *from < end);
         let window = window.unwrap_or_else(|| note::window(assessment));
-        let window = [window[0], window[1].min(end)];
+        // To the millisecond, as it stands in links.
+        let window = [window[0], window[1].min(end)].map(|t| (t * 1e3).round() / 1e3);
         let mut told = assessment.to_json(name);
         if let Some(told) = told.as_object_mut() {
             told.remove("snaps");
@@ -175,6 +192,8 @@ impl Answer {
         Self {
             assessment: told,
             summary: assessment.summary(name),
+            standing: assessment.verdict().standing.words(),
+            rebound: (!assessment.restitutions.is_empty()).then(|| assessment.rebound_words()),
             preview,
             lasts_s: case.structure.duration_s,
             transient_s: prepared.structure.transient_s,
@@ -209,20 +228,28 @@ fn geometry(assessment: &Assessment) -> JsonValue {
         "floats": structure.afloat.is_some(),
         "depth": structure.site.depth_m,
         "rest": assessment.prepared.rest.place_m,
+        "position": body.position_m,
         "lines": lines.collect::<Vec<_>>(),
     })
 }
 
 impl Snaps {
     fn of(assessment: &Assessment) -> Self {
-        let all: Vec<&Snap> = assessment.snaps.iter().filter(|snap| snap.counts()).collect();
+        let all: Vec<&Snap> = assessment
+            .snaps
+            .iter()
+            .filter(|snap| snap.counts())
+            .collect();
         let shown = &all[..all.len().min(MOST_SHOWN)];
         Self {
             t: shown.iter().map(|snap| snap.t_s).collect(),
             line: shown.iter().map(|snap| snap.line + 1).collect(),
             jolt: shown.iter().map(|snap| snap.is_jolt).collect(),
             speed: shown.iter().map(|snap| snap.effective_speed_m_s).collect(),
-            peak: shown.iter().map(|snap| snap.peak_n.map(|peak| peak / 1e3)).collect(),
+            peak: shown
+                .iter()
+                .map(|snap| snap.peak_n.map(|peak| peak / 1e3))
+                .collect(),
             utilisation: shown.iter().map(|snap| snap.utilisation).collect(),
             all: all.len(),
         }

@@ -3,7 +3,7 @@ use super::opened::{File, Opened};
 use crate::refusal::Refusal;
 use crate::schema::kind;
 use serde_json::{Map, Value as JsonValue, json};
-use snapload::Heading;
+use snapload::{DefaultValue, Heading};
 use snapload_report::ValueRow;
 use snapload_structure::STRUCTURE;
 
@@ -13,11 +13,16 @@ pub(crate) fn schema(start: Option<&Opened>) -> JsonValue {
         let keys = table.keys.iter().map(|key| {
             json!({
                 "name": key.name,
+                "symbol": key.symbol,
                 "unit": key.unit,
                 "meaning": key.meaning,
+                "title": key.title(),
                 "kind": kind(key),
                 "default": key.default.value().map(ValueRow),
-                "default_in_words": key.default_words(),
+                "default_in_words": match key.default {
+                    DefaultValue::Derived(words) => words,
+                    _ => "",
+                },
                 "usual": key.usual.map(|[low, high]| json!({ "low": low, "high": high })),
             })
         });

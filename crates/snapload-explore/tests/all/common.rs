@@ -1,7 +1,8 @@
 //! What the tests of the server share: one that runs, and the plainest of clients.
 use serde_json::{Value, json};
-use snapload::Parameters;
-use snapload_explore::{Server, Start, Stop};
+use snapload::{Entries, Parameters};
+use snapload_explore::{Opened, Server, Start, Stop};
+use snapload_structure::STRUCTURE;
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpStream};
 use std::thread::JoinHandle;
@@ -16,11 +17,25 @@ pub(crate) struct Running {
 
 /// Starts one that begins with the standard case.
 pub(crate) fn serve() -> Running {
+    run(|server| server)
+}
+
+/// Starts one that begins with the case of a structure.
+pub(crate) fn serve_structure(name: &str, text: &str) -> Running {
+    let opened = Opened {
+        name: name.to_owned(),
+        entries: Entries::parse(&STRUCTURE, name, text).unwrap(),
+        folder: None,
+    };
+    run(|server| server.opening(opened))
+}
+
+fn run(with: impl FnOnce(Server) -> Server) -> Running {
     let start = Start {
         name: "the standard case".to_owned(),
         parameters: Parameters::STANDARD,
     };
-    let server = Server::bind(0, start).unwrap();
+    let server = with(Server::bind(0, start).unwrap());
     let address = server.address();
     let port = address.trim_end_matches('/').rsplit(':').next().unwrap();
     Running {

@@ -6,3 +6,4 @@ mod common;
 mod fuzz;
 mod refusals;
 mod server;
+mod structure;

@@ -75,6 +75,7 @@ impl Assessment {
         };
         let checks = self.checks().into_iter().map(|(check, agreeing)| {
             let mut row = json!(check);
+            row["words"] = json!(check.criterion.words());
             row["neighbours_agreeing"] = json!(agreeing);
             row
         });

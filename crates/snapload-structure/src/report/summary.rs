@@ -9,7 +9,7 @@ use crate::physics::prepared::Prepared;
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::{Assessment, ByRestitution, quantile};
+use crate::runs::assess::{Assessment, quantile};
 use crate::runs::both::BothModels;
 use crate::runs::design::Check;
 use crate::runs::outcome::Outcome;
@@ -81,7 +81,7 @@ impl Assessment {
             outcome: &self.outcome,
             utilisations: self.outcome.utilisations(&prepared.structure),
             end: end_words(self.outcome.stop),
-            rebound: rebound_words(&self.by_restitution()),
+            rebound: self.rebound_words(),
             checks: self.checks(),
             neighbours: &self.neighbours.len(),
             warnings: &self.warnings,
@@ -89,24 +89,26 @@ impl Assessment {
             verdict: self.verdict().words,
         })
     }
-}
 
-/// What the verdict would rest on with less and with more restitution.
-fn rebound_words(rows: &[ByRestitution]) -> String {
-    let utilisations: Option<Vec<f64>> = rows.iter().map(|row| row.largest_utilisation).collect();
-    let (what, values) = match utilisations {
-        Some(values) => ("largest utilisation", values),
-        None => {
-            let speeds = rows.iter().map(|row| row.fastest_snap_m_s);
-            ("fastest snap (m/s)", speeds.collect())
-        }
-    };
-    let restitutions: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
-    let [values, restitutions] = [values, restitutions].map(|numbers| {
-        let all = numbers.iter().map(|number| format!("{number:.2}"));
-        all.collect::<Vec<_>>().join(", ")
-    });
-    format!("{what} {values} with a restitution of {restitutions}")
+    /// What the verdict would rest on with less and with more restitution, in words.
+    pub fn rebound_words(&self) -> String {
+        let rows = self.by_restitution();
+        let utilisations: Option<Vec<f64>> =
+            rows.iter().map(|row| row.largest_utilisation).collect();
+        let (what, values) = match utilisations {
+            Some(values) => ("largest utilisation", values),
+            None => {
+                let speeds = rows.iter().map(|row| row.fastest_snap_m_s);
+                ("fastest snap (m/s)", speeds.collect())
+            }
+        };
+        let restitutions: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
+        let [values, restitutions] = [values, restitutions].map(|numbers| {
+            let all = numbers.iter().map(|number| format!("{number:.2}"));
+            all.collect::<Vec<_>>().join(", ")
+        });
+        format!("{what} {values} with a restitution of {restitutions}")
+    }
 }
 
 impl Seas {

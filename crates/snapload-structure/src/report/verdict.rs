@@ -29,6 +29,19 @@ pub enum Standing {
     Open,
 }
 
+impl Standing {
+    /// As a reader knows it.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Breaks => "breaks",
+            Self::Exceeds => "fails",
+            Self::Unknown => "not known",
+            Self::Open => "open",
+        }
+    }
+}
+
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {

@@ -1,0 +1,72 @@
+// The keys of a structure in groups, those first that an engineer turns.
+
+import { plain } from "./words.js";
+
+const WAVES = { wave: "Regular wave", sea: "Irregular sea" };
+/** Of one line: what no other shares with it. */
+const OF_ONE_LINE = ["anchor", "fairlead", "length", "diameter"];
+/** A slider spans so much of the value that the case gives, where the key says nothing. */
+const AROUND = [0.5, 1.5];
+
+/** Groups of keys for the controls. Files that the case names are not changed here. */
+export function structureGroups(state) {
+  const { keys } = state.schema;
+  const under = (path) => keys.filter((key) => key.under === path).map((key) => ranged(state, key));
+  const waves = Object.entries(WAVES).map(([name, title]) => ({
+    title,
+    keys: under(name),
+    open: true,
+    water: name,
+    more: name === "sea" ? [anotherSea(state)] : [],
+  }));
+  const wide = matchMedia("(min-width: 700px)").matches;
+  const one = Array.from({ length: state.lines }, (_, i) => ({
+    title: `Line ${i + 1} alone`,
+    keys: under(`line.${i + 1}`).filter((key) => OF_ONE_LINE.includes(key.name.split(".")[2])),
+    open: false,
+  }));
+  // Anchors and fairleads of all lines at once would be one point.
+  const all = under("line").filter((key) => !["line.anchor", "line.fairlead"].includes(key.name));
+  return [
+    ...waves,
+    { title: state.lines > 1 ? "All lines" : "The line", keys: all, open: wide },
+    ...one,
+    { title: "Run", keys: under("run"), open: wide },
+    { title: "Body", keys: under("body"), open: false },
+    { title: "Site", keys: under("site"), open: false },
+    { title: "Checks by your rule", keys: under("design"), open: false },
+  ];
+}
+
+/** A key with the range of its slider: about the value of the case, where the key has no usual one. */
+function ranged(state, key) {
+  const value = state.value(key.name);
+  if (key.kind.type === "count" || key.usual || !(typeof value === "number" && value > 0)) return key;
+  const [low, high] = AROUND.map((part) => Number(Math.min(part * value, key.kind.high).toPrecision(2)));
+  return { ...key, usual: { low, high } };
+}
+
+/** A sea with other phases is the next seed. */
+function anotherSea(state) {
+  const button = Object.assign(document.createElement("button"), {
+    type: "button",
+    className: "another-sea",
+    textContent: "Another sea like this",
+    title: "The next seed: the same spectrum with other phases",
+  });
+  button.addEventListener("click", () => state.setValues({ "sea.seed": Number(state.value("sea.seed")) + 1 }));
+  return button;
+}
+
+/** Why a key can not be given as things are. */
+export function whyNot(name, state) {
+  if (name.startsWith("body.added_mass") && state.floats) return "the file of [float] has it";
+  if (name === "body.height" && state.value("body.shape") !== "rectangle") return "a circle has its width alone";
+  return undefined;
+}
+
+/** What is changed in words, such as `wave.height = 2.5`. */
+export const changesInWords = (values) =>
+  Object.entries(values)
+    .map(([name, value]) => `${name} = ${plain(value)}`)
+    .join(", ");

@@ -1,0 +1,66 @@
+// Answers that are kept to compare others with: what each differs in, and what comes of it, in words.
+
+import { $ } from "./dom.js";
+import { changesInWords } from "./structure-groups.js";
+import { fixed, number } from "./words.js";
+
+const MOST_PINS = 5;
+
+/** What an answer comes to, in the order in which it is told. */
+function gist(run) {
+  const known = run.lines.map(({ utilisation }) => utilisation);
+  const largest = known.includes(null) ? null : Math.max(...known);
+  const fastest = Math.max(0, ...run.lines.map((line) => line.fastest_snap_m_s));
+  const slack = Math.max(...run.lines.map((line) => line.slack_fraction));
+  return { standing: run.standing, largest, fastest, slack };
+}
+
+export class StructurePins {
+  /** `now` gives the run that is shown; `onBack` is told of a pin that is to be shown again. */
+  constructor(state, now, { onBack }) {
+    this.state = state;
+    this.now = now;
+    this.kept = [];
+    $("pin").addEventListener("click", () => this.add());
+    $("pins").addEventListener("click", (event) => {
+      const button = event.target.closest("button");
+      if (!button) return;
+      const at = Number(button.dataset.pin);
+      if (button.className !== "unpin") return onBack(this.kept[at]);
+      this.kept.splice(at, 1);
+      this.show();
+    });
+  }
+
+  add() {
+    const run = this.now();
+    if (!run || this.kept.length >= MOST_PINS) return;
+    const { values, water, waterNow } = this.state;
+    this.kept.push({ values: { ...values }, water, waterNow, gist: gist(run), preview: run.preview });
+    this.show();
+  }
+
+  show() {
+    $("pin").disabled = this.kept.length >= MOST_PINS;
+    const run = this.now();
+    const html = run ? this.kept.map((pin, i) => line(pin, i, gist(run))).join("") : "";
+    if ($("pins").innerHTML !== html) $("pins").innerHTML = html;
+  }
+}
+
+function line({ values, water, waterNow, gist: of, preview }, i, shown) {
+  const waters = water === null ? "" : `water: ${waterNow}`;
+  const what = [waters, changesInWords(values)].filter(Boolean).join(", ") || "the case as it is";
+  const compared = of.largest === null ? ["fastest", 2] : ["largest", 2];
+  const [name, digits] = compared;
+  const difference = shown[name] === null ? 0 : of[name] - shown[name];
+  const far = fixed(Math.abs(difference), digits);
+  const more = Number(far) === 0 ? "as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
+  const much = of.largest === null ? `fastest snap ${fixed(of.fastest, 2)} m/s` : `utilisation ${fixed(of.largest, 2)}`;
+  const first = preview ? ", of its first minutes" : "";
+  return (
+    `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +
+    `${first}, ${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack ${fixed(100 * of.slack, 1)} % at most ` +
+    `<button type="button" class="unpin" data-pin="${i}" aria-label="Unpin ${what}">×</button></li>`
+  );
+}

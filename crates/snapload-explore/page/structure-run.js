@@ -1,0 +1,157 @@
+// A structure's run as the server answers it: where everything is at any time of the stretch that is shown, in metres,
+// kilonewtons and seconds, z up from the still water.
+
+import { ends, hermite, lastAtOrBefore } from "./run.js";
+import { number } from "./words.js";
+
+const COORDINATES = [
+  ["x", "vx", "x"],
+  ["z", "vz", "y"],
+  ["theta", "vtheta", "theta"],
+];
+
+/** A motion from columns. The scene's y is z. */
+export class StructureMotion {
+  constructor(columns) {
+    this.columns = columns;
+    this.t = columns.t;
+  }
+
+  at(t) {
+    const c = this.columns;
+    const i = lastAtOrBefore(c.t, t);
+    const j = Math.min(i + 1, c.t.length - 1);
+    const d = c.t[j] - c.t[i];
+    const u = d > 0 ? Math.min(Math.max((t - c.t[i]) / d, 0), 1) : 0;
+    /** @type {any} */
+    const moment = { t };
+    for (const [place, speed, name] of COORDINATES) {
+      moment[name] =
+        u === 0 ? c[place][i] : hermite(c[place][i], c[speed][i], c[place][j], c[speed][j], d, u)[0];
+    }
+    moment.tensions = c.tensions.map((column) => column[i] + (column[j] - column[i]) * u);
+    return moment;
+  }
+}
+
+export class StructureRun {
+  /** What the server answers. @type {any} */
+  assessment;
+  /** @type {any} */
+  geometry;
+  /** @type {any} */
+  snaps;
+  /** @type {any} */
+  modes;
+  /** @type {any} */
+  motion;
+  /** @type {number[][]} */
+  waves = [];
+  /** @type {number[]} */
+  window = [0, 0];
+  summary = "";
+  standing = "";
+  /** @type {string | null} */
+  rebound = null;
+  preview = false;
+  lasts_s = 0;
+  transient_s = 0;
+  shell = "";
+  python = "";
+  /** On lines that stretch, once it is there. @type {any} */
+  elastic = null;
+  /** @type {StructureMotion | null} */
+  elasticAt = null;
+
+  constructor(answer) {
+    Object.assign(this, answer);
+    this.motionAt = new StructureMotion(answer.motion);
+    this.tEnd = answer.assessment.end.t_s;
+    this.horizon = { t: answer.assessment.trust.horizon_s };
+    this.lines = answer.assessment.lines;
+    this.stops = answer.snaps.t;
+    const { x, z, tensions } = answer.motion;
+    this.reach = { x: ends(x), z: ends(z) };
+    this.mostTension = tensions.reduce((most, column) => Math.max(most, ends(column)[1]), 0);
+    this.hardest = answer.snaps.t.reduce((most, _, i) => Math.max(most, this.hardness(i)), 0);
+  }
+
+  /** Shows lines that stretch beside. */
+  beside(answer) {
+    this.elastic = answer;
+    this.elasticAt = answer && answer.motion.t.length ? new StructureMotion(answer.motion) : null;
+  }
+
+  at(t) {
+    const moment = this.motionAt.at(t);
+    moment.taut = this.tautAt(t);
+    moment.surface = this.surface(this.geometry.rest[0], t);
+    return moment;
+  }
+
+  /** Which lines are taut, counted from 1. */
+  tautAt(t) {
+    const { t_start, taut } = this.modes;
+    return t_start.length ? (taut[lastAtOrBefore(t_start, t)] ?? []) : [];
+  }
+
+  /** The water's surface above a place: sums of A sin(ωt − kx + ε). */
+  surface(x, t) {
+    let sum = 0;
+    for (const [amplitude, omega, k, phase] of this.waves) {
+      sum += amplitude * Math.sin(omega * t - k * (x - this.geometry.rest[0]) + phase);
+    }
+    return sum;
+  }
+
+  beyond(t) {
+    return this.horizon.t !== null && t > this.horizon.t;
+  }
+
+  nextStop(t) {
+    return this.stops.find((stop) => stop > t) ?? this.tEnd;
+  }
+
+  previousStop(t) {
+    return this.stops.findLast((stop) => stop < t) ?? 0;
+  }
+
+  /** Index of the last snap at or before t; −1 before the first. */
+  latestSnap(t) {
+    const { t: times } = this.snaps;
+    return times.length > 0 && times[0] <= t ? lastAtOrBefore(times, t) : -1;
+  }
+
+  /** Snaps with from <= t <= to, the latest first, as indices. */
+  snapsWithin(from, to) {
+    const found = [];
+    for (let i = this.latestSnap(to); i >= 0 && this.snaps.t[i] >= from; i -= 1) found.push(i);
+    return found;
+  }
+
+  /** How hard a snap is: its part of the breaking load, else its tension, else its speed; and what that is called. */
+  hardness(i) {
+    const { utilisation, peak, speed } = this.snaps;
+    return utilisation[i] ?? peak[i] ?? speed[i];
+  }
+
+  /** What keys come to that the case leaves out, as far as the answer tells. */
+  effective(state) {
+    const { body } = this.assessment;
+    const lines = this.lines.map((line, i) => [`line.${i + 1}`, line]);
+    const all = [
+      ["run.duration", this.lasts_s],
+      ["run.transient", this.transient_s],
+      ["body.moment_of_inertia", body.moment_of_inertia_kg_m2],
+      ["body.added_mass", `[${[...body.added_mass_kg, body.added_inertia_kg_m2].map((v) => number(v, 6)).join(", ")}]`],
+      ["body.height", this.geometry.height],
+      ...[["line", this.lines[0]], ...lines].flatMap(([path, line]) => [
+        [`${path}.stiffness`, line.stiffness_n],
+        [`${path}.spring_rate`, line.stiffness_n && line.stiffness_n / line.length_m],
+        [`${path}.mass_per_length`, line.mass_per_length_kg_m],
+        [`${path}.breaking_load`, line.breaking_load_n],
+      ]),
+    ];
+    return Object.fromEntries(all.filter(([name, value]) => value !== null && state.value(name) === null));
+  }
+}

@@ -1,0 +1,82 @@
+// The scene of a structure on its canvas, and what is said of the run in the words of `snapload assess`.
+
+import { $ } from "./dom.js";
+import { prepare } from "./plot.js";
+import { paint } from "./shapes.js";
+import { structureCamera, structureShapes, structureWords } from "./structure-scene.js";
+import { colours, stillness } from "./theme.js";
+import { snapWords } from "./structure-charts.js";
+import { round, sentence } from "./words.js";
+
+/** What a screen reader is told waits for a rest: not every position of a slider is worth a sentence. */
+const REST_MS = 900;
+export class StructureStage {
+  constructor(state, playback) {
+    this.state = state;
+    this.playback = playback;
+    this.run = null;
+    this.saying = null;
+    this.held = null;
+    this.canvas = $("scene");
+  }
+
+  take(run) {
+    this.run = run;
+    const { verdict, trust } = run.assessment;
+    $("verdict").dataset.standing = verdict.standing;
+    $("standing").textContent = run.standing;
+    $("said").textContent = verdict.words;
+    $("trust").textContent = trust.words;
+    const whole = `the whole ${round(run.lasts_s)} s follow when the values rest`;
+    $("preview").textContent = run.preview ? `This is of the first ${round(run.tEnd)} s; ${whole}.` : "";
+    clearTimeout(this.saying);
+    const words = sentence(run.standing) + ` ${verdict.words}`;
+    this.saying = setTimeout(() => ($("announced").textContent = words), $("announced").textContent ? REST_MS : 0);
+  }
+
+  get t() {
+    return Math.min(this.state.t, this.run.tEnd);
+  }
+
+  draw() {
+    const { context, width, height } = prepare(this.canvas);
+    const options = { ...this.options(width, height), camera: this.held };
+    paint(context, structureShapes(this.run, this.t, options));
+    this.#caption();
+  }
+
+  options(width, height, scheme) {
+    const { zoom, speed } = this.state;
+    const { playing } = this.playback;
+    return { width, height, zoom, speed, playing, colours: colours(scheme), still: stillness.matches };
+  }
+
+  /** What is shown now, and how: the run, its moment, the camera, and the size of the canvas. */
+  view() {
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight];
+    const cam = this.held ?? structureCamera(this.run, this.options(width, height));
+    return { run: this.run, moment: this.run.at(this.t), cam, whole: cam.whole, size: { width, height } };
+  }
+
+  /** Keeps the camera where it is while something is moved by hand; lets it go with none. */
+  hold(cam) {
+    this.held = cam;
+  }
+
+  #caption() {
+    const { run, t } = this;
+    const past = run.beyond(t) ? "; past the horizon" : "";
+    const i = run.latestSnap(t);
+    const snaps = !this.playback.playing && i >= 0 && run.snaps.t[i] === t ? snapWords(run, i) : "";
+    $("caption").textContent = `${snaps || tautWords(run, t)}${past}`;
+    if (!this.playback.playing) this.canvas.setAttribute("aria-label", structureWords(run, t));
+  }
+}
+
+/** Which lines are taut, in words. */
+export function tautWords(run, t) {
+  const taut = run.tautAt(t);
+  if (taut.length === 0) return "all lines slack";
+  if (taut.length === run.lines.length) return "all lines taut";
+  return `line${taut.length > 1 ? "s" : ""} ${taut.join(", ")} taut`;
+}

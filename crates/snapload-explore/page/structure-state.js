@@ -1,0 +1,155 @@
+// The state of the page of a structure: the case that is open, what is changed in it, and what is looked at.
+
+import { SPEEDS, Watched, decode, finite, readValue } from "./state.js";
+import { plain } from "./words.js";
+
+const BEGINNING = {
+  values: {},
+  water: null,
+  t: 0,
+  speed: 1,
+  loop: true,
+  elastic: true,
+  window: null,
+  zoom: null,
+};
+const WATERS = ["still", "wave", "sea"];
+
+/** Keys by path: `wave.height`, `line.length` of all lines, `line.2.length` of one. */
+function keysOf(schema, lines) {
+  const paths = ({ name, many }) =>
+    many ? [name, ...Array.from({ length: lines }, (_, i) => `${name}.${i + 1}`)] : [name];
+  return schema.tables.flatMap((table) =>
+    paths(table).flatMap((path) =>
+      table.keys.map((key) => ({ ...key, name: `${path}.${key.name}`, table: table.name, under: path })),
+    ),
+  );
+}
+
+export class StructureState extends Watched {
+  /** What is changed, by path. @type {object} */
+  values = {};
+  /** What moves the water, where that is another than in the case. @type {string | null} */
+  water = null;
+  t = 0;
+  speed = 1;
+  loop = true;
+  /** Whether lines that stretch are shown beside. */
+  elastic = true;
+  /** The stretch of time that is shown [s]. @type {number[] | null} */
+  window = null;
+  /** @type {number[] | null} */
+  zoom = null;
+
+  /** `file` is the case file where it was opened on the page, `given` what it gives. */
+  constructor(schema, { name, given, water, lines, floats }, file = null) {
+    super();
+    this.caseName = name;
+    this.given = given;
+    this.ownWater = water;
+    this.lines = lines;
+    this.floats = floats;
+    this.file = file;
+    this.schema = { ...schema, keys: keysOf(schema, lines) };
+  }
+
+  get waterNow() {
+    return this.water ?? this.ownWater;
+  }
+
+  #key(name) {
+    return this.schema.keys.find((key) => key.name === name);
+  }
+
+  /** The value of a key: as it is changed, as the case gives it, or its default. Null where it is none of these. */
+  value(name) {
+    const own = this.values[name];
+    if (own !== undefined) return own;
+    const [table, number, key] = name.split(".");
+    if (key === undefined && this.#key(name)?.table === "line") return this.#ofAllLines(number);
+    return (key && this.values[`${table}.${key}`]) ?? this.given[name] ?? this.#key(name)?.default ?? null;
+  }
+
+  /** What every line has; null where they differ. */
+  #ofAllLines(key) {
+    const all = Array.from({ length: this.lines }, (_, i) => this.value(`line.${i + 1}.${key}`));
+    return all.every((value) => plain(value) === plain(all[0])) ? all[0] : null;
+  }
+
+  /** Some keys; a value of null, or that of the case, leaves one as it is there. */
+  setValues(changes, more = {}) {
+    const values = { ...this.values };
+    for (const [name, value] of Object.entries(changes)) {
+      const key = this.#key(name);
+      const ofAll = key.table === "line" && key.under === "line";
+      // What is set of all lines is set of each.
+      const ending = name.slice("line".length);
+      if (ofAll) for (const path of Object.keys(values)) if (path.endsWith(ending)) delete values[path];
+      if (value === null || value === this.given[name]) delete values[name];
+      else values[name] = value;
+    }
+    this.set({ values, ...more });
+  }
+
+  /** The case as the server is asked for it: changes as `--set` takes them, those of all lines first. */
+  get asked() {
+    const order = Object.entries(this.values).sort(([a], [b]) => a.split(".").length - b.split(".").length);
+    const other = (name) => ["wave", "sea"].some((water) => water !== this.waterNow && name.startsWith(`${water}.`));
+    const set = order.filter(([name]) => !other(name)).map(([name, value]) => `${name}=${plain(value)}`);
+    return { file: this.file, set, water: this.water };
+  }
+
+  /** The state as the fragment of a link. */
+  toFragment() {
+    const parts = Object.entries(this.values).map(([name, value]) => [name, plain(value)]);
+    for (const name of ["water", "speed", "loop", "elastic"]) {
+      if (this[name] !== BEGINNING[name]) parts.push([name, String(this[name])]);
+    }
+    parts.push(["t", String(this.t)]);
+    if (this.window) parts.push(["window", this.window.join(",")]);
+    if (this.zoom) parts.push(["zoom", this.zoom.join(",")]);
+    return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
+  }
+
+  /** Takes the state of a fragment, whole. Gives what could not be read. */
+  takeFragment(fragment) {
+    const next = { ...BEGINNING, values: {} };
+    const broken = [];
+    for (const part of fragment ? fragment.split("&") : []) {
+      const [name, ...rest] = part.split("=");
+      const text = decode(rest.join("="));
+      const key = this.#key(name);
+      const value = text === null ? undefined : key ? (readValue(key, text) ?? text) : readView(name, text);
+      if (value === undefined) broken.push(part);
+      else if (key) next.values[name] = value;
+      else next[name] = value;
+    }
+    this.set(next);
+    return broken;
+  }
+}
+
+function readView(name, text) {
+  const flag = { true: true, false: false }[text];
+  switch (name) {
+    case "t":
+      return finite(text) >= 0 ? finite(text) : undefined;
+    case "speed":
+      return SPEEDS.includes(finite(text)) ? finite(text) : undefined;
+    case "loop":
+    case "elastic":
+      return flag;
+    case "water":
+      return WATERS.includes(text) ? text : undefined;
+    case "window": {
+      const [from, to] = text.split(",").map(finite);
+      return from >= 0 && to > from ? [from, to] : undefined;
+    }
+    case "zoom": {
+      const [k, x, y] = text.split(",").map(finite);
+      return k > 1 && x !== undefined && y !== undefined ? [k, x, y] : undefined;
+    }
+    default:
+      return undefined;
+  }
+}

@@ -1,0 +1,97 @@
+// The answer in tables, as `snapload assess` and its page tell it: lines, checks, warnings, and the hardest snaps.
+
+import { $ } from "./dom.js";
+import { fixed, number, round, sentence } from "./words.js";
+
+/** Of the snaps that are judged, and of those before, as the waves have just begun. */
+const [LISTED, EARLY] = [10, 3];
+
+const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
+const percent = (part) => fixed(100 * part, 1);
+const cell = (text, kind = "num") => `<td class="${kind}">${text}</td>`;
+/** @param {string} text */
+const escape = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
+
+/** A part of the breaking load as a bar, full where the line breaks. */
+function bar(utilisation) {
+  if (utilisation === null) return "not known";
+  const part = Math.min(utilisation, 1);
+  const kind = utilisation >= 1 ? "breaks" : "holds";
+  return `<span class="meter ${kind}"><i style="width:${(100 * part).toFixed(1)}%"></i></span> ${fixed(utilisation, 2)}`;
+}
+
+function lineRow(line, elastic) {
+  const beside = (text) => (elastic ? cell(text(elastic), "num stretch") : "");
+  return (
+    `<tr><th scope="row"><span class="c${((line.line - 1) % 6) + 1}">${line.line}</span></th>` +
+    cell(bar(line.utilisation), "utilised") +
+    cell(line.safety_factor === null ? "–" : fixed(line.safety_factor, 2), "num factor") +
+    cell(kilo(line.breaking_load_n)) +
+    cell(kilo(line.held_tension_n)) +
+    cell(kilo(line.peak_tension_n)) +
+    beside(({ peak_n }) => kilo(peak_n)) +
+    cell(percent(line.slack_fraction)) +
+    beside(({ slack_fraction }) => percent(slack_fraction)) +
+    cell(line.snaps ? fixed(line.fastest_snap_m_s, 2) : "–") +
+    cell(String(line.snaps)) +
+    cell(kilo(line.rest_tension_n)) +
+    cell(kilo(line.least_tension_n)) +
+    "</tr>"
+  );
+}
+
+/** The lines, rigid and, where they are there, elastic side by side. */
+export function tellLines(run) {
+  const elastic = run.elastic?.elastic;
+  const head = (words, unit, kind = "num") =>
+    `<th scope="col" class="${kind}">${words}${unit ? `<br><span>${unit}</span>` : ""}</th>`;
+  const beside = (words, unit) => (elastic ? head(`${words},<br>elastic`, unit, "num stretch") : "");
+  $("lines").innerHTML =
+    `<thead><tr><th scope="col">Line</th>${head("Utilisation", "", "")}${head("Safety<br>factor", "")}` +
+    `${head("Breaks", "kN")}${head("Held", "kN")}${head("Snap<br>peak", "kN")}${beside("Peak", "kN")}` +
+    `${head("Slack", "%")}${beside("Slack", "%")}${head("Fastest", "m/s")}${head("Snaps", "")}` +
+    `${head("At rest", "kN")}${head("Least", "kN")}</tr></thead><tbody>` +
+    run.lines.map((line, i) => lineRow(line, elastic?.lines[i])).join("") +
+    "</tbody>";
+  const { end } = run.assessment;
+  const names = [...new Set(run.lines.map(({ name }) => name))];
+  const named = names.length === 1 && names[0] ? `Lines of ${names[0]}. ` : "";
+  $("lines-words").textContent =
+    `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on. Held: the largest ` +
+    "tension while a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
+    "over the breaking load; the safety factor is its inverse, with no factor of any rule in it." +
+    (elastic ? " Elastic: the same on lines that stretch, as snapload elastic has it." : "");
+}
+
+/** Checks by the rule of the case, other restitutions, and warnings. */
+export function tellRules(run) {
+  const { checks, warnings } = run.assessment;
+  const rows = checks.map((check) => {
+    const of = check.line ? `line ${check.line}` : "body";
+    const value = check.value === null ? "not known" : fixed(check.value, 3);
+    return `<li class="${check.answer}"><b>${check.answer}</b> ${of}: ${escape(check.words)}
+      ${number(check.limit)}: ${value}</li>`;
+  });
+  const heard = run.rebound ? `<p class="small">${sentence(run.rebound)}</p>` : "";
+  $("checks").innerHTML = (rows.length ? `<h3>Checks by your rule</h3><ul class="checks">${rows.join("")}</ul>` : "") + heard;
+  const told = warnings.map(({ rule, message }) => `<li><b>${escape(rule)}</b>: ${escape(message)}</li>`);
+  $("warnings").innerHTML = told.length ? `<h3>Warnings</h3><ul class="warnings">${told.join("")}</ul>` : "";
+  $("summary").textContent = run.summary;
+}
+
+/** The hardest snaps; each row leads to its instant. */
+export function tellSnaps(run) {
+  const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
+  const order = t.map((_, i) => i).sort((a, b) => run.hardness(b) - run.hardness(a));
+  const judged = (i) => t[i] >= run.transient_s;
+  const some = [...order.filter(judged).slice(0, LISTED), ...order.filter((i) => !judged(i)).slice(0, EARLY)];
+  const hardest = some.sort((a, b) => t[a] - t[b]);
+  const row = (i) =>
+    `<tr data-t="${t[i]}"><td><button type="button" class="go" data-t="${t[i]}">${fixed(t[i], 3)}</button></td>` +
+    `<td><span class="c${((line[i] - 1) % 6) + 1}">${line[i]}</span>${jolt[i] ? " jolt" : ""}</td>` +
+    `${cell(fixed(speed[i], 3))}${cell(peak[i] === null ? "–" : round(peak[i], 4))}` +
+    `${cell(utilisation[i] === null ? "–" : fixed(utilisation[i], 2))}` +
+    `<td>${t[i] < run.transient_s ? "no, the waves have just begun" : "yes"}</td></tr>`;
+  $("events-body").innerHTML = hardest.map(row).join("");
+  $("events-words").textContent = all ? `${hardest.length} of ${all} of 1 cm/s or more` : "no line snaps at 1 cm/s or more";
+}

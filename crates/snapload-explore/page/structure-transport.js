@@ -1,0 +1,107 @@
+// Playback of a structure's run: the strip of the stretch that is shown, and the whole record with where that is.
+
+import { $ } from "./dom.js";
+import { prepare } from "./plot.js";
+import { tautWords } from "./structure-stage.js";
+import { colours, lineColour } from "./theme.js";
+import { Transport } from "./transport.js";
+import { fixed, round } from "./words.js";
+
+const INSET_PX = 8;
+/** Of a swarm of snaps the hardest in so many pixels is enough. */
+const APART_PX = 1.5;
+
+export class StructureTransport extends Transport {
+  /** `onStretch` is told where the stretch that is shown is to begin. */
+  constructor(state, playback, { onStretch }) {
+    super(state, playback, (speed) => (speed === 1 ? "real time" : `${speed} times`));
+    $("stretch").addEventListener("input", () => {
+      playback.pause();
+      onStretch(Number($("stretch").value));
+    });
+  }
+
+  words(t, run) {
+    return {
+      value: `${fixed(t, 2)} of ${fixed(run.tEnd, 2)} s, ${tautWords(run, t)}`,
+      clock: `t = ${fixed(t, 2)} s`,
+      counted: `snap ${run.latestSnap(t) + 1} of ${run.snaps.all}`,
+    };
+  }
+
+  show() {
+    super.show();
+    if (!this.run) return;
+    const [from, to] = this.run.window;
+    // Over the whole record, as it is drawn above it.
+    const most = Math.max(this.run.lasts_s - (to - from), 0);
+    Object.assign($("stretch"), { min: 0, max: most, value: from, disabled: most === 0 });
+    $("stretch").setAttribute("aria-valuetext", `from ${round(from)} to ${round(to)} of ${round(this.run.tEnd)} s`);
+    $("window-words").value = `${fixed(from, 1)} to ${fixed(to, 1)} s`;
+    $("zoom-all").disabled = false;
+  }
+
+  draw() {
+    this.#strip($("strip"), this.run.window, true);
+    this.#strip($("record"), [0, this.run.lasts_s], false);
+    const { run } = this;
+    $("record-words").textContent = `${run.snaps.all} snaps in ${round(run.tEnd)} s`;
+    $("record").setAttribute("aria-label", `${run.snaps.all} snaps in ${round(run.tEnd)} s, each as high as it is hard`);
+  }
+
+  /** Snaps as ticks in the colours of their lines; taut lines as bands in the stretch, and the stretch in the record. */
+  #strip(canvas, [from, to], close) {
+    const { context, width, height } = prepare(canvas);
+    const { run } = this;
+    const paints = colours();
+    const x = (t) => INSET_PX + ((t - from) / (to - from || 1)) * (width - 2 * INSET_PX);
+    const band = (a, b, colour, y, h) => {
+      const [left, right] = [Math.max(x(a), INSET_PX), Math.min(x(b), width - INSET_PX)];
+      if (right <= left) return;
+      context.fillStyle = colour;
+      context.fillRect(left, y, Math.max(right - left, 1), h);
+    };
+    if (run.horizon.t !== null) band(run.horizon.t, run.tEnd, paints.shade, 0, height);
+    if (run.transient_s > from) band(from, Math.min(run.transient_s, to), paints.shade, 0, height);
+    if (close) {
+      const { t_start, taut } = run.modes;
+      const count = run.lines.length;
+      t_start.forEach((t, i) => {
+        const high = (5 * taut[i].length) / count;
+        if (high) band(t, t_start[i + 1] ?? to, paints.strained, height - high, high);
+      });
+    } else {
+      context.strokeStyle = paints.accent;
+      context.lineWidth = 1.5;
+      const [a, b] = run.window.map(x);
+      context.strokeRect(a, 1, Math.max(b - a, 3), height - 2);
+      if (run.preview) {
+        context.fillStyle = paints.muted;
+        context.fillText("to follow", x(run.tEnd) + 6, height - 6);
+      }
+    }
+    this.#ticks(context, x, [from, to], height, paints);
+  }
+
+  #ticks(context, x, [from, to], height, paints) {
+    const { run } = this;
+    let held = null;
+    const put = () => {
+      if (!held) return;
+      const high = (height - 6) * Math.sqrt(run.hardness(held.i) / (run.hardest || 1));
+      context.fillStyle = lineColour(paints, run.snaps.line[held.i]);
+      context.fillRect(held.px - 0.6, height - 5 - high, 1.2, high);
+    };
+    run.snaps.t.forEach((t, i) => {
+      if (t < from || t > to) return;
+      const px = x(t);
+      if (held && px - held.px < APART_PX) {
+        if (run.hardness(i) > run.hardness(held.i)) held.i = i;
+        return;
+      }
+      put();
+      held = { i, px };
+    });
+    put();
+  }
+}

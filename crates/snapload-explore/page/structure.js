@@ -1,0 +1,359 @@
+// The page of a structure: wires state, server, scene, charts and tables together.
+
+import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures } from "./api.js";
+import { Controls } from "./controls.js";
+import { $ } from "./dom.js";
+import { Keyboard, timeKeys } from "./keyboard.js";
+import { Link } from "./link.js";
+import { note, openStructure, openedStructure, opening, paintedSince, purposeAndSkip, themeButton } from "./page.js";
+import { onResize } from "./plot.js";
+import { Playback } from "./playback.js";
+import { chooseTheme, chosenTheme, colours, lineColour, stillness } from "./theme.js";
+import { StructureCharts, breakingLoads } from "./structure-charts.js";
+import { structureGroups, whyNot } from "./structure-groups.js";
+import { StructureHands } from "./structure-hands.js";
+import { StructurePins } from "./structure-pins.js";
+import { StructureRun } from "./structure-run.js";
+import { structureShapes } from "./structure-scene.js";
+import { StructureStage } from "./structure-stage.js";
+import { StructureState } from "./structure-state.js";
+import { tellLines, tellRules, tellSnaps } from "./structure-tell.js";
+import { StructureTransport } from "./structure-transport.js";
+import { Take } from "./take.js";
+import { fixed, round } from "./words.js";
+
+/** Values that rest for so long are worth their neighbours, and lines that stretch. */
+const REST_MS = 300;
+/** Neighbours of a longer record [s] are for the command: forty of them would keep the machine busy for minutes. */
+const LONGEST_WITH_NEIGHBOURS = 1200;
+const PURPOSE_READ = "snapload-structure-purpose-read";
+
+chooseTheme(chosenTheme());
+
+class Page {
+  constructor(schema, opened, file) {
+    this.state = new StructureState(schema, opened, file);
+    this.run = null;
+    this.hover = null;
+    this.background = null;
+    this.link = new Link(this.state, {
+      onBroken: (parts) => note(`Not understood in the link, and left out: ${parts.join(", ")}`),
+    });
+    this.playback = new Playback(this.state, () => this.run);
+    this.stage = new StructureStage(this.state, this.playback);
+    this.transport = new StructureTransport(this.state, this.playback, { onStretch: (from) => this.stretch(from) });
+    this.playback.onPlaying = (playing) => {
+      this.transport.showPlaying(playing);
+      this.drawMoment();
+    };
+    this.link.read();
+    this.controls = new Controls($("controls"), this.state, {
+      groups: structureGroups(this.state),
+      whyNot,
+      onChange: (change) => this.changed(change),
+    });
+    this.hands = new StructureHands(this.stage, this.state, {
+      onChange: (change) => this.changed(change),
+      onLetGo: () => this.playback.play(),
+    });
+    this.charts = new StructureCharts($("charts"), {
+      colours,
+      onJump: (t) => this.jump(t),
+      onHover: (t, at) => this.setHover(t === null ? null : { t, at }),
+      onZoom: (window) => this.state.set({ window }),
+    });
+    this.exports = new Take({
+      state: this.state,
+      stage: this.stage,
+      now: () => this.run,
+      question: () => ({ case: this.state.asked }),
+      address: () => this.link.address,
+      path: "api/structure/export",
+      picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
+    });
+    this.pins = new StructurePins(this.state, () => this.run, { onBack: (pin) => this.back(pin) });
+    this.runner = new Runner({
+      path: "api/structure/run",
+      onAnswer: (answer, since, question) => this.take(answer, since, question),
+      onError: (error) => this.fail(error),
+    });
+    this.state.listen((changed) => this.follow(changed));
+    new Keyboard({ playback: this.playback }, [
+      ...timeKeys(this),
+      [["g"], "g", "lines that stretch, on or off", () => $("elastic").click()],
+      [["l"], "l", "loop on or off", () => this.state.set({ loop: !this.state.loop })],
+      [["p"], "p", "pin this answer", () => this.pins.add()],
+      [["?"], "?", "these keys", () => $("help").click()],
+    ]);
+    this.tools();
+    this.showChoices();
+    this.playsAtOnce = !location.hash && !stillness.matches;
+    this.ask();
+    onResize(() => this.drawAll());
+  }
+
+  get question() {
+    return { case: this.state.asked, window: this.state.window };
+  }
+
+  /** Follows a change of a value by hand; settled: not being dragged. */
+  changed({ since, settled, gesture = null }) {
+    this.ask(since);
+    this.link.held = !settled;
+    if (settled) this.link.write({ now: true, gesture });
+  }
+
+  /** Asks for the run of the values as they are; once, however often one asks. */
+  ask(since = performance.now()) {
+    const asked = JSON.stringify(this.question);
+    if (asked === this.asked) return;
+    this.asked = asked;
+    this.rest();
+    this.runner.ask(this.question, since);
+  }
+
+  /** What was going on beside is of other values now. */
+  rest() {
+    clearTimeout(this.resting);
+    this.background?.abort();
+    this.background = null;
+  }
+
+  take(answer, since, question) {
+    const before = this.run;
+    this.run = new StructureRun(answer);
+    // What was computed of lines that stretch stays for another stretch of the same run.
+    this.sameCase = before !== null && keyOf(this.ofCase) === keyOf(question.case);
+    this.ofCase = question.case;
+    const latest = this.asked === JSON.stringify(question);
+    this.show();
+    if (this.playsAtOnce) this.playback.play();
+    this.playsAtOnce = false;
+    paintedSince(since);
+    if (!latest) return;
+    $("failed").hidden = true;
+    this.controls.clearError();
+    this.controls.show(this.run.effective(this.state));
+    this.resting = setTimeout(() => this.goOn(), this.sameCase ? 0 : REST_MS);
+  }
+
+  /** Shows the run that there is. */
+  show() {
+    const { run, state } = this;
+    this.stage.take(run);
+    this.transport.take(run);
+    // The stretch that the server chose is kept while values change, so that one thing changes at a time.
+    const [from, to] = run.window;
+    const t = state.t >= from && state.t <= to ? state.t : from;
+    this.asked = JSON.stringify({ case: state.asked, window: run.window });
+    state.set({ window: run.window, t });
+    tellLines(run);
+    tellRules(run);
+    tellSnaps(run);
+    this.exports.take(run);
+    this.#legend();
+    this.drawAll();
+  }
+
+  /** Values rest: the whole of a long record, neighbours, and lines that stretch, one after the other. */
+  async goOn() {
+    this.rest();
+    const { question, state } = this;
+    const abort = (this.background = new AbortController());
+    const current = () => this.background === abort;
+    const more = async (how) => {
+      const answer = await fetchLong("api/structure/run", { ...question, ...how }, abort.signal);
+      if (!current()) return;
+      this.run = new StructureRun(answer);
+      this.show();
+    };
+    try {
+      if (this.run.preview) await more({ whole: true });
+      if (!current()) return;
+      if (this.run.lasts_s <= LONGEST_WITH_NEIGHBOURS) await more({ whole: true, neighbours: true });
+      else $("preview").textContent = `Its neighbours and other restitutions take their time: ${this.run.shell}`;
+      if (current() && state.elastic) await this.#stretchable({ case: question.case, window: this.run.window }, abort);
+    } catch (error) {
+      if (error.name === "AbortError" || !current()) return;
+      $("preview").textContent = error.message;
+    }
+  }
+
+  async #stretchable(question, abort) {
+    $("elastic-said").textContent = "computing…";
+    try {
+      const answer = await fetchLong("api/structure/elastic", question, abort.signal);
+      if (this.background !== abort) return;
+      this.run.beside(answer);
+      $("elastic-said").textContent = "";
+      tellLines(this.run);
+      this.drawAll();
+    } catch (error) {
+      if (error.name === "AbortError") return;
+      $("elastic-said").textContent = error.message.split("\n")[0];
+    }
+  }
+
+  fail(error) {
+    this.controls.showError(error);
+    const shown = this.run ? "\nWhat is shown is of the last values that could be run." : "";
+    $("failed").textContent = `Not run: ${error.message}${shown}`;
+    $("failed").hidden = false;
+  }
+
+  /** Redraws what a change of the state concerns. */
+  follow(changed) {
+    if (changed.has("values") || changed.has("water")) {
+      this.controls.show(this.run?.effective(this.state));
+      queueMicrotask(() => this.ask());
+    }
+    if (changed.has("window")) queueMicrotask(() => this.ask());
+    if (changed.has("elastic")) {
+      if (!this.state.elastic) this.run?.beside(null);
+      $("elastic-said").textContent = "";
+      if (this.run) tellLines(this.run);
+      if (this.state.elastic && this.run) this.goOn();
+    }
+    if (["zoom", "window", "elastic"].some((name) => changed.has(name))) this.drawAll();
+    else if (changed.has("t") || changed.has("speed")) this.drawMoment();
+    this.showChoices();
+    this.transport.show();
+    this.link.write();
+  }
+
+  showChoices() {
+    const { waterNow, elastic } = this.state;
+    for (const radio of /** @type {Iterable<any>} */ (document.getElementsByName("water"))) {
+      radio.checked = radio.value === waterNow;
+    }
+    $("elastic").checked = elastic;
+    $("elastic-key").hidden = !this.run?.elasticAt;
+    for (const group of document.querySelectorAll(".group[data-water]")) {
+      /** @type {HTMLElement} */ (group).hidden = /** @type {HTMLElement} */ (group).dataset.water !== waterNow;
+    }
+  }
+
+  /** The colours and marks of the lines, and where they break. */
+  #legend() {
+    const marks = ["×", "○", "△", "□", "+", "◇"];
+    const paints = colours();
+    const lines = this.run.lines.map(({ line }) => {
+      const mark = marks[(line - 1) % marks.length];
+      return `<span style="color:${lineColour(paints, line)}">${mark} line ${line}</span>`;
+    });
+    const loads = breakingLoads(this.run).map((load) => `<span class="breaking">breaks at ${round(load, 4)} kN</span>`);
+    const stretch = this.run.elasticAt ? [`<span class="ghost-edge edge">on lines that stretch</span>`] : [];
+    $("legend").innerHTML = [...lines, ...loads, ...stretch].join(" ");
+  }
+
+  jump(t) {
+    this.playback.pause();
+    this.playback.seek(t);
+  }
+
+  /** Goes to a time wherever it is in the record. */
+  goTo(t) {
+    const [from, to] = this.run.window;
+    if (t < from || t > to) this.stretch(t - (to - from) / 2);
+    this.jump(t);
+  }
+
+  /** Shows a stretch as long as now that begins elsewhere. */
+  stretch(begin) {
+    const [from, to] = this.run.window;
+    const length = to - from;
+    const start = Math.min(Math.max(begin, 0), Math.max(this.run.tEnd - length, 0));
+    const window = [start, start + length].map((time) => Number(time.toFixed(3)));
+    this.state.set({ window, t: Math.min(Math.max(this.state.t, window[0]), window[1]) });
+  }
+
+  back({ values, water }) {
+    this.state.set({ values: { ...values }, water });
+    this.link.write({ now: true });
+  }
+
+  setHover(hover) {
+    this.hover = hover;
+    this.drawMoment();
+  }
+
+  drawAll() {
+    if (!this.run) return;
+    this.charts.draw(this.run, this.run.window);
+    this.transport.draw();
+    this.pins.show();
+    this.showChoices();
+    this.#legend();
+    this.drawMoment();
+  }
+
+  drawMoment() {
+    if (!this.run || this.framed) return;
+    // However many events ask for it, a picture is painted once a frame.
+    this.framed = requestAnimationFrame(() => {
+      this.framed = null;
+      this.stage.draw();
+      this.charts.cursor(this.state.t, this.hover);
+      this.transport.show();
+    });
+  }
+
+  /** The case file of a structure is opened; one of the thesis's model has the other page. */
+  async open(file) {
+    const { structure, values } = await fetchCase(file);
+    if (structure) {
+      await fetchStructureFile(file);
+      openStructure(file);
+    } else location.href = `index.html#${caseFragment(values)}`;
+  }
+
+  tools() {
+    themeButton(() => this.drawAll());
+    opening((file) => this.open(file));
+    purposeAndSkip(PURPOSE_READ);
+    $("file").textContent = this.state.caseName;
+    $("elastic").addEventListener("change", () => this.state.set({ elastic: $("elastic").checked }));
+    $("waters").addEventListener("change", (event) => this.#chooseWater(event.target.value));
+    $("zoom-all").addEventListener("click", () => this.state.set({ window: null }));
+    $("events-body").addEventListener("click", (event) => {
+      const row = event.target.closest("tr");
+      if (row) this.goTo(Number(row.dataset.t));
+    });
+  }
+
+  /** Other waves begin about as high and as long as those that they replace. */
+  #chooseWater(water) {
+    const { state } = this;
+    const value = (name) => Number(state.value(name) ?? 0);
+    const values = { ...state.values };
+    if (water === "sea" && state.value("sea.hs") === null) {
+      values["sea.hs"] = Number(((value("wave.height") || 2) / 1.86).toFixed(1));
+      values["sea.tp"] = value("wave.period") || 6;
+    }
+    if (water === "wave" && state.value("wave.height") === null) {
+      values["wave.height"] = Number(((value("sea.hs") || 1) * 1.86).toFixed(1));
+      values["wave.period"] = value("sea.tp") || 6;
+    }
+    state.set({ values, water: water === state.ownWater ? null : water, window: null });
+    this.link.write({ now: true });
+  }
+}
+
+const keyOf = (value) => JSON.stringify(value);
+
+/** Values of the thesis's model as a fragment of its page. */
+const caseFragment = (values) =>
+  Object.entries(values)
+    .map(([name, value]) => `${name}=${encodeURIComponent(value)}`)
+    .join("&");
+
+try {
+  const schema = await fetchStructures();
+  const file = openedStructure();
+  const opened = file ? await fetchStructureFile(file) : schema.start;
+  if (opened) new Page(schema, opened, file);
+  else note("No structure is open. Drop its case file here, or begin with it: snapload explore docs/examples/cylinder.toml");
+} catch (error) {
+  note(`The page could not start: ${error.message}. Is snapload explore still running?`);
+  throw error;
+}

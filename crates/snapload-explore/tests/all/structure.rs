@@ -1,0 +1,260 @@
+//! Structures: what the server answers is what `snapload assess` and `snapload elastic` tell.
+
+use crate::common::{Running, serve_structure};
+use serde_json::{Value, json};
+use snapload::Entries;
+use snapload::analysis::unwatched;
+use snapload_structure::{Prepared, STRUCTURE, Structure, assess, both_models};
+
+/// A cylinder on two lines of chain, for a minute and a half of a wave.
+const CYLINDER: &str = r#"
+[body]
+shape = "circle"
+width = 3
+displaced_volume = 141.37
+mass = 72452
+added_mass = 144904
+moment_of_inertia = 163017
+position = [0, -3.5]
+[[line]]
+anchor = [3.593, -10]
+fairlead = [1.061, -4.561]
+length = 6
+type = "studless chain"
+diameter = 0.038
+[[line]]
+anchor = [-3.593, -10]
+fairlead = [-1.061, -4.561]
+length = 6
+type = "studless chain"
+diameter = 0.038
+[site]
+depth = 10
+[wave]
+height = 2
+period = 6
+[run]
+restitution = 0.5
+duration = 90
+[design]
+least_share = 0.1
+"#;
+
+fn serve() -> Running {
+    serve_structure("cylinder.toml", CYLINDER)
+}
+
+/// The structure, changed as `--set` does.
+fn structure(set: &[&str]) -> Structure {
+    let mut entries = Entries::parse(&STRUCTURE, "cylinder.toml", CYLINDER).unwrap();
+    set.iter().for_each(|change| entries.set(change).unwrap());
+    Structure::from_entries(&entries).unwrap()
+}
+
+fn ask(server: &Running, path: &str, body: Value) -> Value {
+    let answer = server.post(path, &body);
+    assert_eq!(answer.status, 200, "{}", answer.error());
+    answer.json()
+}
+
+fn numbers(column: &Value) -> Vec<f64> {
+    let numbers = column.as_array().unwrap().iter();
+    numbers.map(|number| number.as_f64().unwrap()).collect()
+}
+
+#[test]
+fn a_run_is_what_assess_tells() {
+    let server = serve();
+    let set = ["wave.height=2.5", "line.2.length=6.01"];
+    let asked = json!({ "case": { "set": set }, "neighbours": true, "window": [60.0, 80.0] });
+    let told = ask(&server, "/api/structure/run", asked);
+    let direct = assess(structure(&set), 40, &unwatched).unwrap();
+    let mut expected = direct.to_json("cylinder.toml");
+    for list in ["snaps", "neighbour_peaks_n"] {
+        expected.as_object_mut().unwrap().remove(list);
+    }
+    assert_eq!(told["assessment"], expected);
+    assert_eq!(told["summary"], direct.summary("cylinder.toml"));
+    assert_eq!(told["standing"], direct.verdict().standing.words());
+    assert_eq!(told["rebound"], direct.rebound_words());
+    assert_eq!(
+        told["shell"],
+        "snapload assess cylinder.toml --set 'wave.height=2.5' --set 'line.2.length=6.01'"
+    );
+    let counted = direct.snaps.iter().filter(|snap| snap.counts());
+    let times: Vec<f64> = counted.map(|snap| snap.t_s).collect();
+    assert_eq!(numbers(&told["snaps"]["t"]), times);
+    // The motion is drawn in single precision.
+    let motion = &told["motion"];
+    let t = numbers(&motion["t"]);
+    assert!((t[0], *t.last().unwrap()) == (60.0, 80.0) && t.is_sorted());
+    let at: Vec<usize> = (0..t.len()).step_by(97).collect();
+    let exact = direct.motion_at(&at.iter().map(|&row| t[row]).collect::<Vec<_>>());
+    for (row, exact) in at.into_iter().zip(exact) {
+        let drawn = ["x", "z", "theta"].map(|name| motion[name][row].as_f64().unwrap());
+        let [x, z] = exact.place_m;
+        for (drawn, exact) in drawn.into_iter().zip([x, z, exact.theta_rad]) {
+            assert!(
+                (drawn - exact).abs() < 1e-6 * exact.abs().max(1.0),
+                "{drawn} {exact}"
+            );
+        }
+    }
+}
+
+#[test]
+fn without_neighbours_the_verdict_is_the_same() {
+    let server = serve();
+    let alone = ask(&server, "/api/structure/run", json!({ "case": {} }));
+    let beside = json!({ "case": {}, "neighbours": true });
+    let beside = ask(&server, "/api/structure/run", beside);
+    for part in ["verdict", "lines", "warnings"] {
+        assert_eq!(alone["assessment"][part], beside["assessment"][part]);
+    }
+    assert_eq!(alone["rebound"], Value::Null);
+    let window = numbers(&alone["window"]);
+    assert!(0.0 <= window[0] && window[0] < window[1] && window[1] <= 90.0);
+}
+
+#[test]
+fn lines_that_stretch_are_what_elastic_tells() {
+    let asked = json!({ "case": { "set": ["wave.period=5"] }, "window": [30.0, 50.0] });
+    let told = ask(&serve(), "/api/structure/elastic", asked);
+    let prepared = Prepared::new(structure(&["wave.period=5"])).unwrap();
+    let direct = both_models(prepared, 1.0, 0.02, &unwatched).unwrap();
+    let expected = direct.to_json("cylinder.toml");
+    assert_eq!(told["elastic"]["lines"], expected["lines"]);
+    assert_eq!(told["elastic"]["end"], expected["end"]);
+    let t = numbers(&told["motion"]["t"]);
+    assert!(t[0] >= 30.0 && *t.last().unwrap() <= 50.0 && t.len() > 700);
+    let tension = told["motion"]["tensions"][0].as_array().unwrap();
+    let look = direct.elastic.looks.iter().find(|look| look.t_s == t[0]);
+    let exact = look.unwrap().tension_n[0] / 1e3;
+    assert!((tension[0].as_f64().unwrap() - exact).abs() < 1e-6 * exact.max(1.0));
+}
+
+#[test]
+fn another_water_takes_the_place_of_that_of_the_file() {
+    let server = serve();
+    let sea = json!({ "water": "sea", "set": ["sea.hs=1", "sea.tp=6", "sea.seed=3", "run.duration=400"] });
+    let first = ask(&server, "/api/structure/run", json!({ "case": sea }));
+    assert_eq!(
+        (&first["preview"], &first["lasts_s"]),
+        (&json!(true), &json!(400.0))
+    );
+    assert_eq!(first["assessment"]["end"]["t_s"], 300.0);
+    assert_eq!(first["shell"], "snapload assess case.toml");
+    let whole = ask(
+        &server,
+        "/api/structure/run",
+        json!({ "case": sea, "whole": true }),
+    );
+    assert_eq!(
+        (&whole["preview"], &whole["assessment"]["end"]["t_s"]),
+        (&json!(false), &json!(400.0))
+    );
+    // The file that is saved is the case that is shown.
+    let file = server.post("/api/structure/export/case.toml", &json!({ "case": sea }));
+    let saved = Structure::parse("case.toml", std::str::from_utf8(&file.body).unwrap()).unwrap();
+    let direct = assess(saved, 0, &unwatched).unwrap();
+    assert_eq!(whole["assessment"]["verdict"], json!(direct.verdict()));
+    let still = ask(
+        &server,
+        "/api/structure/run",
+        json!({ "case": { "water": "still" } }),
+    );
+    assert_eq!(
+        (&still["waves"], &still["snaps"]["all"]),
+        (&json!([]), &json!(0))
+    );
+}
+
+#[test]
+fn a_file_that_is_opened_is_told_and_run() {
+    let server = serve();
+    let file =
+        json!({ "name": "mine.toml", "text": CYLINDER.replace("height = 2", "height = 1.5") });
+    let told = ask(&server, "/api/structure", file.clone());
+    assert_eq!(told["given"]["wave.height"], 1.5);
+    assert_eq!(
+        (&told["lines"], &told["water"]),
+        (&json!(2), &json!("wave"))
+    );
+    assert_eq!(numbers(&told["given"]["line.2.anchor"]), [-3.593, -10.0]);
+    let run = ask(
+        &server,
+        "/api/structure/run",
+        json!({ "case": { "file": file } }),
+    );
+    let direct = assess(structure(&["wave.height=1.5"]), 0, &unwatched).unwrap();
+    assert_eq!(run["assessment"]["verdict"], json!(direct.verdict()));
+    let kind = ask(&server, "/api/case", file);
+    assert_eq!(kind["structure"], true);
+}
+
+#[test]
+fn refusals_are_those_of_the_command() {
+    let server = serve();
+    let refused = |case: Value| {
+        let answer = server.post("/api/structure/run", &json!({ "case": case }));
+        assert_eq!(answer.status, 422);
+        (
+            answer.json()["key"].as_str().unwrap_or("").to_owned(),
+            answer.error(),
+        )
+    };
+    let (key, message) = refused(json!({ "set": ["wave.height=60"] }));
+    assert_eq!(key, "wave.height");
+    assert!(
+        message.contains("wave.height = 60: allowed is 0 <= height <= 50")
+            || message.contains("0 <= height <= 50"),
+        "{message}"
+    );
+    let (key, _) = refused(json!({ "set": ["line.1.length=3"] }));
+    assert!(key.contains("line") || key.contains("body"), "{key}");
+    let float = format!("{CYLINDER}[float]\nfile = \"/etc/passwd\"\n");
+    let (key, message) = refused(json!({ "file": { "name": "f.toml", "text": float } }));
+    assert_eq!(key, "float.file");
+    assert!(message.contains("snapload explore CASE.toml"), "{message}");
+    let none = crate::common::serve();
+    let answer = none.post("/api/structure/run", &json!({ "case": {} }));
+    assert_eq!(answer.status, 422);
+    assert!(answer.error().contains("no structure is open"));
+    let window = server.post(
+        "/api/structure/run",
+        &json!({ "case": {}, "window": [5, 2] }),
+    );
+    assert_eq!(window.status, 422);
+}
+
+#[test]
+fn the_page_of_a_structure_is_in_front_where_it_was_begun_with_one() {
+    let title = |server: &Running, path: &str| String::from_utf8(server.get(path).body).unwrap();
+    assert!(title(&serve(), "/").contains("a structure"));
+    assert!(!title(&serve(), "/index.html").contains("<title>snapload explore: a structure"));
+    assert!(!title(&crate::common::serve(), "/").contains("<title>snapload explore: a structure"));
+}
+
+#[test]
+fn the_design_note_is_of_the_case_that_is_shown() {
+    let server = serve();
+    let case = json!({ "case": { "set": ["wave.height=2.2", "run.duration=60"] } });
+    let page = server.post("/api/structure/export/note.html", &case);
+    assert_eq!(page.status, 200);
+    let direct = assess(
+        structure(&["wave.height=2.2", "run.duration=60"]),
+        0,
+        &unwatched,
+    )
+    .unwrap();
+    let page = String::from_utf8(page.body).unwrap();
+    assert!(page.contains(&direct.verdict().words));
+    assert!(
+        page.contains("--set &#39;wave.height=2.2&#39;")
+            || page.contains("--set 'wave.height=2.2'")
+    );
+    assert_eq!(
+        server.post("/api/structure/export/x.html", &case).status,
+        404
+    );
+}

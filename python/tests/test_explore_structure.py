@@ -1,0 +1,199 @@
+"""The page of `snapload explore` for a structure: in metres and kilonewtons, in the words of `snapload assess`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from explore import DESKTOP, PHONE, ROOT, comes_true, count, download, exact_time, served, settled
+from playwright.sync_api import Page, expect
+
+CYLINDER = "docs/examples/cylinder.toml"
+SHORT = "run.duration=120"
+
+
+@pytest.fixture(scope="module")
+def structure_url() -> Iterator[str]:
+    """The address of a program that began with the manual's cylinder."""
+    yield from served(CYLINDER)
+
+
+@pytest.fixture
+def open_structure(open_at: Callable[..., Page], structure_url: str) -> Callable[..., Page]:
+    """Opens the page of the cylinder with a state."""
+    return lambda fragment="t=0", **options: open_at(structure_url, fragment, **options)
+
+
+@pytest.fixture
+def assessed(command_json: Callable[..., Any]) -> Callable[..., Any]:
+    """What the command tells of the cylinder, changed."""
+
+    def ask(*changes: str, verb: str = "assess") -> Any:
+        sets = [text for change in changes for text in ("--set", change)]
+        return command_json(verb, str(ROOT / CYLINDER), *sets)
+
+    return ask
+
+
+def row(page: Page, line: int) -> list[str]:
+    """The cells of a line in the table of lines."""
+    return page.locator(f"#lines tbody tr:nth-child({line}) td").all_inner_texts()
+
+
+def told_is(page: Page, answer: dict[str, Any]) -> None:
+    """The page tells what the command does, in its words and digits."""
+    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
+    expect(page.locator("#verdict")).to_have_attribute("data-standing", answer["verdict"]["standing"])
+    for line in answer["lines"]:
+        cells = row(page, line["line"])
+        assert cells[0].strip() == f"{line['utilisation']:.2f}"
+        assert cells[1] == f"{1 / line['utilisation']:.2f}"
+        assert float(cells[2]) == pytest.approx(line["breaking_load_n"] / 1e3, rel=1e-3)
+        assert float(cells[3]) == pytest.approx(line["held_tension_n"] / 1e3, rel=1e-3)
+
+
+def test_a_structure_is_told_as_assess_tells_it(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0")
+    answer = assessed(SHORT)
+    told_is(page, answer)
+    expect(page.locator("#trust")).to_have_text(answer["trust"]["words"], timeout=30_000)
+    assert [line.split("\n")[0] for line in page.locator("#warnings li b").all_inner_texts()] == [
+        warning["rule"] for warning in answer["warnings"]
+    ]
+    page.locator(".printed summary").click()
+    assert answer["verdict"]["words"].split(". ")[0] in re.sub(r"\s+", " ", page.locator("#summary").inner_text())
+
+
+def test_a_slider_changes_the_wave_and_a_link_holds_it(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0")
+    before = count(page)
+    page.locator('[id="slider-wave.height"]').evaluate(
+        "(slider) => { slider.value = 2.6; slider.dispatchEvent(new Event('input')); "
+        "slider.dispatchEvent(new Event('change')); }"
+    )
+    settled(page, before)
+    answer = assessed(SHORT, "wave.height=2.6")
+    told_is(page, answer)
+    expect(page.locator("#shell")).to_have_text(
+        f"snapload assess {CYLINDER} --set '{SHORT}' --set 'wave.height=2.6'",
+    )
+    comes_true(page, lambda: "wave.height=2.6" in page.evaluate("() => location.hash"))
+    linked = open_structure(page.evaluate("() => location.hash").removeprefix("#"))
+    told_is(linked, answer)
+
+
+def test_rigid_and_elastic_lines_stand_side_by_side(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0")
+    answer = assessed(SHORT, verb="elastic")
+    expect(page.locator("#lines thead")).to_contain_text("elastic", timeout=30_000)
+    for line in answer["lines"]:
+        cells = row(page, line["line"])
+        assert float(cells[5]) == pytest.approx(line["peak_n"] / 1e3, rel=1e-3)
+        assert float(cells[7]) == pytest.approx(100 * line["slack_fraction"], abs=0.06)
+    scene = page.locator("#scene")
+    with_them = scene.evaluate("canvas => canvas.toDataURL()")
+    page.keyboard.press("g")
+    expect(page.locator("#lines thead")).not_to_contain_text("elastic")
+    comes_true(page, lambda: scene.evaluate("canvas => canvas.toDataURL()") != with_them)
+
+
+def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_path: Path):
+    page = open_structure("run.duration=330&elastic=false&t=0")
+    page.locator("#waters label", has_text="Sea").click()
+    expect(page.locator('[id="field-sea.hs"]')).to_have_value("1.1")
+    expect(page.locator("#preview")).to_contain_text("first 300 s", timeout=20_000)
+    expect(page.locator("#preview")).not_to_contain_text("first 300 s", timeout=60_000)
+    download(page, '[data-file="case.toml"]', tmp_path / "case.toml")
+    told_is(page, command_json("assess", str(tmp_path / "case.toml"), "--neighbours", "0"))
+    first = page.locator("#said").inner_text()
+    page.locator(".another-sea").click()
+    expect(page.locator('[id="field-sea.seed"]')).to_have_value("2")
+    comes_true(page, lambda: page.locator("#said").inner_text() != first)
+
+
+def test_an_anchor_is_moved_by_hand(open_structure, assessed):
+    page = open_structure(f"{SHORT}&t=0")
+    box = page.locator("#scene").bounding_box()
+    x, y = page.evaluate(
+        """async ([width, height, duration]) => {
+            const { StructureRun } = await import('./structure-run.js');
+            const { structureCamera } = await import('./structure-scene.js');
+            const headers = { 'Content-Type': 'application/json' };
+            const body = JSON.stringify({ case: { set: [duration] } });
+            const answer = await fetch('api/structure/run', { method: 'POST', headers, body });
+            const run = new StructureRun(await answer.json());
+            return structureCamera(run, { width, height, zoom: null }).place(run.geometry.lines[0].anchor);
+        }""",
+        [box["width"], box["height"], SHORT],
+    )
+    page.mouse.move(box["x"] + x, box["y"] + y - 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x - 12, box["y"] + y - 2, steps=4)
+    page.mouse.up()
+    moved = page.locator('[id="field-line.1.anchor"]').input_value()
+    change = f"line.1.anchor={moved}"
+    assert change != "line.1.anchor=[3.593, -10]"
+    comes_true(page, lambda: change in page.locator("#shell").inner_text())
+    told_is(page, assessed(SHORT, change))
+
+
+def test_what_is_refused_is_said_at_its_field(open_structure, command):
+    page = open_structure(f"{SHORT}&t=0", refused=1)
+    page.locator('[id="field-wave.height"]').fill("60")
+    refused = command("assess", str(ROOT / CYLINDER), "--set", "wave.height=60", fails=True)
+    said = page.locator('[id="error-wave.height"]')
+    expect(said).to_contain_text("60")
+    assert said.inner_text().split("allowed", 1)[1].strip() in refused
+    expect(page.locator("#failed")).to_contain_text("of the last values that could be run")
+
+
+def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):
+    page = open_structure("t=0&elastic=false")
+    first = page.locator("#events-body tr").first
+    first.locator(".go").click()
+    comes_true(page, lambda: exact_time(page) == float(first.get_attribute("data-t")))
+    expect(page.locator("#caption")).to_contain_text("snap of line")
+    before = count(page)
+    page.locator("#stretch").evaluate("one => { one.value = 500; one.dispatchEvent(new Event('input')); }")
+    settled(page, before)
+    expect(page.locator("#window-words")).to_have_text("500.0 to 536.0 s")
+    assert 500 <= exact_time(page) <= 536
+
+
+def test_answers_are_pinned_and_compared_in_words(open_structure):
+    page = open_structure(f"{SHORT}&t=0&elastic=false")
+    page.keyboard.press("p")
+    expect(page.locator("#pins li")).to_contain_text("as now")
+    before = count(page)
+    page.locator('[id="field-wave.height"]').fill("3")
+    settled(page, before)
+    expect(page.locator("#pins li")).to_contain_text("less than now")
+    page.locator("#pins .back").click()
+    expect(page.locator('[id="field-wave.height"]')).to_have_value("2")
+
+
+def test_case_files_find_their_page(open_page, structure_url, open_at, tmp_path: Path):
+    mine = tmp_path / "mine.toml"
+    mine.write_text((ROOT / CYLINDER).read_text().replace("height = 2\n", "height = 1.2\n"), encoding="utf-8")
+    page = open_page("t=0")
+    page.locator("#open-case").set_input_files(mine)
+    expect(page.locator("#file")).to_have_text("mine.toml", timeout=30_000)
+    expect(page.locator('[id="field-wave.height"]')).to_have_value("1.2")
+    thesis = tmp_path / "thesis.toml"
+    thesis.write_text("f_o = 0.42\n", encoding="utf-8")
+    page.locator("#open-case").set_input_files(thesis)
+    expect(page.locator("#field-f_o")).to_have_value("0.42", timeout=30_000)
+
+
+@pytest.mark.parametrize(("viewport", "scheme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"])
+def test_the_page_of_a_structure_is_for_everyone(open_structure, viewport, scheme):
+    page = open_structure(f"{SHORT}&t=30&elastic=false", viewport=viewport, color_scheme=scheme)
+    page.locator("details.group:visible").evaluate_all("groups => groups.forEach(group => (group.open = true))")
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
+    result = Axe().run(page)
+    assert result.violations_count == 0, result.generate_report()
+    assert "m, turned by" in page.locator("#scene").get_attribute("aria-label")
