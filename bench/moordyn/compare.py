@@ -26,6 +26,7 @@ PAGE = ROOT / "docs" / "elastic.md"
 # The example, let go off its place of rest, for the time of the first pulls.
 OFF_REST = ["run.start=[0.3,-4.2]", "run.duration=4"]
 STILL = [*OFF_REST, "wave.height=0", "run.restitution=1"]
+BESIDE = ["run.start=[-0.2,-4.4]", "run.duration=3", "wave.height=0", "run.restitution=1"]
 WAVE = [*OFF_REST, "wave.height=1.5", "run.restitution=1"]
 DAMPED = [*OFF_REST, "wave.height=1.5", "run.restitution=0.5"]
 LIGHT = ["line.mass_per_length=0.1"]
@@ -295,6 +296,14 @@ def main() -> None:
             ),
             compare("A wave, a spring each", program, [*WAVE, *LIGHT], 2e-4),
             compare("The same with a tenth of MoorDyn's step", program, [*WAVE, *LIGHT], 1e-4, finer=10.0),
+            compare(
+                "Still water from beside, with a tenth of MoorDyn's step",
+                program,
+                [*BESIDE, *LIGHT],
+                1e-4,
+                by_itself=True,
+                finer=10.0,
+            ),
             compare("A wave, the chain in ten segments", program, WAVE, 1e-4, segments=10, threshold=5e4),
             compare("A wave, a spring and damper each, e = 0.5", program, [*DAMPED, *LIGHT], 1e-4),
         ],
