@@ -89,6 +89,11 @@ impl Entries {
         }
         let (name, rest) = path.split_once('.').unwrap_or((path, ""));
         let table = self.schema.table(name)?;
+        if rest.is_empty() {
+            let keys = table.keys.iter().map(|key| format!("{name}.{}", key.name));
+            let allowed = format!("one of its keys: {}", keys.collect::<Vec<_>>().join(", "));
+            return Err(CaseError::value(name, "(a table)", allowed));
+        }
         let (count, many) = (self.count(name), table.heading == Heading::Many);
         let Some((number, key)) = rest.split_once('.') else {
             return Ok((table, 0..if many { count } else { 1 }, rest));
