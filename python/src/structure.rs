@@ -129,7 +129,7 @@ impl Structure {
     ) -> PyResult<Elastic> {
         let structure = self.structure.clone();
         let found = interruptible(py, progress, move |watch| {
-            let prepared = Prepared::new(structure)?;
+            let prepared = Prepared::for_springs(structure)?;
             both_models(prepared, stiffer, every_s, &|progress| {
                 watch.go_on(progress)
             })

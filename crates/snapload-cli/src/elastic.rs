@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
-    let both = Prepared::new(structure)
+    let both = Prepared::for_springs(structure)
         .map_err(Unfinished::from)
         .and_then(|prepared| both_models(prepared, args.stiffer, every_s, &on_progress))
         .map_err(|error| Failure::from(error).with_prefix(&name))?;

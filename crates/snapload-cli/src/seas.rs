@@ -81,7 +81,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         "least_tension_n",
         "slack_fraction",
     ])?;
-    for SeaOutcome { seed, outcome } in &seas.records {
+    for SeaOutcome { seed, outcome, .. } in &seas.records {
         let slack = outcome.lines.iter().map(|line| line.slack_fraction);
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);

@@ -14,6 +14,8 @@ mod read;
 mod report;
 mod sections;
 mod spline;
+mod textbook;
+mod waves;
 
 pub use coefficients::{
     Excitation, ExcitationCurve, FREEDOMS, Hydrodynamics, Hydrostatics, MatrixCurve, Water,
@@ -36,3 +38,5 @@ pub use read::{
 pub use report::{Floating, GivenMemory, Json, Report, Request, page, periods_in_words};
 pub use sections::{Place, Shape, added_mass_of_section};
 pub use spline::Spline;
+pub use textbook::SectionBody;
+pub use waves::{water_acceleration, wave_number};

@@ -29,15 +29,17 @@ pub use physics::sea::{Component, Spectrum, components};
 pub use physics::snap::{SLOWEST_M_S, Snap, snaps};
 pub use physics::warnings::{Warning, warnings};
 pub use physics::waterline::Waterline;
-pub use physics::wave::{LinearWave, wave_number};
+pub use physics::wave::LinearWave;
 pub use report::{Standing, Verdict, end_words};
-pub use runs::assess::{Assessment, ByRestitution, NEIGHBOUR, assess, quantile};
-pub use runs::both::{BothModels, both_models};
-pub use runs::design::{Answer, Check, Criterion};
+pub use runs::assess::{Assessment, ByRestitution, NEIGHBOUR, assess};
+pub use runs::both::{BothModels, Inextensible, both_models};
+pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
 pub use runs::motion::MotionSi;
 pub use runs::outcome::{LineOutcome, Outcome};
+pub use runs::quantile::quantile;
 pub use runs::seas::{Lines, SeaOutcome, Seas, seas};
 pub use schema::{STRUCTURE, is_structure};
+pub use snapload_hydro::wave_number;
 pub use structure::{
     AddedMass, Afloat, BodySi, ByDefault, DesignRule, IrregularSea, LineSi, Outline, Project, Site,
     SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,

@@ -63,7 +63,7 @@ const SITE: &[Key] = &[
 
 #[rustfmt::skip] // one row a key
 const FLOAT: &[Key] = &[
-    Key::new("file", "", Kind::Text, Required,
+    Key::new("file", "", Kind::Text, Derived("textbook values of the outline's section"),
         "coefficients of a panel code, beside this file: Capytaine's .nc, WAMIT's .1, Nemoh's folder"),
     Key::new("deep_water", "", Kind::Flag, Flag(false), "take coefficients of deep water, though the site is not"),
     Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
@@ -138,7 +138,7 @@ pub static STRUCTURE: Schema = Schema {
         Table::new("body", Heading::One, "the moored body, seen from its side: buoyant and submerged, or afloat with [float]", BODY),
         Table::new("line", Heading::Many, "a mooring line; write [[line]] once for each, 1 to 16 of them", LINE),
         Table::new("site", Heading::One, "the place", SITE),
-        Table::new("float", Heading::Optional, "a body that floats: what the water does to it, by a panel code", FLOAT),
+        Table::new("float", Heading::Optional, "a body that floats: what the water does to it, by a panel code or a textbook", FLOAT),
         Table::new("wave", Heading::Optional, "a regular wave; one of wave and sea may be given", WAVE),
         Table::new("sea", Heading::Optional, "an irregular, long-crested sea", SEA),
         Table::new("run", Heading::One, "what is computed", RUN),

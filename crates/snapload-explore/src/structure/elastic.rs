@@ -45,7 +45,7 @@ pub(crate) fn answer(
     let go_on = |progress: Progress| allowance.go_on(progress);
     let every_s = EVERY_S.max(case.structure.duration_s / MOST_KEPT);
     let both = latest.both.of(&request.case.fingerprint(), || {
-        let prepared = Prepared::new(case.structure.clone())?;
+        let prepared = Prepared::for_springs(case.structure.clone())?;
         both_models(prepared, 1.0, every_s, &go_on)
     });
     let both = both.map_err(|unfinished| too_long(&case, BUDGET, unfinished))?;

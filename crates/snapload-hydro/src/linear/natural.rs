@@ -261,16 +261,29 @@ pub fn natural_of_the_memory(
 /// The same of any state matrix.
 pub(super) fn nearest(matrix: DMatrix<f64>, natural: &[Natural]) -> Result<Vec<Mode>, HydroError> {
     let values = of_matrix(matrix)?;
-    let mode = |natural: &Natural| {
-        let aim = Complex::new(0.0, natural.omega_rad_s);
-        let oscillating = values.iter().filter(|value| value.im > 0.0);
-        let value = oscillating.min_by(|a, b| (*a - aim).norm().total_cmp(&(*b - aim).norm()));
-        let value = value.copied().unwrap_or(aim);
+    let oscillating: Vec<Complex<f64>> = values.into_iter().filter(|v| v.im > 0.0).collect();
+    // Each eigenvalue is that of one motion: the nearest pairs are taken first.
+    let mut taken = vec![None; natural.len()];
+    for _ in natural {
+        let free = |k: &usize| !taken.contains(&Some(*k));
+        let pairs = (0..natural.len())
+            .filter(|i| taken[*i].is_none())
+            .flat_map(|i| (0..oscillating.len()).filter(free).map(move |k| (i, k)));
+        let apart = |&(i, k): &(usize, usize)| {
+            (oscillating[k] - Complex::new(0.0, natural[i].omega_rad_s)).norm()
+        };
+        let Some((i, k)) = pairs.min_by(|a, b| apart(a).total_cmp(&apart(b))) else {
+            break;
+        };
+        taken[i] = Some(k);
+    }
+    let mode = |(natural, taken): (&Natural, &Option<usize>)| {
+        let value = taken.map_or(Complex::new(0.0, natural.omega_rad_s), |k| oscillating[k]);
         Mode {
             eigenvalue: value,
             period_s: 2.0 * PI / value.im,
             damping_ratio: -value.re / value.norm(),
         }
     };
-    Ok(natural.iter().map(mode).collect())
+    Ok(natural.iter().zip(&taken).map(mode).collect())
 }

@@ -2,6 +2,7 @@
 
 use crate::coefficients::{Excitation, FREEDOMS, Hydrodynamics, UPPER};
 use crate::error::{HydroError, Warning};
+use crate::waves::wave_number;
 
 /// Asymmetry of A above which the file is doubtful, and above which rows and columns are mixed up.
 const ASYMMETRY: [f64; 2] = [0.01, 0.2];
@@ -189,24 +190,4 @@ fn coverage(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) {
         let words = format!("{count} frequencies; twenty and more are wanted for a memory");
         warnings.push(Warning::new("few frequencies", words));
     }
-}
-
-/// k with ω² = g k tanh kd; infinite depth is allowed.
-pub(crate) fn wave_number(omega: f64, depth: f64, gravity: f64) -> f64 {
-    let deep = omega * omega / gravity;
-    if !depth.is_finite() {
-        return deep;
-    }
-    // Newton's method on q tanh q = c from the larger limit of shallow and deep water.
-    let c = deep * depth;
-    let mut q = c.sqrt().max(c);
-    for _ in 0..40 {
-        let tanh = q.tanh();
-        let slope = tanh + q * (1.0 - tanh * tanh);
-        if slope <= 0.0 {
-            break;
-        }
-        q -= (q * tanh - c) / slope;
-    }
-    q / depth
 }

@@ -27,6 +27,8 @@ pub enum Format {
     Wamit,
     /// `RadiationCoefficients.tec` and `ExcitationForce.tec`.
     Nemoh,
+    /// No file: textbook values of a section.
+    Section,
 }
 
 impl fmt::Display for Format {
@@ -35,6 +37,7 @@ impl fmt::Display for Format {
             Self::Capytaine => "Capytaine",
             Self::Wamit => "WAMIT",
             Self::Nemoh => "Nemoh",
+            Self::Section => "textbook values of a section",
         })
     }
 }

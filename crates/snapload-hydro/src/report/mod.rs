@@ -5,6 +5,8 @@ mod page;
 mod plots;
 mod words;
 
+use json::rows;
+
 pub use json::Json;
 pub use page::page;
 pub use words::periods_in_words;
@@ -15,7 +17,7 @@ use crate::linear::{
     response_of_the_file, response_of_the_memory, rest,
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
-use crate::read::Reading;
+use crate::read::{Format, Reading};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -85,9 +87,11 @@ impl Report {
     /// A [`HydroError`] if no memory is found, or lines and weights can not be. A file that lacks
     /// weight or stiffness has the answers that do not need them.
     pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
-        let fit = match &request.memory {
-            Some(memory) => given(&reading.hydro, memory.added_mass_inf, &memory.memory)?,
-            None => fit(&reading.hydro, request.fit)?,
+        let hydro = &reading.hydro;
+        let fit = match (&request.memory, reading.format) {
+            (Some(memory), _) => given(hydro, memory.added_mass_inf, &memory.memory)?,
+            (None, Format::Section) => given(hydro, rows(&hydro.added_mass[0]), &[])?,
+            (None, _) => fit(hydro, request.fit)?,
         };
         let floating = match Body::new(&reading.hydro, &request.weight) {
             Ok(body) => Ok(Floating::new(&reading, &fit, body, request)?),

@@ -4,6 +4,9 @@ use super::{Floating, Report};
 use crate::coefficients::FREEDOMS;
 use crate::linear::{Mode, Natural, Response};
 
+/// A body is in balance by itself if it floats within so many metres of where the file has it.
+const BALANCED: f64 = 0.01;
+
 impl Report {
     /// Labels with their words, the most important first.
     pub fn summary(&self) -> Vec<(String, String)> {
@@ -46,6 +49,9 @@ impl Report {
         let worst = |of: fn(&crate::memory::EntryQuality) -> f64| {
             100.0 * fit.entries.iter().map(of).fold(0.0, f64::max)
         };
+        if fit.memory.terms.is_empty() {
+            return "none, as no waves are made".to_owned();
+        }
         let how = match fit.blocks.as_slice() {
             [] => "given".to_owned(),
             blocks => {
@@ -86,6 +92,20 @@ impl Floating {
                 body.stiffness[(2, 2)] / 1e3,
             ),
         );
+        let lift = body.constant_force[1];
+        if lift.abs() > BALANCED * body.stiffness[(1, 1)].abs() {
+            let (way, size) = if lift > 0.0 {
+                ("lift", lift)
+            } else {
+                ("weight", -lift)
+            };
+            let words = format!(
+                "{:.1} kN of {way} are left for lines to hold, and where they hold decides how it \
+                 pitches: periods and responses are those of a body held at the reference point",
+                size / 1e3
+            );
+            say("balance", words);
+        }
         say("periods", periods_in_words(&self.natural, &self.modes));
         // A body that is its own mirror image answers alike to waves from either side.
         let mut told: Vec<(String, Vec<&str>)> = Vec::new();
@@ -148,8 +168,13 @@ fn largest(response: &Response) -> String {
 /// Natural periods with their damping, in words.
 pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
     let one = |(natural, mode): (&Natural, &Mode)| {
+        // The two differ there, as the one has A at the nearest frequency and the other A(∞).
+        let outside = match natural.outside {
+            true => " (outside the file's frequencies)",
+            false => "",
+        };
         format!(
-            "{} {:.3} s undamped, {:.3} s with {:.2} % of critical damping",
+            "{} {:.3} s undamped, {:.3} s with {:.2} % of critical damping{outside}",
             FREEDOMS[natural.freedom],
             natural.period_s,
             mode.period_s,

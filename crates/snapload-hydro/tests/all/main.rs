@@ -7,3 +7,4 @@ mod readers;
 mod report;
 mod rest;
 mod sections;
+mod textbook;

@@ -16,7 +16,7 @@ use crate::report::{Standing, Verdict, end_words};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::scan::LENGTH;
-use crate::runs::seas::Seas;
+use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Outline, Structure, Water};
 use askama::Template;
 use snapload_figures::{FigureError, Picture};
@@ -27,6 +27,8 @@ use std::fmt;
 const STYLE: &str = include_str!("../../templates/note.css");
 /// The number of the hardest snaps that are listed.
 const LISTED: usize = 12;
+/// Snaps that differ by less than this part are told as one.
+const ALIKE: f64 = 1e-3;
 
 /// Where a note comes from.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +49,8 @@ struct NotePage<'a> {
     warnings: &'a [Warning],
     layout: Picture,
     prepared: &'a Prepared,
+    /// Whether the lines stretch.
+    stretching: bool,
     class: &'static str,
     note: &'a Assessment,
     structure: &'a Structure,
@@ -56,8 +60,8 @@ struct NotePage<'a> {
     /// Path, snaps, tension, rotation and the water's surface, in this time.
     plots: Vec<Picture>,
     window: [f64; 2],
-    /// The hardest snaps that are judged, out of `all`.
-    hardest: Vec<&'a Snap>,
+    /// The hardest snaps that are judged, out of `all`, each with how many are like it.
+    hardest: Vec<(&'a Snap, usize)>,
     all: usize,
     horizon_s: f64,
     /// The checks by the rule of the case, and the neighbours that agree with each.
@@ -74,6 +78,8 @@ struct SeaPage<'a> {
     warnings: &'a [Warning],
     layout: Picture,
     prepared: &'a Prepared,
+    /// Whether the lines stretch.
+    stretching: bool,
     class: &'static str,
     seas: &'a Seas,
     structure: &'a Structure,
@@ -102,8 +108,9 @@ pub fn page(
             .partial_cmp(&governs(a))
             .unwrap_or(Ordering::Equal)
     });
+    let mut hardest = alike(&hardest);
     hardest.truncate(LISTED);
-    hardest.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+    hardest.sort_by(|(a, _), (b, _)| a.t_s.total_cmp(&b.t_s));
     let scanned = scan.map(|scan| plots::of_scan(scan, &prepared.structure));
     let page = NotePage {
         title: "Mooring note",
@@ -111,6 +118,7 @@ pub fn page(
         warnings: &assessment.warnings,
         layout: layout::of(prepared)?,
         prepared,
+        stretching: false,
         class: match verdict.standing {
             Standing::Holds => "holds",
             Standing::Breaks | Standing::Exceeds => "fails",
@@ -132,6 +140,35 @@ pub fn page(
     Ok(page.to_string())
 }
 
+/// The first of all snaps that a regular motion repeats, and how many there are of each: those next
+/// to each other of one line, the same within the digits that are told.
+fn alike<'a>(snaps: &[&'a Snap]) -> Vec<(&'a Snap, usize)> {
+    let near = |a: Option<f64>, b: Option<f64>| match (a, b) {
+        (Some(a), Some(b)) => (a - b).abs() <= ALIKE * a.abs().max(b.abs()),
+        (a, b) => a == b,
+    };
+    let mut groups: Vec<(&Snap, usize)> = Vec::new();
+    for snap in snaps {
+        let same = groups.iter_mut().rev().take(LISTED).find(|(first, _)| {
+            first.line == snap.line
+                && first.is_jolt == snap.is_jolt
+                && near(first.peak_n, snap.peak_n)
+                && near(
+                    Some(first.effective_speed_m_s),
+                    Some(snap.effective_speed_m_s),
+                )
+        });
+        match same {
+            Some((first, count)) => {
+                *count += 1;
+                *first = if snap.t_s < first.t_s { snap } else { first };
+            }
+            None => groups.push((snap, 1)),
+        }
+    }
+    groups
+}
+
 /// The page of many records of a sea.
 ///
 /// # Errors
@@ -143,6 +180,7 @@ pub fn seas_page(source: Source<'_>, seas: &Seas) -> Result<String, FigureError>
         warnings: &seas.warnings,
         layout: layout::of(&seas.prepared)?,
         prepared: &seas.prepared,
+        stretching: seas.lines == Lines::Elastic,
         class: match seas.failing() {
             _ if seas.is_open() => "open",
             None => "open",

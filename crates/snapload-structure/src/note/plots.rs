@@ -3,7 +3,8 @@
 use crate::physics::gumbel::reduced_variate;
 use crate::physics::snap::Snap;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::{Assessment, sorted};
+use crate::runs::assess::Assessment;
+use crate::runs::quantile::sorted;
 use crate::runs::scan::Scan;
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, THREE_HOURS_S, Water};

@@ -5,7 +5,7 @@
 //! not the place of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the net
 //! buoyancy may be nothing.
 
-use super::equilibrium::Equilibrium;
+use super::equilibrium::{Equilibrium, pushed_away};
 use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
 use super::sea::Spectrum;
 use super::wave::LinearWave;
@@ -91,6 +91,17 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
         waves,
         groups,
     })
+}
+
+/// That a body rests nowhere on its lines, or would without the loads of the case.
+fn nowhere(structure: &Structure, afloat: &Afloat, error: &HydroError) -> CaseError {
+    if let Some(error) = pushed_away(structure, |calm| rest_afloat(calm, afloat).is_ok()) {
+        return error;
+    }
+    let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
+    let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
+    CaseError::value("line.length", shown, error.to_string())
+        .with_hint("give run.start, or lines that hold the body")
 }
 
 fn impossible(error: &HydroError) -> CaseError {
@@ -179,14 +190,12 @@ pub(super) fn rest_afloat(
                 taut: Vec::new(),
                 indeterminate: false,
                 shared: None,
+                relaxed_n: None,
             };
             return Ok((equilibrium, Vec::new()));
         }
         (Err(error), None) => {
-            let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
-            let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
-            return Err(CaseError::value("line.length", shown, error.to_string())
-                .with_hint("give run.start, or lines that hold the body"));
+            return Err(nowhere(structure, afloat, &error));
         }
     };
     let fit = &afloat.report.fit;
@@ -207,6 +216,7 @@ pub(super) fn rest_afloat(
         tension_n: place.tension_n,
         indeterminate: false,
         shared: None,
+        relaxed_n: None,
     };
     Ok((equilibrium, natural.into_iter().zip(modes).collect()))
 }

@@ -41,6 +41,9 @@ pub struct Equilibrium {
     /// Where lengths within the stretch of the lines change who carries how much: `tension_n` are then
     /// those by stiffness.
     pub shared: Option<Shared>,
+    /// What the lines of a floating body carry as they stretch, where that is another load and the
+    /// lines share it alike \[N\].
+    pub relaxed_n: Option<Vec<f64>>,
 }
 
 /// What lines that do not stretch would carry, and where those that do hold the body.
@@ -70,9 +73,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
             a.total_cmp(&b)
         })
         .ok_or_else(|| nowhere(structure))?;
-    let taut: Vec<usize> = (0..system.cables.len())
-        .filter(|&line| system.cables[line].gap(&best) >= -TOUCHING)
-        .collect();
+    let taut = touching(system, &best);
     let (tension, left) = tensions(system, &taut, &best);
     if left > 1e-6 {
         return Err(nowhere(structure));
@@ -86,21 +87,87 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         return Err(CaseError::value("line.length", lengths(structure), allowed)
             .with_hint("shorten the lines, or make fast more of them"));
     }
-    let mut tension_n = vec![0.0; system.cables.len()];
-    for (line, pull) in taut.iter().zip(&tension) {
-        tension_n[*line] = pull * model.scales.force_n;
-    }
     Ok(Equilibrium {
         place_m,
         theta_rad: -best.theta,
-        tension_n,
+        tension_n: of_all(&model, &taut, &tension),
         indeterminate: dependent(system, &taut, &best),
         shared: None,
+        relaxed_n: None,
         taut,
     })
 }
 
+/// The lines that are just taut.
+fn touching(system: &System, at: &State) -> Vec<usize> {
+    let lines = 0..system.cables.len();
+    lines
+        .filter(|&line| system.cables[line].gap(at) >= -TOUCHING)
+        .collect()
+}
+
+/// The tension of each line, of which those that are taut pull so hard \[N\].
+fn of_all(model: &Model, taut: &[usize], pulls: &[f64]) -> Vec<f64> {
+    let mut tension_n = vec![0.0; model.system.cables.len()];
+    for (line, pull) in taut.iter().zip(pulls) {
+        tension_n[*line] = pull * model.scales.force_n;
+    }
+    tension_n
+}
+
+impl Equilibrium {
+    /// Lets more lines than hold a floating body share its load with the least sum of squares, as
+    /// those of a submerged one do.
+    pub(super) fn share_evenly(&mut self, model: &Model) {
+        let at = model.at_rest(self.place_m, self.theta_rad);
+        let taut = touching(&model.system, &at);
+        if taut.len() > 1 && dependent(&model.system, &taut, &at) {
+            let (tension, _) = tensions(&model.system, &taut, &at);
+            self.tension_n = of_all(model, &taut, &tension);
+            (self.indeterminate, self.taut) = (true, taut);
+        }
+    }
+}
+
+/// The force on a body at rest that its lines have to balance: constant forces, and of one that
+/// floats what hydrostatics take of them.
+fn load(system: &System, at: &State) -> Vector3<f64> {
+    let constant = system.forcing.constant;
+    let load = Vector3::new(constant.x, constant.y, 0.0);
+    let Some(water) = &system.floating else {
+        return load;
+    };
+    let stiffness = Matrix3::from(water.stiffness).transpose();
+    load + Vector3::from(water.constant) - stiffness * Vector3::new(at.x, at.y, at.theta)
+}
+
+/// That a body rests nowhere under its steady loads, if without them it would.
+pub(super) fn pushed_away(
+    structure: &Structure,
+    rests: impl FnOnce(&Structure) -> bool,
+) -> Option<CaseError> {
+    let mut calm = structure.clone();
+    calm.body.constant_force_n = [0.0; 2];
+    calm.site.current_m_s = 0.0;
+    let allowed = "a load against which the lines hold the body where it can rest";
+    let found = load_at_fault(structure, allowed);
+    found.filter(|_| rests(&calm))
+}
+
+/// That a steady load is not allowed, if there is one.
+pub(super) fn load_at_fault(structure: &Structure, allowed: &str) -> Option<CaseError> {
+    let (key, shown) = match (structure.body.constant_force_n, structure.site.current_m_s) {
+        ([0.0, 0.0], 0.0) => return None,
+        ([0.0, 0.0], current) => ("site.current", current.to_string()),
+        ([x, z], _) => ("body.constant_force", format!("[{x}, {z}]")),
+    };
+    Some(CaseError::value(key, shown, allowed))
+}
+
 fn nowhere(structure: &Structure) -> CaseError {
+    if let Some(error) = pushed_away(structure, |calm| equilibrium(calm).is_ok()) {
+        return error;
+    }
     let allowed = "lines within whose reach the body can rest upright";
     CaseError::value("line.length", lengths(structure), allowed).with_hint(
         "look at anchors, fairleads and lengths: every line must reach, and together they must \
@@ -271,11 +338,10 @@ impl SmallMotions {
     }
 }
 
-/// The tensions ≥ 0 of least sum of squares that balance the constant forces, and what is left unbalanced.
+/// The tensions ≥ 0 of least sum of squares that balance the load, and what is left unbalanced.
 fn tensions(system: &System, taut: &[usize], at: &State) -> (Vec<f64>, f64) {
     let rows: Vec<Vector3<f64>> = taut.iter().map(|&line| row(system, line, at)).collect();
-    let load = system.forcing.constant;
-    let load = Vector3::new(load.x, load.y, 0.0);
+    let load = load(system, at);
     // Least squares, and again without the lines that would push.
     let mut kept: Vec<usize> = (0..taut.len()).collect();
     loop {

@@ -10,11 +10,14 @@
 //! only along the motions that keep taut every line that pulls. From K v = ω² M v follow ω² and the
 //! mode v (L. Meirovitch, *Elements of Vibration Analysis* (1986), section 4.3).
 
+use super::afloat::HeldMotion;
 use super::elastic::{Spring, undamped};
 use super::equilibrium::SmallMotions;
 use super::prepared::Prepared;
+use crate::structure::Afloat;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Serialize;
+use snapload_hydro::{Body, HydroError, natural_of_the_file, natural_of_the_memory};
 
 /// A freedom that nothing brings back has less than this, in the engine's units.
 const LEAST_OMEGA_SQUARED: f64 = 1e-7;
@@ -58,6 +61,43 @@ impl NaturalPeriods {
             elastic,
         })
     }
+}
+
+impl Prepared {
+    /// The small motions of a floating body on its lines as they stretch, where their stiffness is
+    /// known.
+    pub fn on_lines_that_stretch(&self) -> Vec<HeldMotion> {
+        let afloat = self.structure.afloat.as_deref();
+        let found = afloat.map(|afloat| afloat_on_springs(self, afloat));
+        found.and_then(Result::ok).unwrap_or_default()
+    }
+}
+
+/// Natural motions of a floating body on lines that stretch: K of the springs and of the water
+/// together, with A(ω) of the file and with the memory. None where a stiffness is not known.
+///
+/// # Errors
+/// A [`HydroError`] if mass and added mass are not positive definite.
+fn afloat_on_springs(prepared: &Prepared, afloat: &Afloat) -> Result<Vec<HeldMotion>, HydroError> {
+    let sprung = undamped(prepared, 1.0).and_then(|springs| {
+        let sprung = prepared.on_springs(&springs)?;
+        Ok(sprung.stiffness_on(&springs))
+    });
+    let Ok(stiffness) = sprung else {
+        return Ok(Vec::new());
+    };
+    // A length for each rotation, and y up.
+    let scales = &prepared.model.scales;
+    let unit = [1.0, -1.0, scales.length_m];
+    let per = scales.force_n / scales.length_m;
+    let body = Body {
+        stiffness: Matrix3::from_fn(|i, j| stiffness[(i, j)] * per * unit[i] * unit[j]),
+        ..afloat.body.clone()
+    };
+    let (hydro, fit) = (&afloat.report.reading.hydro, &afloat.report.fit);
+    let natural = natural_of_the_file(hydro, &body)?;
+    let modes = natural_of_the_memory(&body, &fit.memory, &fit.added_mass_inf, &natural)?;
+    Ok(natural.into_iter().zip(modes).collect())
 }
 
 fn on_taut_lines(prepared: &Prepared) -> Vec<NaturalMode> {

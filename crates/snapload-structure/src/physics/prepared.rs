@@ -2,7 +2,7 @@
 
 use super::afloat::{HeldMotion, model, rest_afloat};
 use super::elastic::undamped;
-use super::equilibrium::{Equilibrium, Shared, equilibrium};
+use super::equilibrium::{Equilibrium, Shared, equilibrium, load_at_fault};
 use super::model::{CURRENT, Model};
 use crate::structure::{IrregularSea, Structure, Water};
 use snapload::{CaseError, Simulation, StartError, State, Stop};
@@ -35,16 +35,42 @@ impl Prepared {
     /// # Errors
     /// A [`CaseError`] if it rests nowhere or can not start where it should.
     pub fn new(structure: Structure) -> Result<Self, CaseError> {
-        let (rest, held) = match &structure.afloat {
+        let prepared = Self::at_rest(structure)?;
+        prepared.begin(1.0)?;
+        Ok(prepared)
+    }
+
+    /// The same for lines that stretch, which a start of the case may have stretched already.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if it rests nowhere or can not start where it should.
+    pub fn for_springs(structure: Structure) -> Result<Self, CaseError> {
+        let prepared = Self::at_rest(structure)?;
+        match prepared.simulation(1.0) {
+            Ok(_) | Err(StartError::CableTooShort { .. }) => Ok(prepared),
+            Err(error) => Err(prepared.explain(error)),
+        }
+    }
+
+    /// Whether its start is within reach of lines that do not stretch.
+    pub fn starts_within_reach(&self) -> bool {
+        self.simulation(1.0).is_ok()
+    }
+
+    /// With its place of rest and its model, its start unchecked.
+    fn at_rest(structure: Structure) -> Result<Self, CaseError> {
+        let (mut rest, held) = match &structure.afloat {
             Some(afloat) => rest_afloat(&structure, afloat)?,
             None => (equilibrium(&structure)?, Vec::new()),
         };
         let model = model_at_rest(&structure, &rest)?;
+        if structure.afloat.is_some() {
+            rest.share_evenly(&model);
+        }
         let mut prepared = Self {
             held,
             ..Self::starting(structure, rest, model)
         };
-        prepared.begin(1.0)?;
         prepared.share_by_stiffness();
         Ok(prepared)
     }
@@ -52,23 +78,19 @@ impl Prepared {
     /// Takes the tensions at rest from the stiffness of the lines where that is known and lines that
     /// do not stretch would share the load otherwise.
     fn share_by_stiffness(&mut self) {
-        if self.structure.afloat.is_some() {
-            return;
-        }
         let sprung = undamped(self, 1.0).and_then(|springs| self.on_springs(&springs));
         let Ok(sprung) = sprung else {
             return;
         };
-        let (rigid, by_stiffness) = (&self.rest.tension_n, sprung.rest.tension_n);
-        let largest = by_stiffness
-            .iter()
-            .fold(0.0_f64, |largest, pull| largest.max(*pull));
-        let differs = |(one, other): (&f64, &f64)| (one - other).abs() > SHARED * largest;
-        if rigid.iter().zip(&by_stiffness).any(differs) {
+        let by_stiffness = sprung.rest.tension_n;
+        let rigid = &self.rest.tension_n;
+        if shared_otherwise(&self.structure, [rigid, &by_stiffness]) {
             self.rest.shared = Some(Shared {
                 unstretched_n: std::mem::replace(&mut self.rest.tension_n, by_stiffness),
                 place_m: sprung.rest.place_m,
             });
+        } else if differ(rigid, &by_stiffness, [1.0; 2]) {
+            self.rest.relaxed_n = Some(by_stiffness);
         }
     }
 
@@ -117,6 +139,10 @@ impl Prepared {
     /// # Errors
     /// A [`CaseError`] on the start, which [`Prepared::new`] has excluded.
     pub fn begin(&self, height: f64) -> Result<Simulation, CaseError> {
+        self.simulation(height).map_err(|error| self.explain(error))
+    }
+
+    fn simulation(&self, height: f64) -> Result<Simulation, StartError> {
         let mut system = self.model.system.clone();
         let water = system.drag.iter_mut().flat_map(|drag| &mut drag.water);
         let water = water.filter(|water| water.omega != CURRENT);
@@ -133,7 +159,6 @@ impl Prepared {
             wave.sine = wave.sine.map(|force| force * height);
         }
         Simulation::new(system, self.model.rules, 0.0, self.start)
-            .map_err(|error| self.explain(error))
     }
 
     /// What is to be known of a floating body beside its motion, a label and its words; nothing of a
@@ -149,12 +174,24 @@ impl Prepared {
         )];
         if let Ok(floating) = &report.floating {
             let free = periods_in_words(&floating.natural, &floating.modes);
-            rows.push(("periods", format!("without lines: {free}")));
+            rows.push((
+                "periods",
+                format!("without lines, about the body's centre: {free}"),
+            ));
         }
         if !self.held.is_empty() {
             let (natural, modes): (Vec<_>, Vec<_>) = self.held.iter().cloned().unzip();
             let held = periods_in_words(&natural, &modes);
             rows.push(("held", format!("as long as the lines stay taut: {held}")));
+        }
+        let stretched = self.on_lines_that_stretch();
+        if !stretched.is_empty() {
+            let (natural, modes): (Vec<_>, Vec<_>) = stretched.into_iter().unzip();
+            let words = periods_in_words(&natural, &modes);
+            rows.push((
+                "stretched",
+                format!("on these lines as they stretch: {words}"),
+            ));
         }
         rows
     }
@@ -165,6 +202,13 @@ impl Prepared {
     }
 
     fn explain(&self, error: StartError) -> CaseError {
+        if self.structure.start_m.is_none() && matches!(error, StartError::BeyondLimit { .. }) {
+            let allowed = "a load under which the body rests above the floor, turned by less than 90 \
+                           degrees";
+            if let Some(error) = load_at_fault(&self.structure, allowed) {
+                return error;
+            }
+        }
         let [x, z] = self.structure.start_m.unwrap_or(self.rest.place_m);
         let allowed = match error {
             StartError::CableTooShort { cable, .. } => format!(
@@ -180,6 +224,26 @@ impl Prepared {
         CaseError::value("run.start", format!("[{x}, {z}]"), allowed)
             .with_hint("leave start out to begin at rest in still water")
     }
+}
+
+/// Whether lines share the load at rest otherwise than those that do not stretch, whose tensions come
+/// first. The water carries what the lines of a floating body lose as they stretch, so of one it is
+/// their parts of all that they carry that count.
+fn shared_otherwise(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
+    let units = match structure.afloat {
+        Some(_) => tensions_n.map(|pulls| pulls.iter().sum::<f64>().max(f64::MIN_POSITIVE)),
+        None => [1.0; 2],
+    };
+    differ(tensions_n[0], tensions_n[1], units)
+}
+
+/// Whether any of them, each in its unit, differ by more than a part of the largest of the latter.
+fn differ(rigid: &[f64], by_stiffness: &[f64], [one, other]: [f64; 2]) -> bool {
+    let largest = by_stiffness
+        .iter()
+        .fold(0.0_f64, |most, pull| most.max(*pull));
+    let apart = |(a, b): (&f64, &f64)| (a / one - b / other).abs() > SHARED * largest / other;
+    rigid.iter().zip(by_stiffness).any(apart)
 }
 
 /// The model about the place of rest. The lines of a turned body are as long as their gaps say;

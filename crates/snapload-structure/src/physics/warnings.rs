@@ -3,12 +3,14 @@
 
 use super::afloat::left_out;
 use super::equilibrium::Equilibrium;
+use super::prepared::Prepared;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
 use crate::words::{decimals, paragraph};
 use askama::Template;
 use serde::Serialize;
+use snapload_hydro::Format;
 use std::f64::consts::PI;
 
 /// The highest wave of a three-hour sea is near this many significant heights: sqrt(ln 1000 / 2)
@@ -80,9 +82,10 @@ fn above(limit: f64, value: f64, rule: &'static str, words: &str) -> Option<Warn
 }
 
 /// The rules that a structure breaks, as it rests.
-pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
+pub fn warnings(prepared: &Prepared) -> Vec<Warning> {
+    let (structure, rest) = (&prepared.structure, &prepared.rest);
     if let Some(afloat) = &structure.afloat {
-        return warnings_afloat(structure, afloat, rest);
+        return warnings_afloat(prepared, afloat);
     }
     let body = &structure.body;
     let (z, half) = (rest.place_m[1], body.half_height_m(rest.theta_rad));
@@ -95,7 +98,7 @@ pub fn warnings(structure: &Structure, rest: &Equilibrium) -> Vec<Warning> {
         broken(above_floor < half, "floor", [above_floor, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, z) {
-        found.extend(in_waves(structure, top, highest, &wave));
+        found.extend(in_waves(prepared, top, highest, &wave));
     }
     found.push(heavy_lines(structure));
     found.extend(implausible(structure));
@@ -113,7 +116,8 @@ fn heavy_lines(structure: &Structure) -> Option<Warning> {
 
 /// The rules of a floating body: those of its coefficients, of the place where it rests, of the waves
 /// and of the lines. That it is in the surface and makes waves is what the coefficients are for.
-fn warnings_afloat(structure: &Structure, afloat: &Afloat, rest: &Equilibrium) -> Vec<Warning> {
+fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
+    let (structure, rest) = (&prepared.structure, &prepared.rest);
     let report = &afloat.report;
     let of_file = report.warnings.iter().map(|warning| Warning {
         rule: warning.what,
@@ -129,15 +133,21 @@ fn warnings_afloat(structure: &Structure, afloat: &Afloat, rest: &Equilibrium) -
         report.reading.hydro.water.depth_m.is_infinite() && structure.site.depth_m.is_finite();
     let lost = 100.0 * left_out(structure, afloat);
     let mut found = vec![
+        shared_loads(rest),
+        stretch_at_rest(rest),
         broken(elsewhere, "place of rest", [heave, degrees], ""),
         broken(deep, "deep water", [structure.site.depth_m, 0.0], ""),
         broken(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, body.position_m[1].min(0.0)) {
-        let all = in_waves(structure, f64::INFINITY, highest, &wave).into_iter();
-        found.extend(
-            all.filter(|warning| warning.as_ref().is_some_and(|w| w.rule != "diffraction")),
-        );
+        // What a file's coefficients are for, a textbook's leave out.
+        let textbook = report.reading.format == Format::Section;
+        let all = in_waves(prepared, f64::INFINITY, highest, &wave).into_iter();
+        found.extend(all.filter(|found| {
+            found
+                .as_ref()
+                .is_some_and(|w| textbook || w.rule != "diffraction")
+        }));
     }
     found.push(heavy_lines(structure));
     found.extend(implausible(structure));
@@ -180,10 +190,6 @@ pub(crate) fn limits_afloat(
 
 /// The warning that the inextensible line does not know who carries how much at rest.
 fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
-    let kilo = |tensions: &[f64]| {
-        let each = tensions.iter().map(|pull| format!("{:.0}", pull / 1e3));
-        each.collect::<Vec<_>>().join("/")
-    };
     let words = rest.shared.as_ref().map(|shared| {
         format!(
             "{} kN at z = {:.3} m, and by their stiffness {} kN at z = {:.3} m",
@@ -195,6 +201,19 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
     });
     let is = rest.indeterminate || words.is_some();
     broken(is, "shared loads", [0.0; 2], &words.unwrap_or_default())
+}
+
+/// The warning that the lines of a floating body carry another load as they stretch.
+fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
+    let relaxed = rest.relaxed_n.as_ref()?;
+    let words = format!("{} kN, and not {}", kilo(relaxed), kilo(&rest.tension_n));
+    broken(true, "stretch at rest", [0.0; 2], &words)
+}
+
+/// Tensions in kN, one after the other.
+fn kilo(tensions_n: &[f64]) -> String {
+    let each = tensions_n.iter().map(|pull| format!("{:.0}", pull / 1e3));
+    each.collect::<Vec<_>>().join("/")
 }
 
 /// What can be computed and is hardly meant.
@@ -222,11 +241,12 @@ fn implausible(structure: &Structure) -> [Option<Warning>; 3] {
 
 /// The same in waves, of which the highest is so high.
 fn in_waves(
-    structure: &Structure,
+    prepared: &Prepared,
     top: f64,
     highest: f64,
     wave: &LinearWave,
 ) -> [Option<Warning>; 6] {
+    let structure = &prepared.structure;
     let (body, depth, length) = (&structure.body, structure.site.depth_m, wave.length_m());
     let words = match structure.water {
         Water::Sea(_) => {
@@ -243,7 +263,7 @@ fn in_waves(
     let drag_given = body.drag_area_m2 != 0.0;
     let drag = above(KEULEGAN, keulegan, "inertia (Keulegan-Carpenter)", "");
     let period = 2.0 * PI / wave.omega_rad_s;
-    let soft = soft_lines(structure, period);
+    let soft = soft_lines(prepared, period);
     [
         above(miche, highest / length, "breaking (Miche)", &words),
         above(URSELL, ursell, "linear theory (Ursell)", &words),
@@ -259,16 +279,14 @@ fn in_waves(
     ]
 }
 
-/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(M/k). Those
-/// lines for which that is more than a tenth of the waves' period, in words.
-fn soft_lines(structure: &Structure, period_s: f64) -> String {
-    let lines = structure.lines.iter().enumerate();
+/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with the
+/// mass m that it has to stop. Those lines for which that is more than a tenth of the waves' period,
+/// in words.
+fn soft_lines(prepared: &Prepared, period_s: f64) -> String {
+    let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {
-        let [x, z] = [0, 1].map(|k| line.fairlead_m[k] - line.anchor_m[k]);
-        let [along, up] = structure.body.moving_mass_kg();
-        // What the line has to stop if the body comes along it without turning.
-        let stopped = (x * x + z * z) / (x * x / along + z * z / up);
-        let lasts = PI * (stopped / line.spring_rate_n_m()?).sqrt();
+        let stopped_kg = prepared.mass_along(index) * prepared.model.scales.mass_kg;
+        let lasts = PI * (stopped_kg / line.spring_rate_n_m()?).sqrt();
         (lasts > 0.1 * period_s).then(|| format!("{lasts:.2} s in line {}", index + 1))
     });
     soft.collect::<Vec<_>>().join(", ")

@@ -4,10 +4,12 @@ use super::verdict::end_words;
 use crate::physics::elastic::damping_ratio;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
+use crate::physics::snap::Snap;
 use crate::physics::waterline::Waterline;
-use crate::runs::assess::{Assessment, quantile};
+use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
+use crate::runs::quantile::quantile;
 use crate::runs::seas::Seas;
 use crate::structure::Structure;
 use serde_json::{Value, json};
@@ -43,11 +45,13 @@ fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
         .held
         .iter()
         .map(|(natural, mode)| motion((natural, mode)));
+    let stretched = prepared.on_lines_that_stretch();
     Some(json!({
         "file": afloat.report.name,
         "memory_states": afloat.report.fit.memory.states(),
         "without_lines": free.collect::<Vec<_>>(),
         "held": held.collect::<Vec<_>>(),
+        "stretched": stretched.iter().map(|(natural, mode)| motion((natural, mode))).collect::<Vec<_>>(),
         "waterline": seen,
     }))
 }
@@ -148,6 +152,7 @@ impl Seas {
             "snaps_in_three_hours": self.snaps_in_three_hours(),
             "slack_fraction": self.slack_fractions(),
             "warnings": self.warnings,
+            "checks": self.checks(),
             "crests_n": quantiles(&crests),
             "troughs_n": quantiles(&troughs),
             "largest_tensions_n": self.largest_n(),
@@ -173,15 +178,23 @@ impl BothModels {
                 "breaking_load_n": structure.lines[index].breaking_load_n,
             })
         });
-        let snaps = self.snaps.iter().map(|snap| {
+        let inextensible = self.inextensible.as_ref().map(|other| {
+            let snap = |snap: &Snap| {
+                json!({
+                    "line": snap.line + 1, "t_s": snap.t_s, "speed_m_s": snap.speed_m_s,
+                    "energy_peak_n": snap.energy_peak_n,
+                })
+            };
             json!({
-                "line": snap.line + 1, "t_s": snap.t_s, "speed_m_s": snap.speed_m_s,
-                "energy_peak_n": snap.energy_peak_n,
+                "snaps": other.snaps.iter().map(snap).collect::<Vec<_>>(),
+                "slack_fraction": other.slack_fraction,
+                "took_s": other.took_s,
             })
         });
         json!({
             "case": name,
             "body": body(structure),
+            "verdict": self.verdict(),
             "stiffer": self.stiffer,
             "restitution": structure.restitution,
             "damping_ratio": damping_ratio(structure.restitution),
@@ -198,11 +211,8 @@ impl BothModels {
             "took_s": self.elastic_took_s,
             "lines": lines.collect::<Vec<_>>(),
             "pulls": self.elastic.pulls,
-            "inextensible": {
-                "snaps": snaps.collect::<Vec<_>>(),
-                "slack_fraction": self.slack_fraction,
-                "took_s": self.inextensible_took_s,
-            },
+            "inextensible": inextensible,
+            "checks": self.checks(),
         })
     }
 }

@@ -9,10 +9,11 @@ use crate::physics::prepared::Prepared;
 use crate::physics::snap::{SLOWEST_M_S, Snap};
 use crate::physics::warnings::Warning;
 use crate::physics::wave::LinearWave;
-use crate::runs::assess::{Assessment, quantile};
+use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::design::Check;
 use crate::runs::outcome::Outcome;
+use crate::runs::quantile::quantile;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
 use crate::words::{decimals, laid_out};
@@ -60,9 +61,11 @@ struct ElasticText<'a> {
     end: Option<&'static str>,
     e: f64,
     zeta: f64,
-    /// Spring rate, damping, part of the time slack on either model, and peak of each line.
-    lines: Vec<[f64; 5]>,
+    /// Spring rate, damping, part of the time slack, and peak of each line; slack if it did not stretch.
+    lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
+    /// How many snaps there are of lines that do not stretch.
+    snaps: usize,
     all: usize,
 }
 
@@ -135,7 +138,9 @@ impl BothModels {
     /// The answer in a few lines, with the first pulls and snaps side by side; `name` is that of
     /// the case.
     pub fn summary(&self, name: &str) -> String {
-        let (pulls, snaps) = (&self.elastic.pulls, &self.snaps);
+        let pulls = &self.elastic.pulls;
+        let other = self.inextensible.as_ref();
+        let snaps = other.map_or(&[][..], |other| &other.snaps[..]);
         let row = |row: usize| {
             let left = pulls.get(row).map_or(String::new(), pull_words);
             let right = snaps.get(row).map_or(String::new(), snap_words);
@@ -148,7 +153,8 @@ impl BothModels {
                 self.elastic.slack_fraction(line),
                 self.elastic.peaks_n[line],
             );
-            [rate, damping, slack, self.slack_fraction[line], peak]
+            let unstretched = other.map(|other| other.slack_fraction[line]);
+            ([rate, damping, slack, peak], unstretched)
         });
         let e = self.prepared.structure.restitution;
         laid_out(&ElasticText {
@@ -158,6 +164,7 @@ impl BothModels {
             e,
             zeta: damping_ratio(e),
             lines: lines.collect(),
+            snaps: snaps.len(),
             rows: (0..all.min(LISTED)).map(row).collect(),
             all,
         })

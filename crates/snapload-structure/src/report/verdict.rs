@@ -3,10 +3,12 @@
 use crate::physics::gumbel::Gumbel;
 use crate::physics::snap::Snap;
 use crate::physics::warnings::Warning;
-use crate::runs::assess::{Assessment, quantile, sorted};
+use crate::runs::assess::Assessment;
+use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
+use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
-use crate::structure::Water;
+use crate::structure::{Structure, Water};
 use crate::words::paragraph;
 use askama::Template;
 use serde::Serialize;
@@ -77,12 +79,12 @@ struct VerdictWords<'a> {
     /// The line with the largest utilisation that is known.
     worst: (usize, f64),
     transient_s: f64,
-    /// The hardest snap that is not judged, where it is harder than those that are.
-    early: Option<&'a Snap>,
+    early: Option<Early>,
     /// The rules that leave it open, and what decides.
     open: Option<(String, &'static str)>,
     /// Whether the run ended before anything is judged.
     unjudged: bool,
+    stretching: bool,
 }
 
 #[derive(Template)]
@@ -125,61 +127,107 @@ fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
     Some((rules.join(" and "), *commands.first()?))
 }
 
+/// The hardest load that is not judged, where it is harder than those that are.
+struct Early {
+    line: usize,
+    speed_m_s: f64,
+    peak_n: Option<f64>,
+}
+
+/// Whether the lines go slack, how hard they snap, and whether one breaks; `stretching` is whether
+/// they are lines that stretch.
+fn verdict(
+    structure: &Structure,
+    outcome: &Outcome,
+    warnings: &[Warning],
+    early: Option<Early>,
+    stretching: bool,
+) -> Verdict {
+    let lines = (1..)
+        .zip(&outcome.lines)
+        .zip(outcome.utilisations(structure));
+    let known: Vec<_> = lines
+        .filter_map(|((number, line), u)| Some((number, line, u?)))
+        .collect();
+    let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+    let broken = known
+        .iter()
+        .filter(|(_, _, u)| *u >= 1.0)
+        .map(|(number, line, u)| {
+            let in_a_snap = line.peak_n.is_some_and(|peak| peak >= line.held_n);
+            let how = if in_a_snap { "in a snap" } else { "while taut" };
+            (
+                *number,
+                *u,
+                if stretching { "as it stretches" } else { how },
+            )
+        });
+    let broken: Vec<_> = broken.collect();
+    let all_known = known.len() == outcome.lines.len();
+    let open = left_open(warnings);
+    let standing = if outcome.stop.exceeds() {
+        Standing::Exceeds
+    } else if open.is_some() {
+        Standing::Open
+    } else if !broken.is_empty() {
+        Standing::Breaks
+    } else if outcome.stop == Stop::ImpactLimit || !all_known {
+        Standing::Unknown
+    } else {
+        Standing::Holds
+    };
+    let words = VerdictWords {
+        standing,
+        outcome,
+        end: end_words(outcome.stop),
+        slack: outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
+        worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
+        broken,
+        transient_s: structure.transient_s,
+        early,
+        open,
+        unjudged: outcome.end_s <= structure.transient_s,
+        stretching,
+    };
+    Verdict {
+        standing,
+        words: paragraph(&words),
+    }
+}
+
+impl BothModels {
+    /// Whether lines that stretch go slack, and whether one breaks.
+    pub fn verdict(&self) -> Verdict {
+        let (structure, outcome) = (&self.sprung.structure, &self.outcome);
+        let pulls = self.elastic.pulls.iter();
+        let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
+        let hardest = early.max_by(|a, b| a.peak_n.total_cmp(&b.peak_n));
+        let early = hardest.filter(|pull| pull.peak_n > outcome.largest_n());
+        let early = early.map(|pull| Early {
+            line: pull.line,
+            speed_m_s: pull.speed_m_s,
+            peak_n: Some(pull.peak_n),
+        });
+        verdict(structure, outcome, &self.warnings(), early, true)
+    }
+}
+
 impl Assessment {
     /// Whether the lines go slack, how hard they snap, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
         let (structure, outcome) = (&self.prepared.structure, &self.outcome);
-        let lines = (1..)
-            .zip(&outcome.lines)
-            .zip(outcome.utilisations(structure));
-        let known: Vec<_> = lines
-            .filter_map(|((number, line), u)| Some((number, line, u?)))
-            .collect();
-        let worst = known.iter().max_by(|a, b| a.2.total_cmp(&b.2));
-        let broken = known
-            .iter()
-            .filter(|(_, _, u)| *u >= 1.0)
-            .map(|(number, line, u)| {
-                let in_a_snap = line.peak_n.is_some_and(|peak| peak >= line.held_n);
-                let how = if in_a_snap { "in a snap" } else { "while taut" };
-                (*number, *u, how)
-            });
-        let broken: Vec<_> = broken.collect();
-        let all_known = known.len() == outcome.lines.len();
-        let open = left_open(&self.warnings);
-        let standing = if outcome.stop.exceeds() {
-            Standing::Exceeds
-        } else if open.is_some() {
-            Standing::Open
-        } else if !broken.is_empty() {
-            Standing::Breaks
-        } else if outcome.stop == Stop::ImpactLimit || !all_known {
-            Standing::Unknown
-        } else {
-            Standing::Holds
-        };
         let early = self
             .snaps
             .iter()
             .filter(|snap| snap.t_s < structure.transient_s);
         let hardest = early.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
         let harder = |snap: &&Snap| snap.speed_m_s > outcome.speed_m_s() && snap.counts();
-        let words = VerdictWords {
-            standing,
-            outcome,
-            end: end_words(outcome.stop),
-            slack: outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
-            worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
-            broken,
-            transient_s: structure.transient_s,
-            early: hardest.filter(harder),
-            open,
-            unjudged: outcome.end_s <= structure.transient_s,
-        };
-        Verdict {
-            standing,
-            words: paragraph(&words),
-        }
+        let early = hardest.filter(harder).map(|snap| Early {
+            line: snap.line,
+            speed_m_s: snap.speed_m_s,
+            peak_n: snap.peak_n,
+        });
+        verdict(structure, outcome, &self.warnings, early, false)
     }
 
     /// How far the run can be trusted, with the numbers.

@@ -1,8 +1,9 @@
 //! One structure, from its case to what an engineer asks: do the lines go slack, how hard do they
 //! snap, do they break?
 
-use super::design::{Check, force_check, line_checks};
+use super::design::{Check, checks};
 use super::outcome::{Outcome, Tally};
+use super::quantile::{quantile, sorted};
 use crate::physics::periods::NaturalPeriods;
 use crate::physics::prepared::Prepared;
 use crate::physics::sea::uniform;
@@ -13,9 +14,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use serde::Serialize;
 use snapload::analysis::{
-    Counter, OnProgress, Trust, TrustMonitor, Unfinished, in_parallel, record,
+    Counter, OnProgress, Progress, Trust, TrustMonitor, Unfinished, in_parallel, record,
 };
 use snapload::{Playback, Trajectory};
+use std::ops::ControlFlow;
 
 /// A state is known while its standard deviation is below this, in the engine's units.
 const TOLERANCE: f64 = 1e-3;
@@ -71,7 +73,113 @@ pub fn assess(
     neighbours: u32,
     on_progress: OnProgress,
 ) -> Result<Assessment, Unfinished> {
-    Assessment::alone(structure, on_progress)?.with_neighbours(neighbours, on_progress)
+    let prepared = Prepared::new(structure)?;
+    let others = Others::new(&prepared, neighbours);
+    let counter = Counter::new("runs", 0, 1 + others.len() as u64, on_progress);
+    // Within a run nothing is counted, but it may be cancelled.
+    let within = |_: Progress| match counter.add(0) {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    };
+    // The run that is followed takes the longest, and is the first to begin.
+    let runs = in_parallel(1 + others.len(), |index| {
+        let run = match index.checked_sub(1) {
+            None => Run::Followed(Box::new(Followed::new(&prepared, &within)?)),
+            Some(index) => Run::Other(others.run(index)?),
+        };
+        counter.add(1)?;
+        Ok::<_, Unfinished>(run)
+    })?;
+    let (mut followed, mut outcomes) = (None, Vec::new());
+    for run in runs {
+        match run {
+            Run::Followed(run) => followed = Some(run),
+            Run::Other(outcome) => outcomes.push(outcome),
+        }
+    }
+    let (restitutions, neighbours) = others.part(outcomes);
+    let followed = followed.expect("the first of the runs is followed");
+    Ok(Assessment {
+        restitutions,
+        neighbours,
+        ..Assessment::of_run(prepared, *followed)
+    })
+}
+
+/// One of the runs of an assessment.
+enum Run {
+    Followed(Box<Followed>),
+    Other(Outcome),
+}
+
+/// The run of the case, with all that is kept of it.
+struct Followed {
+    run: Trajectory,
+    trust: Trust,
+    snaps: Vec<Snap>,
+    outcome: Outcome,
+}
+
+impl Followed {
+    fn new(prepared: &Prepared, on_progress: OnProgress) -> Result<Self, Unfinished> {
+        let simulation = prepared.begin(1.0)?;
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
+        let mut tally = Tally::new(prepared);
+        let mut snaps = Vec::new();
+        let run = record(simulation, on_progress, |simulation, step| {
+            monitor.follow(simulation, step);
+            snaps.extend(tally.follow(simulation, step));
+        })?;
+        Ok(Self {
+            trust: monitor.verdict(),
+            outcome: tally.finish(run.end().t, run.end().reason),
+            run,
+            snaps,
+        })
+    }
+}
+
+/// The runs beside that of the case: with less and with more restitution, and then its neighbours.
+struct Others<'a> {
+    prepared: &'a Prepared,
+    restitutions: Vec<f64>,
+    /// None in still water, where there are no waves to vary.
+    neighbours: usize,
+}
+
+impl<'a> Others<'a> {
+    fn new(prepared: &'a Prepared, neighbours: u32) -> Self {
+        let still = matches!(prepared.structure.water, Water::Still);
+        Self {
+            prepared,
+            restitutions: restitutions_about(prepared.structure.restitution),
+            neighbours: if still { 0 } else { neighbours as usize },
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.restitutions.len() + self.neighbours
+    }
+
+    fn run(&self, index: usize) -> Result<Outcome, Unfinished> {
+        let Self {
+            prepared,
+            restitutions,
+            ..
+        } = self;
+        let outcome = match index.checked_sub(restitutions.len()) {
+            None => Outcome::of(&prepared.with_restitution(restitutions[index]), 1.0)?,
+            Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
+        };
+        Ok(outcome)
+    }
+
+    /// Those with another restitution, each with its own, and the neighbours.
+    fn part(&self, mut outcomes: Vec<Outcome>) -> (Vec<(f64, Outcome)>, Vec<Outcome>) {
+        let neighbours = outcomes.split_off(self.restitutions.len());
+        let restitutions = self.restitutions.iter().copied().zip(outcomes);
+        (restitutions.collect(), neighbours)
+    }
 }
 
 /// Less and more restitution than that of the case, as far as there is.
@@ -97,20 +205,22 @@ impl Assessment {
     /// Those of [`assess`].
     pub fn alone(structure: Structure, on_progress: OnProgress) -> Result<Self, Unfinished> {
         let prepared = Prepared::new(structure)?;
-        let simulation = prepared.begin(1.0)?;
-        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], TOLERANCE);
-        let mut tally = Tally::new(&prepared);
-        let mut snaps = Vec::new();
-        let run = record(simulation, on_progress, |simulation, step| {
-            monitor.follow(simulation, step);
-            snaps.extend(tally.follow(simulation, step));
-        })?;
-        let outcome = tally.finish(run.end().t, run.end().reason);
+        let followed = Followed::new(&prepared, on_progress)?;
+        Ok(Self::of_run(prepared, followed))
+    }
+
+    fn of_run(prepared: Prepared, followed: Followed) -> Self {
+        let Followed {
+            run,
+            trust,
+            snaps,
+            outcome,
+        } = followed;
         let mut assessment = Self {
-            warnings: warnings(&prepared.structure, &prepared.rest),
+            warnings: warnings(&prepared),
             periods: NaturalPeriods::of(&prepared),
             run,
-            trust: monitor.verdict(),
+            trust,
             snaps,
             outcome,
             restitutions: Vec::new(),
@@ -119,7 +229,7 @@ impl Assessment {
         };
         let found = assessment.warnings_of_the_run();
         assessment.warnings.extend(found);
-        Ok(assessment)
+        assessment
     }
 
     /// What is seen once it has moved: how far it went, how far it turned, how it lay in the water.
@@ -143,22 +253,14 @@ impl Assessment {
         neighbours: u32,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
-        let prepared = &self.prepared;
-        let still = matches!(prepared.structure.water, Water::Still);
-        let count = if still { 0 } else { neighbours };
-        let coefficients = restitutions_about(prepared.structure.restitution);
-        let all = coefficients.len() + count as usize;
-        let counter = Counter::new("neighbours", 0, all as u64, on_progress);
-        let mut outcomes = in_parallel(all, |index| {
-            let outcome = match index.checked_sub(coefficients.len()) {
-                None => Outcome::of(&prepared.with_restitution(coefficients[index]), 1.0)?,
-                Some(index) => Outcome::of(prepared, 1.0 + NEIGHBOUR * side(index as u32))?,
-            };
+        let others = Others::new(&self.prepared, neighbours);
+        let counter = Counter::new("neighbours", 0, others.len() as u64, on_progress);
+        let outcomes = in_parallel(others.len(), |index| {
+            let outcome = others.run(index)?;
             counter.add(1)?;
             Ok::<_, Unfinished>(outcome)
         })?;
-        self.neighbours = outcomes.split_off(coefficients.len());
-        self.restitutions = coefficients.into_iter().zip(outcomes).collect();
+        (self.restitutions, self.neighbours) = others.part(outcomes);
         Ok(self)
     }
 
@@ -191,20 +293,15 @@ impl Assessment {
             .warnings
             .iter()
             .any(|warning| warning.decided_by.is_some());
-        let of = |outcome: &Outcome| line_checks(&self.prepared, outcome, open);
+        let of = |outcome: &Outcome| checks(&self.prepared, outcome, open);
         let neighbours: Vec<Vec<Check>> = self.neighbours.iter().map(of).collect();
-        let agreeing = |index: usize, check: &Check| {
+        let own = of(&self.outcome).into_iter().enumerate();
+        let with_count = |(index, check): (usize, Check)| {
             let same = |other: &&Vec<Check>| other[index].answer == check.answer;
-            neighbours.iter().filter(same).count()
-        };
-        let lines = of(&self.outcome).into_iter().enumerate();
-        let lines = lines.map(|(index, check)| {
-            let count = agreeing(index, &check);
+            let count = neighbours.iter().filter(same).count();
             (check, count)
-        });
-        // The waves of neighbours are as high but for a millionth.
-        let force = force_check(&self.prepared).map(|check| (check, self.neighbours.len()));
-        lines.chain(force).collect()
+        };
+        own.map(with_count).collect()
     }
 
     /// The snaps that are judged: those that count, after the transient.
@@ -243,20 +340,4 @@ impl Assessment {
         let [low, middle, high] = [0.05, 0.5, 0.95].map(|part| quantile(&peaks, part));
         Some([low?, middle?, high?])
     }
-}
-
-/// The values in order.
-pub(crate) fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values
-}
-
-/// The value below which this part of the sorted values lies.
-pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
-    let last = sorted.len().checked_sub(1)?;
-    let at = part.clamp(0.0, 1.0) * last as f64;
-    let low = at.floor() as usize;
-    let high = (low + 1).min(last);
-    Some(sorted[low] + (sorted[high] - sorted[low]) * (at - low as f64))
 }

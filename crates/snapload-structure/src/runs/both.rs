@@ -1,6 +1,7 @@
 //! The same case on lines that stretch and on lines that do not.
 
-use super::outcome::add_slack;
+use super::design::{Check, checks};
+use super::outcome::{Outcome, add_slack};
 use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
@@ -22,14 +23,23 @@ pub struct BothModels {
     pub sprung: Prepared,
     /// The motion on them.
     pub elastic: ElasticRun,
+    /// What it comes to.
+    pub outcome: Outcome,
     /// Time that its computation took \[s\].
     pub elastic_took_s: f64,
-    /// The snaps of lines that do not stretch, without slow ones and jolts.
+    /// The same on lines that do not stretch; none where the case starts beyond their reach.
+    pub inextensible: Option<Inextensible>,
+}
+
+/// A motion on lines that do not stretch.
+#[derive(Clone, Debug, Default)]
+pub struct Inextensible {
+    /// The snaps, without slow ones and jolts.
     pub snaps: Vec<Snap>,
-    /// The part of the time in which each of those is slack.
+    /// The part of the time in which each line is slack.
     pub slack_fraction: Vec<f64>,
-    /// Time that their computation took \[s\].
-    pub inextensible_took_s: f64,
+    /// Time that its computation took \[s\].
+    pub took_s: f64,
 }
 
 /// Runs a structure on lines `stiffer` times as stiff as they are, from its place of rest on them
@@ -49,26 +59,32 @@ pub fn both_models(
     let sprung = prepared.on_springs(&springs)?;
     let elastic = run_elastic(&sprung, &springs, every_s, on_progress)?;
     let elastic_took_s = clock.elapsed().as_secs_f64();
-    let clock = Instant::now();
-    let (snaps, slack_fraction) = inextensible(&prepared)?;
+    let inextensible = match prepared.starts_within_reach() {
+        true => Some(Inextensible::of(&prepared)?),
+        false => None,
+    };
     Ok(BothModels {
+        outcome: Outcome::of_pulls(&sprung, &elastic),
         prepared,
         stiffer,
         springs,
         sprung,
         elastic,
         elastic_took_s,
-        snaps,
-        slack_fraction,
-        inextensible_took_s: clock.elapsed().as_secs_f64(),
+        inextensible,
     })
 }
 
 impl BothModels {
+    /// The checks by the rule of the case, of the lines that stretch.
+    pub fn checks(&self) -> Vec<Check> {
+        checks(&self.sprung, &self.outcome, false)
+    }
+
     /// Rules of thumb that the case breaks, but for those that lines that stretch decide.
     pub fn warnings(&self) -> Vec<Warning> {
         let (structure, run) = (&self.sprung.structure, &self.elastic);
-        warnings(structure, &self.sprung.rest)
+        warnings(&self.sprung)
             .into_iter()
             .chain(turning_warning(structure, run.turned_rad))
             .chain(limits_afloat(
@@ -81,15 +97,21 @@ impl BothModels {
     }
 }
 
-/// The snaps of lines that do not stretch, and the part of the time in which each is slack.
-fn inextensible(prepared: &Prepared) -> Result<(Vec<Snap>, Vec<f64>), CaseError> {
-    let mut simulation = prepared.begin(1.0)?;
-    let (mut snaps, mut slack) = (Vec::new(), vec![0.0; prepared.structure.lines.len()]);
-    while let Some(step) = simulation.step() {
-        add_slack(&mut slack, &step);
-        let found = snaps_of_step(prepared, &simulation, &step).into_iter();
-        snaps.extend(found.filter(|snap| snap.counts() && !snap.is_jolt));
+impl Inextensible {
+    fn of(prepared: &Prepared) -> Result<Self, CaseError> {
+        let clock = Instant::now();
+        let mut simulation = prepared.begin(1.0)?;
+        let (mut snaps, mut slack) = (Vec::new(), vec![0.0; prepared.structure.lines.len()]);
+        while let Some(step) = simulation.step() {
+            add_slack(&mut slack, &step);
+            let found = snaps_of_step(prepared, &simulation, &step).into_iter();
+            snaps.extend(found.filter(|snap| snap.counts() && !snap.is_jolt));
+        }
+        let end = simulation.time().max(f64::MIN_POSITIVE);
+        Ok(Self {
+            snaps,
+            slack_fraction: slack.into_iter().map(|time| time / end).collect(),
+            took_s: clock.elapsed().as_secs_f64(),
+        })
     }
-    let end = simulation.time().max(f64::MIN_POSITIVE);
-    Ok((snaps, slack.into_iter().map(|time| time / end).collect()))
 }

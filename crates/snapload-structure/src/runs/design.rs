@@ -14,6 +14,7 @@
 //! user's, as editions and classes differ.
 
 use super::outcome::Outcome;
+use super::quantile::{quantile, sorted};
 use crate::physics::prepared::Prepared;
 use crate::structure::{Structure, Water};
 use serde::Serialize;
@@ -123,6 +124,68 @@ impl Check {
             value,
             limit,
             answer,
+        }
+    }
+}
+
+/// The checks of the lines and of the waves' force by what a run comes to.
+pub(crate) fn checks(prepared: &Prepared, outcome: &Outcome, open: bool) -> Vec<Check> {
+    let lines = line_checks(prepared, outcome, open).into_iter();
+    lines.chain(force_check(prepared)).collect()
+}
+
+/// One criterion over many records.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RecordsCheck {
+    /// The check of the record in which it comes out worst.
+    #[serde(flatten)]
+    pub worst: Check,
+    /// Its value in the middle one of all records.
+    pub median: Option<f64>,
+    /// The records in which it passes.
+    pub passing: usize,
+    /// All of them.
+    pub of: usize,
+}
+
+impl RecordsCheck {
+    /// The checks of many records, each of which has the same ones.
+    pub(crate) fn of_records(records: &[&[Check]]) -> Vec<Self> {
+        let count = records.first().map_or(0, |checks| checks.len());
+        (0..count).map(|index| Self::of(records, index)).collect()
+    }
+
+    /// As a reader knows it.
+    pub(crate) fn words(&self) -> String {
+        match self.worst.answer {
+            Answer::Open | Answer::Unknown => self.worst.answer.words().to_owned(),
+            Answer::Passes | Answer::Fails => {
+                format!("passes in {} of {} records", self.passing, self.of)
+            }
+        }
+    }
+
+    fn of(records: &[&[Check]], index: usize) -> Self {
+        let all = || records.iter().map(|checks| &checks[index]);
+        let mut worst = records[0][index].clone();
+        let high = matches!(worst.criterion, Criterion::Strength | Criterion::WaveForce);
+        for check in all() {
+            let is_worse = match (worst.value, check.value) {
+                (None, _) => false,
+                (Some(_), None) => true,
+                (Some(before), Some(now)) if high => now > before,
+                (Some(before), Some(now)) => now < before,
+            };
+            if is_worse {
+                worst = check.clone();
+            }
+        }
+        let known: Option<Vec<f64>> = all().map(|check| check.value).collect();
+        Self {
+            worst,
+            median: known.and_then(|known| quantile(&sorted(known.into_iter()), 0.5)),
+            passing: all().filter(|check| check.answer == Answer::Passes).count(),
+            of: records.len(),
         }
     }
 }

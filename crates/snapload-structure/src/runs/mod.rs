@@ -6,6 +6,7 @@ pub(crate) mod both;
 pub(crate) mod design;
 pub(crate) mod motion;
 pub(crate) mod outcome;
+pub(crate) mod quantile;
 pub(crate) mod scan;
 pub(crate) mod seas;
 pub(crate) mod sprung;

@@ -1,7 +1,8 @@
 //! Many records of one sea: how hard the lines snap in it, as a distribution.
 
-use super::assess::sorted;
+use super::design::{Check, RecordsCheck, checks};
 use super::outcome::Outcome;
+use super::quantile::sorted;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::physics::warnings::{Warning, limits_afloat, short_records, turning_warning, warnings};
@@ -18,6 +19,8 @@ pub struct SeaOutcome {
     pub seed: u64,
     /// The rest.
     pub outcome: Outcome,
+    /// The checks by the rule of the case.
+    pub checks: Vec<Check>,
 }
 
 /// What many records come to.
@@ -62,7 +65,14 @@ pub fn seas(
         );
         return Err(error.into());
     };
-    let prepared = Prepared::new(structure)?;
+    let prepared = match lines {
+        Lines::Inextensible => Prepared::new(structure)?,
+        Lines::Elastic => Prepared::for_springs(structure)?,
+    };
+    let mut warnings = warnings(&prepared);
+    // What lines that stretch decide they have decided.
+    warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
+    let open = warnings.iter().any(|warning| warning.decided_by.is_some());
     let counter = Counter::new("records", 0, count.into(), on_progress);
     let records = in_parallel(count as usize, |index| {
         let seed = sea.seed + index as u64;
@@ -72,12 +82,19 @@ pub fn seas(
             Ok(()) => ControlFlow::Continue(()),
             Err(_) => ControlFlow::Break(()),
         };
-        let outcome = match lines {
-            Lines::Inextensible => Outcome::of(&record, 1.0)?,
+        let (record, outcome) = match lines {
+            Lines::Inextensible => {
+                let outcome = Outcome::of(&record, 1.0)?;
+                (record, outcome)
+            }
             Lines::Elastic => Outcome::on_springs(&record, &within)?,
         };
         counter.add(1)?;
-        Ok::<_, Unfinished>(SeaOutcome { seed, outcome })
+        Ok::<_, Unfinished>(SeaOutcome {
+            checks: checks(&record, &outcome, open),
+            seed,
+            outcome,
+        })
     })?;
     let outcomes = || records.iter().map(|record| &record.outcome);
     let turned = outcomes()
@@ -85,12 +102,9 @@ pub fn seas(
         .fold(0.0, f64::max);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
-    let mut warnings = warnings(&prepared.structure, &prepared.rest);
     warnings.extend(short_records(&prepared.structure));
     warnings.extend(turning_warning(&prepared.structure, turned));
     warnings.extend(limits_afloat(&prepared.structure, seen.as_ref(), turned));
-    // What lines that stretch decide they have decided.
-    warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     Ok(Seas {
         records,
         lines,
@@ -100,6 +114,12 @@ pub fn seas(
 }
 
 impl Seas {
+    /// The checks by the rule of the case, over all records.
+    pub fn checks(&self) -> Vec<RecordsCheck> {
+        let records: Vec<&[Check]> = self.records.iter().map(|r| &r.checks[..]).collect();
+        RecordsCheck::of_records(&records)
+    }
+
     /// What every record comes to.
     fn outcomes(&self) -> impl Iterator<Item = &Outcome> {
         self.records.iter().map(|record| &record.outcome)

@@ -9,48 +9,54 @@ use snapload::analysis::{OnProgress, Unfinished};
 
 impl Outcome {
     /// Runs a structure on lines that stretch, from its place of rest on them, and keeps what it
-    /// comes to. A snap is a pull that begins at [`SLOWEST_M_S`] or more.
+    /// comes to, with the structure about that place.
     ///
     /// # Errors
     /// A [`snapload::CaseError`] if a line has no stiffness or the body rests nowhere on them, and
     /// [`Unfinished::Cancelled`].
-    pub fn on_springs(prepared: &Prepared, on_progress: OnProgress) -> Result<Self, Unfinished> {
+    pub fn on_springs(
+        prepared: &Prepared,
+        on_progress: OnProgress,
+    ) -> Result<(Prepared, Self), Unfinished> {
         let springs = springs(prepared, 1.0)?;
         let sprung = prepared.on_springs(&springs)?;
         let run = run_elastic(&sprung, &springs, f64::INFINITY, on_progress)?;
-        Ok(of_run(&sprung, run))
+        let outcome = Self::of_pulls(&sprung, &run);
+        Ok((sprung, outcome))
     }
-}
 
-fn of_run(sprung: &Prepared, run: ElasticRun) -> Outcome {
-    let transient_s = sprung.structure.transient_s;
-    let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
-    let snapping =
-        || judged().filter(|pull| pull.from_s >= transient_s && pull.speed_m_s >= SLOWEST_M_S);
-    let of_line = |line: usize| {
-        let speeds = || {
-            snapping()
-                .filter(|pull| pull.line == line)
-                .map(|pull| pull.speed_m_s)
+    /// What a motion on lines that stretch comes to. A snap is a pull that begins at [`SLOWEST_M_S`]
+    /// or more.
+    pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
+        let transient_s = sprung.structure.transient_s;
+        let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
+        let snapping =
+            || judged().filter(|pull| pull.from_s >= transient_s && pull.speed_m_s >= SLOWEST_M_S);
+        let of_line = |line: usize| {
+            let speeds = || {
+                snapping()
+                    .filter(|pull| pull.line == line)
+                    .map(|pull| pull.speed_m_s)
+            };
+            LineOutcome {
+                snaps: speeds().count() as u64,
+                speed_m_s: speeds().fold(0.0, f64::max),
+                jolts: 0,
+                peak_n: Some(run.peaks_n[line]),
+                held_n: run.peaks_n[line],
+                least_n: run.least_n[line],
+                slack_fraction: run.slack_fraction(line),
+            }
         };
-        LineOutcome {
-            snaps: speeds().count() as u64,
-            speed_m_s: speeds().fold(0.0, f64::max),
-            jolts: 0,
-            peak_n: Some(run.peaks_n[line]),
-            held_n: run.peaks_n[line],
-            least_n: run.least_n[line],
-            slack_fraction: run.slack_fraction(line),
+        Self {
+            lines: (0..run.peaks_n.len()).map(of_line).collect(),
+            stop: run.stop.unwrap_or(Stop::EndTime),
+            end_s: run.end_s,
+            turned_rad: run.turned_rad,
+            waterline: run.waterline,
+            peaks_n: judged().map(|pull| pull.peak_n).collect(),
+            speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
+            waves_n: run.waves_n.clone(),
         }
-    };
-    Outcome {
-        lines: (0..run.peaks_n.len()).map(of_line).collect(),
-        stop: run.stop.unwrap_or(Stop::EndTime),
-        end_s: run.end_s,
-        turned_rad: run.turned_rad,
-        waterline: run.waterline,
-        peaks_n: judged().map(|pull| pull.peak_n).collect(),
-        speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),
-        waves_n: run.waves_n,
     }
 }

@@ -1,15 +1,19 @@
 //! What `[float]` says: the coefficients of a body that floats, with the memory of the waves it makes.
 
-use super::{BodySi, Site};
+use super::{BodySi, Outline, Site};
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
     FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
-    Warning, Weight, read,
+    SectionBody, Shape, Warning, Water, Weight, read,
 };
 use std::path::Path;
 
 /// The file's displaced mass and the case's volume differ by no more than this part.
 const SAME_VOLUME: f64 = 0.01;
+/// A circle is half immersed if its centre is within this part of its width of the still water.
+const HALF_IMMERSED: f64 = 0.01;
+/// What stands for the name of a file where there is none.
+const SECTION: &str = "textbook values of its section";
 
 /// What the water does to a floating body, about the body's centre.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,14 +41,23 @@ impl Afloat {
             let allowed = "nothing beside [float], whose file has the added mass";
             return Err(own.refuse("added_mass", value, allowed));
         }
-        let file: String = fields.need("file")?;
+        let file: Option<String> = fields.get("file")?;
+        let shown = file
+            .as_ref()
+            .map_or("(left out)".to_owned(), |file| format!("{file:?}"));
         let bad = |error: HydroError| {
             let allowed = format!("coefficients of this body in this water; {error}");
-            fields.refuse("file", format!("{file:?}"), allowed)
+            fields.refuse("file", &shown, allowed)
         };
-        let mut reading = read(&beside.join(&file), &given(fields, site)?).map_err(bad)?;
-        idle(fields, &reading)?;
-        same_volume(own, site, body, &mut reading)?;
+        let mut reading = match &file {
+            Some(file) => {
+                let mut reading = read(&beside.join(file), &given(fields, site)?).map_err(bad)?;
+                idle(fields, &reading)?;
+                same_volume(own, site, body, &mut reading)?;
+                reading
+            }
+            None => section(fields, site, body)?,
+        };
         reading.hydro = reading.hydro.about(body.position_m);
         let inertia = own.get("moment_of_inertia")?;
         let without = reading.hydro.hydrostatics.inertia.is_none();
@@ -62,7 +75,8 @@ impl Afloat {
             memory: memory(fields, beside)?,
             ..Request::default()
         };
-        let mut report = Report::new(&file, reading, &request).map_err(bad)?;
+        let name = file.as_deref().unwrap_or(SECTION);
+        let mut report = Report::new(name, reading, &request).map_err(bad)?;
         let floating = report.floating.clone().map_err(bad)?;
         let displaced = report.reading.hydro.hydrostatics.displaced_mass_kg;
         let other = displaced.is_some_and(|mass| (mass / body.mass_kg - 1.0).abs() > SAME_VOLUME);
@@ -77,6 +91,62 @@ impl Afloat {
             report,
         })
     }
+}
+
+/// The keys that only a file has something for.
+const OF_A_FILE: [&str; 8] = [
+    "deep_water",
+    "pairs",
+    "memory",
+    "reference",
+    "file_centre_of_gravity",
+    "unit_length",
+    "first_column",
+    "name",
+];
+
+/// The textbook's coefficients of a body whose outline is its section, where no file is named.
+fn section(fields: Fields<'_>, site: &Site, body: &BodySi) -> Result<Reading, CaseError> {
+    for key in OF_A_FILE {
+        if let Some(value) = fields.given(key) {
+            let allowed = "nothing without float.file, as textbook values of a section leave it nothing \
+                           to do";
+            return Err(fields.refuse(key, value, allowed));
+        }
+    }
+    let [x, z] = body.position_m;
+    let draft_m = 0.5 * body.height_m - z;
+    let refuse = |allowed: String| {
+        fields
+            .refuse("file", "(left out)", allowed)
+            .with_hint("give float.file, coefficients by a panel code")
+    };
+    let shape = match body.outline {
+        Outline::Rectangle => Shape::Rectangle,
+        Outline::Circle if z.abs() > HALF_IMMERSED * body.width_m => {
+            let allowed = "a file, as textbook values of a circle are of one with its centre in the \
+                           still water";
+            return Err(refuse(allowed.to_owned()));
+        }
+        Outline::Circle => Shape::Ellipse,
+    };
+    let of_section = SectionBody {
+        shape,
+        half_width_m: 0.5 * body.width_m,
+        draft_m,
+        length_m: 0.0,
+        x_m: x,
+        centre_of_gravity_m: body.position_m,
+    };
+    let water = Water {
+        density_kg_m3: site.water_density_kg_m3,
+        gravity_m_s2: site.gravity_m_s2,
+        depth_m: site.depth_m,
+    };
+    let of_section = of_section.displacing(body.displaced_volume_m3);
+    of_section
+        .reading(water)
+        .map_err(|error| refuse(format!("a file for such a body; {error}")))
 }
 
 /// What the file is told of the case.

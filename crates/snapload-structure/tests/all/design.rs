@@ -1,9 +1,10 @@
 //! Natural periods against closed forms, and checks by the rule against their formulas.
 
-use crate::verdicts::structure;
+use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
 use snapload_structure::{
-    Answer, Assessment, Criterion, NaturalPeriods, Prepared, assess, springs,
+    Answer, Assessment, Criterion, Lines, NaturalPeriods, Prepared, assess, both_models, seas,
+    springs,
 };
 use std::f64::consts::TAU;
 
@@ -231,4 +232,112 @@ fn factors_that_go_together_are_given_together() {
             "{error}"
         );
     }
+}
+
+/// The checks of lines that stretch, by hand from what they hold, and of many records, of which each
+/// has those of its own run.
+#[test]
+fn springs_and_records_are_checked_by_the_same_rule() {
+    let rule = "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\
+                least_share = 0.05\n";
+    let case = structure(&format!("{CYLINDER}\nduration = 120\n{rule}"));
+    let both = both_models(
+        Prepared::for_springs(case).expect("a start"),
+        1.0,
+        f64::INFINITY,
+        &unwatched,
+    );
+    let both = both.expect("an answer");
+    let checks = both.checks();
+    assert_eq!(checks.len(), 4);
+    for check in &checks {
+        let line = check.line.expect("a line") - 1;
+        let (rest, peak) = (both.sprung.rest.tension_n[line], both.elastic.peaks_n[line]);
+        let breaks = both.sprung.structure.lines[line]
+            .breaking_load_n
+            .expect("known");
+        let known = match check.criterion {
+            Criterion::Strength => (1.2 * rest + 1.5 * (peak - rest)) / (0.95 * breaks),
+            _ => both.elastic.least_n[line].expect("judged") / rest,
+        };
+        assert!(
+            (check.value.expect("a value") - known).abs() < 1e-12,
+            "{check:?}"
+        );
+    }
+    assert!(
+        both.summary("case")
+            .contains("factored tension over strength")
+    );
+
+    let sea = include_str!("../../../../docs/examples/cylinder-sea.toml");
+    let sea = structure(&format!("{sea}\nduration = 200\n{rule}force_share = 0.2\n"));
+    for lines in [Lines::Inextensible, Lines::Elastic] {
+        let found = seas(sea.clone(), 5, lines, &unwatched).expect("an answer");
+        let over_all = found.checks();
+        assert_eq!(over_all.len(), 5);
+        for (index, check) in over_all.iter().enumerate() {
+            let each = found.records.iter().map(|record| &record.checks[index]);
+            let values = each.clone().map(|check| check.value.expect("a value"));
+            let worst = match check.worst.criterion {
+                Criterion::Strength | Criterion::WaveForce => values.fold(0.0, f64::max),
+                _ => values.fold(f64::INFINITY, f64::min),
+            };
+            assert_eq!(check.worst.value, Some(worst));
+            let passing = each.filter(|check| check.answer == Answer::Passes).count();
+            assert_eq!((check.passing, check.of), (passing, 5));
+        }
+        // The waves' forces differ from record to record.
+        let forces = found.records.iter().map(|record| record.checks[4].value);
+        assert!(
+            forces
+                .collect::<Vec<_>>()
+                .windows(2)
+                .all(|pair| pair[0] != pair[1])
+        );
+        let page = snapload_structure::note::seas_page(source("case"), &found).expect("a page");
+        assert!(
+            page.contains("Checks by the rule") && found.summary("case").contains("of 5 records")
+        );
+    }
+}
+
+/// How long a snap lasts is π sqrt(m/k) with the mass that the line has to stop, turning included:
+/// 1/m = n_x²/M_x + n_z²/M_z + s²/I.
+#[test]
+fn a_snap_lasts_as_long_as_its_effective_mass_says() {
+    let soft = CYLINDER.replace("type = \"studless chain\"", "type = \"polyester\"");
+    let case = structure(&format!("{soft}\nduration = 60\n"));
+    let (body, line) = (&case.body, &case.lines[0]);
+    let prepared = Prepared::new(case.clone()).expect("a start");
+    let at = prepared.rest.place_m;
+    let arm = [0, 1].map(|k| line.fairlead_m[k] - body.position_m[k]);
+    let span = [0, 1].map(|k| at[k] + arm[k] - line.anchor_m[k]);
+    let n = span.map(|part| part / span[0].hypot(span[1]));
+    let turn = arm[0] * n[1] - arm[1] * n[0];
+    let [along, up] = body.moving_mass_kg();
+    let inverse =
+        n[0] * n[0] / along + n[1] * n[1] / up + turn * turn / body.turning_inertia_kg_m2();
+    let rate = line.spring_rate_n_m().expect("known");
+    let lasts = std::f64::consts::PI / (inverse * rate).sqrt();
+    let found = snapload_structure::warnings(&prepared);
+    let told = found
+        .iter()
+        .find(|warning| warning.rule == "instant snap")
+        .expect("soft");
+    let words = format!("{lasts:.2} s in line 1");
+    assert!(told.message.contains(&words), "{} {words}", told.message);
+}
+
+/// A load that the lines do not hold the body against is what is wrong, and not their lengths.
+#[test]
+fn loads_that_push_it_away_are_named() {
+    let pushed = CYLINDER.replace("position =", "constant_force = [4e6, -6e5]\nposition =");
+    let error = Prepared::new(structure(&pushed))
+        .expect_err("pushed away")
+        .to_string();
+    assert!(
+        error.contains("body.constant_force = [4000000, -600000]"),
+        "{error}"
+    );
 }

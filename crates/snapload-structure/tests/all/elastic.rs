@@ -1,8 +1,10 @@
 //! Lines that stretch: motions that are known, and the limit in which they do not.
 
+use serde_json::Value;
 use snapload::analysis::unwatched;
 use snapload_structure::{
-    ElasticRun, Prepared, STRUCTURE, Spring, Structure, damping_ratio, run_elastic, springs,
+    ElasticRun, Prepared, STRUCTURE, Spring, Standing, Structure, both_models, damping_ratio,
+    run_elastic, springs,
 };
 
 /// A body straight above its anchor on two equal lines that lie on each other, so that it moves up
@@ -19,11 +21,15 @@ fn vertical(restitution: f64, start_z: f64) -> Prepared {
 }
 
 fn prepared(text: &str, set: &[&str]) -> Prepared {
+    Prepared::new(structure(text, set)).expect("a start")
+}
+
+fn structure(text: &str, set: &[&str]) -> Structure {
     let mut entries = snapload::Entries::parse(&STRUCTURE, "test.toml", text).expect("a case");
     for set in set {
         entries.set(set).expect("a key");
     }
-    Prepared::new(Structure::from_entries(&entries).expect("a structure")).expect("a start")
+    Structure::from_entries(&entries).expect("a structure")
 }
 
 const CYLINDER: &str = include_str!("../../../../docs/examples/cylinder.toml");
@@ -326,4 +332,72 @@ fn the_floor_ends_a_run() {
         .filter(|look| system.top(&look.state) > bound);
     let last = motion.end_s - prepared.model.scales.time_s;
     assert!(below.clone().all(|look| look.t_s > last), "{last}");
+}
+
+/// A start at the place of rest on lines that stretch, out of reach of those that do not, is one:
+/// in still water the body stays there, and there is nothing to compare it with.
+#[test]
+fn it_may_start_where_the_lines_have_stretched() {
+    let still = CYLINDER.replace("[wave]\nheight = 2\nperiod = 6\n", "");
+    let at_rest = prepared(&still, &["run.duration=20"]);
+    let law = springs(&at_rest, 1.0).expect("springs");
+    let [x, z] = at_rest.on_springs(&law).expect("rest").rest.place_m;
+    let start = format!("run.start=[{x}, {z}]");
+    let case = structure(&still, &["run.duration=20", &start]);
+    let refused = Prepared::new(case.clone()).expect_err("out of reach");
+    assert!(refused.to_string().contains("too short"), "{refused}");
+    let prepared = Prepared::for_springs(case).expect("a start");
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).expect("a run");
+    assert!(both.inextensible.is_none());
+    for (peak, at_rest) in both.elastic.peaks_n.iter().zip(&both.sprung.rest.tension_n) {
+        assert!((peak / at_rest - 1.0).abs() < 1e-7, "{peak} {at_rest}");
+    }
+    assert_eq!(both.verdict().standing, Standing::Holds);
+    let summary = both.summary("case");
+    assert!(
+        summary.contains("beyond the reach of lines that do not stretch"),
+        "{summary}"
+    );
+    let under = structure(&still, &["run.start=[0, -9.5]"]);
+    let floor = Prepared::for_springs(under).expect_err("in the floor");
+    assert!(floor.to_string().contains("above the floor"), "{floor}");
+}
+
+/// Each pull of the lines as MoorDyn 2.7.2 has it with its steps made so small that its peaks do not
+/// hang on them, to 0.1 % and to a few of its steps (bench/moordyn).
+#[test]
+fn the_pulls_are_those_of_moordyn() {
+    let results = include_str!("../../../../bench/moordyn/results.json");
+    let results: Value = serde_json::from_str(results).expect("JSON");
+    let mut compared = 0;
+    for case in results["cases"].as_array().expect("cases") {
+        let alone = case["alone"].as_bool().expect("a flag");
+        let name = case["name"].as_str().expect("a name");
+        if !(alone || name.contains("a tenth of MoorDyn's step")) {
+            continue;
+        }
+        let set = case["set"].as_array().expect("settings").iter();
+        let set: Vec<&str> = set.map(|set| set.as_str().expect("text")).collect();
+        let prepared = Prepared::for_springs(structure(CYLINDER, &set)).expect("a start");
+        let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).expect("a run");
+        let theirs = case["pulls"].as_array().expect("pulls");
+        assert_eq!(both.elastic.pulls.len(), theirs.len(), "{name}");
+        for (pull, row) in both.elastic.pulls.iter().zip(theirs) {
+            let number = |k: usize| row["moordyn"][k].as_f64().expect("a number");
+            let step = case["step_s"].as_f64().expect("a step");
+            assert_eq!(pull.line + 1, number(0) as usize);
+            for (ours, theirs) in [(pull.from_s, number(1)), (pull.to_s, number(2))] {
+                assert!(
+                    (ours - theirs).abs() < 3.0 * step,
+                    "{name}: {pull:?} {theirs}"
+                );
+            }
+            assert!(
+                (pull.peak_n / number(3) - 1.0).abs() < 1e-3,
+                "{name}: {pull:?}"
+            );
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 14);
 }

@@ -184,6 +184,7 @@ fn set_changes_one_line_or_all() {
         ("wave.hight=2", "did you mean height?"),
         ("wave.height", "TABLE.KEY=VALUE"),
         ("wave.height=", "(nothing)"),
+        ("design=5", "design.pretension_factor"),
     ] {
         let error = entries.set(bad).expect_err(bad).to_string();
         assert!(error.contains(says), "{error}");

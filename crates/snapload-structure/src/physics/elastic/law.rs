@@ -75,7 +75,7 @@ pub fn damping_ratio(restitution: f64) -> f64 {
 /// # Errors
 /// A [`CaseError`] if a line has no stiffness, or the restitution is too small.
 pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseError> {
-    let (restitution, model) = (prepared.structure.restitution, &prepared.model);
+    let restitution = prepared.structure.restitution;
     if restitution < LEAST_RESTITUTION {
         let shown = restitution;
         let allowed = format!("{LEAST_RESTITUTION} or more for lines that stretch");
@@ -84,18 +84,27 @@ pub fn springs(prepared: &Prepared, stiffer: f64) -> Result<Vec<Spring>, CaseErr
         ));
     }
     let ratio = damping_ratio(restitution);
-    let rest = model.at_rest(prepared.rest.place_m, prepared.rest.theta_rad);
-    let damped = |(spring, cable): (Spring, &snapload::Cable)| {
-        let normal = cable.normal(&rest);
-        // The normal is the span over the line's length, and shorter than 1 where the line is slack.
-        let [x, y] = cable.span(&rest).components();
-        let along = x.hypot(y) / cable.length();
-        let mass = along * along / model.system.body.inverse_effective_mass(&normal);
-        let damping = 2.0 * ratio * (spring.rate * mass).sqrt();
+    let damped = |(line, spring): (usize, Spring)| {
+        let damping = 2.0 * ratio * (spring.rate * prepared.mass_along(line)).sqrt();
         Spring { damping, ..spring }
     };
     let springs = undamped(prepared, stiffer)?.into_iter();
-    Ok(springs.zip(&model.system.cables).map(damped).collect())
+    Ok(springs.enumerate().map(damped).collect())
+}
+
+impl Prepared {
+    /// The mass M/w that a line has to stop where the body rests, in the engine's units.
+    pub(in crate::physics) fn mass_along(&self, line: usize) -> f64 {
+        let (rest, system) = (&self.rest, &self.model.system);
+        let (at, cable) = (
+            self.model.at_rest(rest.place_m, rest.theta_rad),
+            &system.cables[line],
+        );
+        // The normal is the span over the line's length, and shorter than 1 where the line is slack.
+        let [x, y] = cable.span(&at).components();
+        let along = x.hypot(y) / cable.length();
+        along * along / system.body.inverse_effective_mass(&cable.normal(&at))
+    }
 }
 
 /// The same without dampers, which a body at rest does not feel.

@@ -53,6 +53,7 @@ impl Prepared {
             tension_n,
             indeterminate: false,
             shared: None,
+            relaxed_n: None,
         };
         let structure = self.structure.clone();
         // From a start of its own it is compared with lines that do not stretch, in the same waves.

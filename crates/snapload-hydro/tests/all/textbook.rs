@@ -1,0 +1,142 @@
+//! Floating bodies of one section, for which no panel code was run.
+
+use nalgebra::Complex;
+use snapload_hydro::{Report, Request, SectionBody, Shape, Water, Weight, wave_number};
+use std::f64::consts::PI;
+
+fn box_of(half_width_m: f64, draft_m: f64) -> SectionBody {
+    SectionBody {
+        shape: Shape::Rectangle,
+        half_width_m,
+        draft_m,
+        length_m: 20.0,
+        x_m: 0.0,
+        centre_of_gravity_m: [0.0, -0.2],
+    }
+}
+
+fn water(depth_m: f64) -> Water {
+    Water {
+        density_kg_m3: 1025.0,
+        gravity_m_s2: 9.81,
+        depth_m,
+    }
+}
+
+/// The force of a long wave's undisturbed pressure on a box, integrated over its sides and bottom:
+///
+/// ```text
+/// p = ρg cosh k(z + d)/cosh kd · e^{ikx}
+/// ```
+///
+/// Without the added mass the textbook's force tends to it as kb and kT go to zero.
+#[test]
+fn long_waves_push_by_their_pressure() {
+    let (b, t, d, length) = (2.0, 1.2, 10.0, 20.0);
+    let water = water(d);
+    let reading = box_of(b, t).reading(water).expect("a body");
+    let hydro = &reading.hydro;
+    let added = hydro.added_mass_inf.expect("A");
+    let at = |omega: f64| {
+        hydro
+            .excitation_curve(1.0)
+            .expect("to +x")
+            .at(omega)
+            .expect("X")
+    };
+    let part = |omega: f64| {
+        let k = wave_number(omega, d, 9.81);
+        let pressure = |x: f64, z: f64| {
+            let size = 1025.0 * 9.81 * (k * (z + d)).cosh() / (k * d).cosh();
+            Complex::from_polar(size, k * x)
+        };
+        // On the sides n = (±1, 0), on the bottom (0, −1), out of the body; the force is −p n.
+        let steps = 2000;
+        let mut force = [Complex::new(0.0, 0.0); 3];
+        for j in 0..steps {
+            let s = (f64::from(j) + 0.5) / f64::from(steps);
+            let (x, z) = (-b + 2.0 * b * s, -t * s);
+            let up = pressure(x, -t) * (2.0 * b / f64::from(steps) * length);
+            force[1] += up;
+            force[2] -= up * x;
+            for side in [1.0, -1.0] {
+                let along = pressure(side * b, z) * (-side * t / f64::from(steps) * length);
+                force[0] += along;
+                force[2] += along * z;
+            }
+        }
+        // The added mass times the water's acceleration at the middle of the body, (−i a_x, −a_z).
+        let z = -0.5 * t;
+        let a_x = omega * omega * (k * (z + d)).cosh() / (k * d).sinh();
+        let a_z = omega * omega * (k * (z + d)).sinh() / (k * d).sinh();
+        let along = Complex::new(0.0, -a_x);
+        let with_mass = [
+            along * added[(0, 0)],
+            Complex::new(-a_z * added[(1, 1)], 0.0),
+            along * added[(0, 2)],
+        ];
+        let ours = at(omega);
+        (0..3)
+            .map(|i| (ours[i] - with_mass[i] - force[i]).norm() / force[i].norm())
+            .fold(0.0, f64::max)
+    };
+    let [long, longer] = [0.2, 0.1].map(part);
+    assert!(long < 1e-2 && longer < 0.3 * long, "{long} {longer}");
+}
+
+/// Heave swings as ω² = ρg S/(m + A33), and a body that makes no waves has no damping; that is said.
+#[test]
+fn it_swings_without_damping() {
+    let body = box_of(2.0, 1.2);
+    let reading = body.reading(water(f64::INFINITY)).expect("a body");
+    let request = Request {
+        weight: Weight {
+            inertia_kg_m2: Some(1.6e5),
+            ..Weight::default()
+        },
+        ..Request::default()
+    };
+    let report = Report::new("box", reading, &request).expect("a report");
+    let floating = report.floating.as_ref().expect("periods");
+    let heave = floating.natural.iter().find(|natural| natural.freedom == 1);
+    let mass = 1025.0 * 96.0 + report.fit.added_mass_inf[(1, 1)];
+    let omega = (1025.0 * 9.81 * 80.0 / mass).sqrt();
+    assert!((heave.expect("heave").omega_rad_s / omega - 1.0).abs() < 1e-9);
+    assert!(
+        floating
+            .modes
+            .iter()
+            .all(|mode| mode.damping_ratio.abs() < 1e-9)
+    );
+    assert_eq!(report.fit.memory.states(), 0);
+    let warned: Vec<&str> = report.warnings.iter().map(|warning| warning.what).collect();
+    assert!(
+        warned.contains(&"textbook section") && warned.contains(&"ends"),
+        "{warned:?}"
+    );
+    assert!(!warned.contains(&"low frequencies"), "{warned:?}");
+}
+
+/// Half a circle turns about its centre without moving water; it displaces half a cylinder.
+#[test]
+fn half_a_circle_displaces_half_a_cylinder() {
+    let body = SectionBody {
+        shape: Shape::Ellipse,
+        draft_m: 2.0,
+        ..box_of(2.0, 2.0)
+    };
+    let body = body.displacing(0.5 * PI * 4.0 * 30.0);
+    assert!((body.length_m - 30.0).abs() < 1e-12);
+    let reading = body.reading(water(12.0)).expect("a body");
+    let added = reading.hydro.added_mass_inf.expect("A");
+    assert!(added[(2, 2)].abs() < 1e-9 * added[(1, 1)] && added[(0, 2)].abs() < 1e-9);
+    assert!((added[(1, 1)] - 1025.0 * 30.0 * 0.5 * PI * 4.0).abs() < 1e-6);
+    // ρgI + ρgV z_B is nothing: a circle has its metacentre in its middle.
+    let c55 = reading.hydro.hydrostatics.stiffness.expect("C")[(2, 2)];
+    let weight = 1025.0 * 0.5 * PI * 4.0 * 30.0 * 9.81;
+    assert!((c55 - weight * 0.2).abs() < 1e-6 * weight, "{c55}");
+    let too_flat = box_of(20.0, 1.0)
+        .reading(water(12.0))
+        .expect_err("no such rows");
+    assert!(too_flat.to_string().contains("tabulated"), "{too_flat}");
+}
