@@ -164,6 +164,22 @@ def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):
     assert 500 <= exact_time(page) <= 536
 
 
+def test_other_waves_are_a_table_whose_cells_are_run(open_structure):
+    page = open_structure(f"{SHORT}&t=0&elastic=false")
+    waves = {"periods_s": [5, 6], "heights_m": [1.5, 2, 2.5], "cells": [0.4, 0.6, None, 0.3, 0.7, 1.2]}
+    answer = {**waves, "utilisation": True, "length": 60}
+    page.route("**/api/structure/waves", lambda route: route.fulfill(json=answer))
+    page.locator("#waves-run").click()
+    cells = page.locator("#waves td")
+    expect(cells).to_have_text(["×", "1.20", "0.60", "0.70", "0.40", "0.30"])
+    expect(page.locator("#waves td[aria-current]")).to_have_text("0.70")
+    page.locator('#waves td[tabindex="0"]').focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    expect(page.locator('[id="field-wave.height"]')).to_have_value("2.5")
+    expect(page.locator("#waves td[aria-current]")).to_have_text("1.20")
+
+
 def test_answers_are_pinned_and_compared_in_words(open_structure):
     page = open_structure(f"{SHORT}&t=0&elastic=false")
     page.keyboard.press("p")
@@ -196,4 +212,6 @@ def test_the_page_of_a_structure_is_for_everyone(open_structure, viewport, schem
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
     result = Axe().run(page)
     assert result.violations_count == 0, result.generate_report()
+    page.emulate_media(forced_colors="active")
+    assert page.locator("#scene").evaluate("one => getComputedStyle(one).forcedColorAdjust") == "none"
     assert "m, turned by" in page.locator("#scene").get_attribute("aria-label")

@@ -267,7 +267,7 @@ export class Controls {
 /** A number that was computed, as short as it is read. */
 function rounded(value) {
   if (typeof value !== "number") return plain(value);
-  const [mantissa, exponent] = value.toExponential(3).split("e");
+  const [mantissa, exponent] = value.toExponential(2).split("e");
   return Math.abs(value) < 1e6 ? plain(Number(value.toPrecision(6))) : `${Number(mantissa)}e${Number(exponent)}`;
 }
 

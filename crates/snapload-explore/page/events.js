@@ -70,14 +70,19 @@ export class EventTable {
       row.querySelector(".go").tabIndex = here || (!onPage && row === this.body.rows[0]) ? 0 : -1;
       if (here) row.setAttribute("aria-current", "true");
       else row.removeAttribute("aria-current");
-      const box = this.body.closest(".scroll");
-      if (
-        here &&
-        (row.offsetTop < box.scrollTop || row.offsetTop + row.offsetHeight > box.scrollTop + box.clientHeight)
-      ) {
-        box.scrollTop = row.offsetTop - box.clientHeight / 2;
-      }
+      if (here) this.#bringIntoSight(row);
     }
+  }
+
+  /** Asking where a row is has the page laid out: in its own frame, not while a picture is waited for. */
+  #bringIntoSight(row) {
+    requestAnimationFrame(() => {
+      const box = this.body.closest(".scroll");
+      const [top, bottom] = [row.offsetTop, row.offsetTop + row.offsetHeight];
+      if (top < box.scrollTop || bottom > box.scrollTop + box.clientHeight) {
+        box.scrollTop = top - box.clientHeight / 2;
+      }
+    });
   }
 
   #fill() {

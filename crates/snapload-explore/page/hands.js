@@ -12,6 +12,21 @@ const LEAST_A = 0.01;
 
 const rounded = (value, decimals) => Number(value.toFixed(decimals));
 
+/** The place of a body, turned by so much, that is nearest to one and within reach of its lines, by a little. */
+export function withinReach(lines, [x, y], theta, clear) {
+  for (let i = 0; i < ROUNDS; i += 1) {
+    for (const { anchor, arm, length } of lines) {
+      const [px, py] = turned(arm, { x, y, theta });
+      const [dx, dy] = [px - anchor[0], py - anchor[1]];
+      const over = Math.hypot(dx, dy) - (length - clear);
+      if (over <= 0) continue;
+      x -= (over * dx) / Math.hypot(dx, dy);
+      y -= (over * dy) / Math.hypot(dx, dy);
+    }
+  }
+  return [x, y];
+}
+
 export class Hands {
   /**
    * On the canvas of a stage. `onChange({ settled })` follows a change of values, `onLetGo` a body that was let go.
@@ -123,18 +138,8 @@ export class Hands {
 
   /** A start at rest with the rotation that the body has, as near to a place as the cables allow. */
   #start(run, { theta }, place) {
-    let [x, y] = place;
     const rigid = run.geometry.body.kind === "rigid";
-    for (let i = 0; i < ROUNDS; i += 1) {
-      for (const { anchor, arm, length } of run.geometry.cables) {
-        const [px, py] = turned(arm, { x, y, theta });
-        const [dx, dy] = [px - anchor[0], py - anchor[1]];
-        const over = Math.hypot(dx, dy) - (length - CLEAR);
-        if (over <= 0) continue;
-        x -= (over * dx) / Math.hypot(dx, dy);
-        y -= (over * dy) / Math.hypot(dx, dy);
-      }
-    }
+    const [x, y] = withinReach(run.geometry.cables, place, theta, CLEAR);
     const start = { x: rounded(x, 4), y: rounded(y, 4), vx: 0, vy: 0 };
     return rigid ? { ...start, theta: rounded(theta, 4), vtheta: 0 } : start;
   }

@@ -28,6 +28,16 @@ function line(name, scale = 1) {
   };
 }
 
+/**
+ * A range that is no smaller than what is seen of a motion: rounding is none.
+ * @param {number} least
+ * @param {number[]} range
+ */
+function atLeast(least, [low, high]) {
+  const more = Math.max(least - (high - low), 0) / 2;
+  return [low - more, high + more];
+}
+
 const both = (run, name) => [run.motion[name], ...(run.elasticAt ? [run.elastic.motion[name]] : [])];
 
 function drawSurface(context, frame, run, { colours }) {
@@ -103,7 +113,7 @@ export function snapWords(run, i) {
   const what = jolt[i] ? "jolt of" : "snap of";
   const pulls = peak[i] === null ? "" : ` · about ${round(peak[i])} kN`;
   const part = utilisation[i] === null ? "" : `, ${fixed(utilisation[i], 2)} of breaking`;
-  return `${what} line ${lines[i]} · t ${fixed(t[i], 2)} s · ${number(speed[i], 3)} m/s${pulls}${part}`;
+  return `${what} line ${lines[i]}${pulls}${part} · ${number(speed[i], 3)} m/s · t ${fixed(t[i], 2)} s`;
 }
 
 const CHARTS = [
@@ -127,7 +137,7 @@ const CHARTS = [
     symbol: "x",
     unit: "m",
     name: "Sway",
-    range: (run) => span(both(run, "x")),
+    range: (run) => atLeast(0.01, span(both(run, "x"))),
     draw: line("x"),
     value: (moment) => moment.x,
     read: (run, moment) => `${fixed(moment.x, 3)} m`,
@@ -138,7 +148,7 @@ const CHARTS = [
     symbol: "z",
     unit: "m",
     name: "Heave",
-    range: (run) => span(both(run, "z")),
+    range: (run) => atLeast(0.01, span(both(run, "z"))),
     draw: line("z"),
     value: (moment) => moment.y,
     read: (run, moment) => `${fixed(moment.y, 3)} m`,
@@ -149,7 +159,7 @@ const CHARTS = [
     symbol: "θ",
     unit: "°",
     name: "Rotation",
-    range: (run) => span(both(run, "theta")).map((v) => v * DEGREES),
+    range: (run) => atLeast(0.1, span(both(run, "theta")).map((v) => v * DEGREES)),
     draw: line("theta", DEGREES),
     value: (moment) => moment.theta * DEGREES,
     read: (run, moment) => `${fixed(moment.theta * DEGREES, 2)}°`,

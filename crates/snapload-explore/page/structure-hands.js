@@ -1,10 +1,12 @@
 // Hands on a structure: its body is pulled and let go, anchors and fairleads are moved, in metres.
 
-import { Hands } from "./hands.js";
+import { Hands, withinReach } from "./hands.js";
 import { turned } from "./scene.js";
 
 /** How near a pointer has to be [px]. */
 const REACH = { fairlead: 9, anchor: 14, body: 12 };
+/** A start keeps so far from the end of its lines that rounding to the centimetre leaves it legal. */
+const CLEAR_M = 0.015;
 const near = (value) => Number(value.toFixed(2));
 /** @param {number[]} place */
 const pair = ([x, z]) => `[${near(x)}, ${near(z)}]`;
@@ -30,7 +32,7 @@ export class StructureHands extends Hands {
     const [kind, line] = what.split(".");
     const [x, z] = cam.unplace(kind === "body" ? [px[0] - offset[0], px[1] - offset[1]] : px);
     const values = {
-      body: () => ({ "run.start": pair([x, z]) }),
+      body: () => ({ "run.start": pair(withinReach(run.geometry.lines, [x, z], 0, CLEAR_M)) }),
       anchor: () => ({ [`line.${line}.anchor`]: pair([x, z]) }),
       fairlead: () => ({ [`line.${line}.fairlead`]: pair(this.#fairlead(run, moment, [x, z])) }),
     }[kind]();

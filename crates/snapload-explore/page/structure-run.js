@@ -34,6 +34,14 @@ export class StructureMotion {
   }
 }
 
+/** What the keys of a line come to. */
+const ofLine = (line) => ({
+  stiffness: line.stiffness_n,
+  spring_rate: line.stiffness_n && line.stiffness_n / line.length_m,
+  mass_per_length: line.mass_per_length_kg_m,
+  breaking_load: line.breaking_load_n,
+});
+
 export class StructureRun {
   /** What the server answers. @type {any} */
   assessment;
@@ -73,7 +81,10 @@ export class StructureRun {
     const { x, z, tensions } = answer.motion;
     this.reach = { x: ends(x), z: ends(z) };
     this.mostTension = tensions.reduce((most, column) => Math.max(most, ends(column)[1]), 0);
-    this.hardest = answer.snaps.t.reduce((most, _, i) => Math.max(most, this.hardness(i)), 0);
+    const { utilisation, peak, speed } = answer.snaps;
+    // One measure for all: the part of the breaking load, else the tension, else the speed.
+    this.hardness = [utilisation, peak].find((column) => !column.includes(null)) ?? speed;
+    this.hardest = this.hardness.reduce((most, value) => Math.max(most, value), 0);
   }
 
   /** Shows lines that stretch beside. */
@@ -129,15 +140,10 @@ export class StructureRun {
     return found;
   }
 
-  /** How hard a snap is: its part of the breaking load, else its tension, else its speed; and what that is called. */
-  hardness(i) {
-    const { utilisation, peak, speed } = this.snaps;
-    return utilisation[i] ?? peak[i] ?? speed[i];
-  }
-
   /** What keys come to that the case leaves out, as far as the answer tells. */
   effective(state) {
     const { body } = this.assessment;
+    /** @type {[string, any][]} */
     const lines = this.lines.map((line, i) => [`line.${i + 1}`, line]);
     const all = [
       ["run.duration", this.lasts_s],
@@ -145,12 +151,11 @@ export class StructureRun {
       ["body.moment_of_inertia", body.moment_of_inertia_kg_m2],
       ["body.added_mass", `[${[...body.added_mass_kg, body.added_inertia_kg_m2].map((v) => number(v, 6)).join(", ")}]`],
       ["body.height", this.geometry.height],
-      ...[["line", this.lines[0]], ...lines].flatMap(([path, line]) => [
-        [`${path}.stiffness`, line.stiffness_n],
-        [`${path}.spring_rate`, line.stiffness_n && line.stiffness_n / line.length_m],
-        [`${path}.mass_per_length`, line.mass_per_length_kg_m],
-        [`${path}.breaking_load`, line.breaking_load_n],
-      ]),
+      ...lines.flatMap(([path, line]) => Object.entries(ofLine(line)).map(([key, value]) => [`${path}.${key}`, value])),
+      // Of all lines at once only what they share.
+      ...Object.entries(ofLine(this.lines[0]))
+        .filter(([key, value]) => this.lines.every((line) => ofLine(line)[key] === value))
+        .map(([key, value]) => [`line.${key}`, value]),
     ];
     return Object.fromEntries(all.filter(([name, value]) => value !== null && state.value(name) === null));
   }

@@ -204,7 +204,7 @@ function lineShapes(run, i, moment, cam, { colours }, snaps) {
 }
 
 /** How large a snap is drawn: small ones are seen beside the hardest. */
-const snapPart = (run, i) => Math.sqrt(Math.min(run.hardness(i) / (run.hardest || 1), 1));
+const snapPart = (run, i) => Math.sqrt(Math.min(run.hardness[i] / (run.hardest || 1), 1));
 
 function snapShapes(run, { i, line, left }, moment, cam, { colours, still, width }) {
   const { arm, anchor } = run.geometry.lines[line - 1];

@@ -69,7 +69,7 @@ export function tellRules(run) {
   const rows = checks.map((check) => {
     const of = check.line ? `line ${check.line}` : "body";
     const value = check.value === null ? "not known" : fixed(check.value, 3);
-    return `<li class="${check.answer}"><b>${check.answer}</b> ${of}: ${escape(check.words)}
+    return `<li class="${check.answer}"><b>${escape(check.answer_in_words)}</b> ${of}: ${escape(check.words)}
       ${number(check.limit)}: ${value}</li>`;
   });
   const heard = run.rebound ? `<p class="small">${sentence(run.rebound)}</p>` : "";
@@ -82,7 +82,7 @@ export function tellRules(run) {
 /** The hardest snaps; each row leads to its instant. */
 export function tellSnaps(run) {
   const { t, line, speed, peak, utilisation, jolt, all } = run.snaps;
-  const order = t.map((_, i) => i).sort((a, b) => run.hardness(b) - run.hardness(a));
+  const order = t.map((_, i) => i).sort((a, b) => run.hardness[b] - run.hardness[a]);
   const judged = (i) => t[i] >= run.transient_s;
   const some = [...order.filter(judged).slice(0, LISTED), ...order.filter((i) => !judged(i)).slice(0, EARLY)];
   const hardest = some.sort((a, b) => t[a] - t[b]);

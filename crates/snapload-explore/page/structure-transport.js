@@ -88,7 +88,7 @@ export class StructureTransport extends Transport {
     let held = null;
     const put = () => {
       if (!held) return;
-      const high = (height - 6) * Math.sqrt(run.hardness(held.i) / (run.hardest || 1));
+      const high = (height - 6) * Math.sqrt(run.hardness[held.i] / (run.hardest || 1));
       context.fillStyle = lineColour(paints, run.snaps.line[held.i]);
       context.fillRect(held.px - 0.6, height - 5 - high, 1.2, high);
     };
@@ -96,7 +96,7 @@ export class StructureTransport extends Transport {
       if (t < from || t > to) return;
       const px = x(t);
       if (held && px - held.px < APART_PX) {
-        if (run.hardness(i) > run.hardness(held.i)) held.i = i;
+        if (run.hardness[i] > run.hardness[held.i]) held.i = i;
         return;
       }
       put();

@@ -19,6 +19,7 @@ import { StructureStage } from "./structure-stage.js";
 import { StructureState } from "./structure-state.js";
 import { tellLines, tellRules, tellSnaps } from "./structure-tell.js";
 import { StructureTransport } from "./structure-transport.js";
+import { StructureWaves } from "./structure-waves.js";
 import { Take } from "./take.js";
 import { fixed, round } from "./words.js";
 
@@ -72,6 +73,12 @@ class Page {
       picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
     });
     this.pins = new StructurePins(this.state, () => this.run, { onBack: (pin) => this.back(pin) });
+    this.waves = new StructureWaves(this.state, {
+      onPick: (values) => {
+        this.state.setValues(values);
+        this.link.write({ now: true });
+      },
+    });
     this.runner = new Runner({
       path: "api/structure/run",
       onAnswer: (answer, since, question) => this.take(answer, since, question),
@@ -227,6 +234,7 @@ class Page {
       radio.checked = radio.value === waterNow;
     }
     $("elastic").checked = elastic;
+    this.waves.follow();
     $("elastic-key").hidden = !this.run?.elasticAt;
     for (const group of document.querySelectorAll(".group[data-water]")) {
       /** @type {HTMLElement} */ (group).hidden = /** @type {HTMLElement} */ (group).dataset.water !== waterNow;

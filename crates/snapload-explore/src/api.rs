@@ -62,6 +62,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         )
         .route("/api/structure/run", post(answer_structure_run))
         .route("/api/structure/elastic", post(answer_structure_elastic))
+        .route("/api/structure/waves", post(answer_structure_waves))
         .route(
             "/api/structure/export/{name}",
             post(answer_structure_export),
@@ -179,6 +180,18 @@ async fn answer_structure_elastic(
     let workers = Arc::clone(&shared.workers);
     let answer = compute(&workers, move |allowance| {
         structure::elastic(&request, shared.opened.as_ref(), &shared.latest, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_structure_waves(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<structure::WavesRequest>,
+) -> Result<impl IntoResponse, Refusal> {
+    let mappers = Arc::clone(&shared.mappers);
+    let answer = compute(&mappers, move |allowance| {
+        structure::waves(&request, shared.opened.as_ref(), allowance)
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))

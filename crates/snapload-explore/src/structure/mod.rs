@@ -10,6 +10,7 @@ mod motion;
 mod opened;
 mod run;
 mod schema;
+mod waves;
 
 pub(crate) use elastic::{Request as ElasticRequest, answer as elastic};
 pub(crate) use export::{File, Request as ExportRequest};
@@ -17,6 +18,7 @@ pub(crate) use opened::File as CaseFile;
 pub use opened::Opened;
 pub(crate) use run::{Request as RunRequest, answer as run};
 pub(crate) use schema::{opened, schema};
+pub(crate) use waves::{Request as WavesRequest, answer as waves};
 
 use snapload_structure::{Assessment, BothModels};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -44,6 +44,9 @@ impl Numbers {
     }
 }
 
+/// The case of a structure, for a few seconds.
+const STRUCTURE: &str = r#"{"name":"a.toml","text":"[body]\nmass=1000\ndisplaced_volume=2\nwidth=1\nposition=[0,-3]\n[[line]]\nanchor=[0,-10]\nfairlead=[0,-3.5]\nlength=6.4\n[site]\ndepth=10\n[wave]\nheight=1\nperiod=5\n[run]\nrestitution=0.5\nduration=5\n"}"#;
+
 /// Panics of any thread, counted by the hook.
 static PANICS: AtomicUsize = AtomicUsize::new(0);
 
@@ -124,6 +127,9 @@ fn random_bytes(server: &Running) {
 
 fn mutated_requests(server: &Running) {
     let kind = "Content-Type: application/json\r\n";
+    let asked = format!(
+        r#"{{"case":{{"file":{STRUCTURE},"set":["wave.height=1.5"],"water":"wave"}},"window":[1,3]}}"#
+    );
     let map = r#"{"values":{},"x":{"key":"f_o","low":0.1,"high":0.2,"count":2},"y":{"key":"e","low":0.5,"high":1,"count":2}}"#;
     let requests = [
         server.request("GET", "/", "", ""),
@@ -135,6 +141,9 @@ fn mutated_requests(server: &Running) {
             r#"{"values":{"f_o":0.31},"ghost":1e-6,"samples":50}"#,
         ),
         server.request("POST", "/api/map", kind, map),
+        server.request("POST", "/api/structure", kind, STRUCTURE),
+        server.request("POST", "/api/structure/run", kind, &asked),
+        server.request("POST", "/api/structure/elastic", kind, &asked),
         server.request(
             "POST",
             "/api/export/modes.csv",

@@ -4,7 +4,7 @@ use crate::common::{Running, serve_structure};
 use serde_json::{Value, json};
 use snapload::Entries;
 use snapload::analysis::unwatched;
-use snapload_structure::{Prepared, STRUCTURE, Structure, assess, both_models};
+use snapload_structure::{Prepared, STRUCTURE, Structure, Water, Wave, assess, both_models};
 
 /// A cylinder on two lines of chain, for a minute and a half of a wave.
 const CYLINDER: &str = r#"
@@ -257,4 +257,31 @@ fn the_design_note_is_of_the_case_that_is_shown() {
         server.post("/api/structure/export/x.html", &case).status,
         404
     );
+}
+
+#[test]
+fn other_waves_are_those_of_the_note() {
+    let told = ask(&serve(), "/api/structure/waves", json!({ "case": {} }));
+    let (heights, periods) = (numbers(&told["heights_m"]), numbers(&told["periods_s"]));
+    let cells = told["cells"].as_array().unwrap();
+    assert_eq!(cells.len(), heights.len() * periods.len());
+    assert_eq!(told["utilisation"], true);
+    // The wave of the case is among them, run for as many periods.
+    let own = |values: &[f64], value: f64| {
+        let apart = |v: &f64| (v - value).abs() < 1e-9;
+        values.iter().position(apart).unwrap()
+    };
+    let (i, j) = (own(&periods, 6.0), own(&heights, 2.0));
+    let mut same = structure(&[]);
+    same.duration_s = told["length"].as_f64().unwrap() * periods[i];
+    same.water = Water::Wave(Wave {
+        height_m: heights[j],
+        period_s: periods[i],
+    });
+    let direct = assess(same, 0, &unwatched).unwrap();
+    let largest = direct.outcome.utilisations(&structure(&[]));
+    let largest = largest.into_iter().flatten().fold(0.0, f64::max);
+    assert_eq!(cells[i * heights.len() + j].as_f64(), Some(largest));
+    let sea = json!({ "case": { "water": "still" } });
+    assert_eq!(serve().post("/api/structure/waves", &sea).status, 422);
 }

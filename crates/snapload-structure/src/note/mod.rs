@@ -4,7 +4,7 @@
 mod layout;
 mod plots;
 
-pub use crate::runs::scan::{Scan, scan};
+pub use crate::runs::scan::{LENGTH, Scan, scan};
 pub use plots::window;
 
 use crate::physics::gumbel::{Estimate, Gumbel};
@@ -15,7 +15,6 @@ use crate::physics::warnings::Warning;
 use crate::report::{Standing, Verdict, end_words};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
-use crate::runs::scan::LENGTH;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Outline, Structure, Water};
 use askama::Template;

@@ -80,6 +80,7 @@ impl Assessment {
         let checks = self.checks().into_iter().map(|(check, agreeing)| {
             let mut row = json!(check);
             row["words"] = json!(check.criterion.words());
+            row["answer_in_words"] = json!(check.answer.words());
             row["neighbours_agreeing"] = json!(agreeing);
             row
         });

@@ -11,7 +11,7 @@ const PERIODS: [f64; 2] = [2.0 / 3.0, 7.0 / 6.0];
 /// The number of heights, and of periods.
 const STEPS: u32 = 10;
 /// The number of periods of each wave that are computed.
-pub(crate) const LENGTH: f64 = 60.0;
+pub const LENGTH: f64 = 60.0;
 
 /// What the structure does in waves about those of its case.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,102 @@
+// The same structure in regular waves of other heights and periods, as a table that the arrow keys go through.
+
+import { fetchLong } from "./api.js";
+import { $ } from "./dom.js";
+import { fixed, number } from "./words.js";
+
+export class StructureWaves {
+  /** `onPick` is told of a wave that is to be run. */
+  constructor(state, { onPick }) {
+    this.state = state;
+    this.onPick = onPick;
+    this.abort = null;
+    $("waves-run").addEventListener("click", () => this.compute());
+    const table = $("waves");
+    table.addEventListener("click", (event) => this.#pick(event.target.closest("td")));
+    table.addEventListener("keydown", (event) => this.#step(event));
+  }
+
+  /** Other values have another table; what is shown stays until it is computed again. */
+  follow() {
+    $("waves-box").hidden = this.state.waterNow !== "wave";
+    const stale = this.asked !== undefined && this.asked !== this.#key;
+    $("waves-run").disabled = this.abort !== null;
+    $("waves").classList.toggle("stale", stale);
+    $("waves-run").textContent = this.asked === undefined ? "Compute" : "Compute again";
+    for (const cell of document.querySelectorAll("#waves td")) {
+      const { height, period } = /** @type {HTMLElement} */ (cell).dataset;
+      const here = Number(height) === this.#value("height") && Number(period) === this.#value("period");
+      if (here) cell.setAttribute("aria-current", "true");
+      else cell.removeAttribute("aria-current");
+    }
+  }
+
+  #value(key) {
+    return Number(this.state.value(`wave.${key}`));
+  }
+
+  /** What the table is of: all but the wave itself, which is in it. */
+  get #key() {
+    const { set, ...rest } = this.state.asked;
+    return JSON.stringify([rest, set.filter((change) => !/^wave\.(height|period)=/.test(change))]);
+  }
+
+  async compute() {
+    const asked = this.#key;
+    this.abort = new AbortController();
+    $("waves-said").textContent = "computing a hundred waves…";
+    this.follow();
+    try {
+      const answer = await fetchLong("api/structure/waves", { case: this.state.asked }, this.abort.signal);
+      this.asked = asked;
+      this.#tell(answer);
+    } catch (error) {
+      $("waves-said").textContent = error.message;
+    }
+    this.abort = null;
+    this.follow();
+  }
+
+  #tell({ periods_s, heights_m, cells, utilisation, length }) {
+    const what = utilisation ? "Largest utilisation" : "Fastest snap [m/s]";
+    $("waves-said").textContent =
+      `${what} in waves run for ${length} periods each; × fails or can not be run. Single cells are uneven: read regions. ` +
+      "A click runs a wave.";
+    const plainly = (value) => Number(value.toPrecision(3));
+    const cell = (i, j) => {
+      const value = cells[i * heights_m.length + j];
+      const wave = `data-height="${plainly(heights_m[j])}" data-period="${plainly(periods_s[i])}"`;
+      const kind = value === null ? "fails" : !utilisation ? "" : value >= 1 ? "breaks" : value >= 0.5 ? "near" : "";
+      return `<td tabindex="-1" class="${kind}" ${wave}>${value === null ? "×" : fixed(value, 2)}</td>`;
+    };
+    const rows = heights_m.map((height, j) => {
+      const row = periods_s.map((_, i) => cell(i, j)).join("");
+      return `<tr><th scope="row">${number(height, 3)}</th>${row}</tr>`;
+    });
+    const head = periods_s.map((period) => `<th scope="col">${number(period, 3)}</th>`).join("");
+    $("waves").innerHTML = `<thead><tr><th scope="col">H [m] \\ T [s]</th>${head}</tr></thead><tbody>${rows.reverse().join("")}</tbody>`;
+    $("waves").querySelector("td").tabIndex = 0;
+  }
+
+  #pick(cell) {
+    if (!cell) return;
+    const { height, period } = cell.dataset;
+    this.onPick({ "wave.height": Number(height), "wave.period": Number(period) });
+  }
+
+  /** One cell takes the tab key; the arrow keys go from cell to cell, Enter runs one. */
+  #step(event) {
+    const cell = event.target.closest("td");
+    if (!cell) return;
+    if (event.key === "Enter") return this.#pick(cell);
+    const [across, down] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1] }[event.key] ?? [];
+    if (across === undefined) return;
+    event.preventDefault();
+    const row = cell.parentElement;
+    const next = $("waves").rows[row.rowIndex + down]?.cells[cell.cellIndex + across];
+    if (!next || next.tagName !== "TD") return;
+    cell.tabIndex = -1;
+    next.tabIndex = 0;
+    next.focus();
+  }
+}

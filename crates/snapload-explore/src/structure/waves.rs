@@ -1,0 +1,54 @@
+//! `/api/structure/waves`: the same structure in regular waves of other heights and periods.
+use super::opened::{Asked, Opened};
+use super::run::too_long;
+use crate::refusal::Refusal;
+use crate::work::Allowance;
+use serde::{Deserialize, Serialize};
+use snapload::analysis::{Progress, Unfinished};
+use snapload_structure::note;
+use std::time::Duration;
+
+/// What they may take together.
+const BUDGET: Duration = Duration::from_secs(120);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    case: Asked,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    periods_s: Vec<f64>,
+    heights_m: Vec<f64>,
+    /// For the first period all heights, then for the next.
+    cells: Vec<Option<f64>>,
+    /// Whether cells are the largest utilisation; else the fastest snap \[m/s\].
+    utilisation: bool,
+    /// The number of periods of each wave that are run.
+    length: f64,
+}
+
+/// The answer, as JSON.
+pub(crate) fn answer(
+    request: &Request,
+    start: Option<&Opened>,
+    allowance: &Allowance,
+) -> Result<Vec<u8>, Refusal> {
+    let case = request.case.read(start)?;
+    let allowance = allowance.within(BUDGET);
+    let go_on = |progress: Progress| allowance.go_on(progress);
+    let scan = note::scan(&case.structure, &go_on)
+        .map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?
+        .ok_or_else(|| Refusal::values("other waves are compared with a regular wave"))?;
+    let lines = &case.structure.lines;
+    let answer = Answer {
+        periods_s: scan.periods_s,
+        heights_m: scan.heights_m,
+        cells: scan.cells,
+        utilisation: case.structure.tensions_known()
+            && lines.iter().all(|line| line.breaking_load_n.is_some()),
+        length: note::LENGTH,
+    };
+    serde_json::to_vec(&answer).map_err(Refusal::failed)
+}
