@@ -57,6 +57,6 @@ mod _engine {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("MAX_CABLES", snapload::MAX_CABLES)?;
         module.add("ATTRACTOR_PERIODS", snapload_orbits::ATTRACTOR_PERIODS)?;
-        module.add("MOST_DIGITS", snapload::analysis::MOST_DIGITS)
+        module.add("MOST_DIGITS", snapload_verify::MOST_DIGITS)
     }
 }

@@ -15,7 +15,7 @@ use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
 use snapload::analysis::{
     Cancelled, Counter, Ensemble, Progress, Sensitivity, Slope, Uncertainty, record, sensitivity,
-    unwatched, verify as verify_run,
+    unwatched,
 };
 use snapload::{CaseError, ModeInterval, Playback, Trajectory, Value};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
@@ -23,6 +23,7 @@ use snapload_report::{
     CaseEcho, EndRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow, TrustRow, Trusted,
     Verified, VerifiedRow, summary, summary_lines, trust_in_words,
 };
+use snapload_verify::verify as verify_run;
 use std::collections::HashMap;
 use std::iter::{once, repeat};
 use std::sync::Arc;

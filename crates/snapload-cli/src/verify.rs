@@ -5,8 +5,9 @@ use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::uncertainty::ToleranceArgs;
-use snapload::analysis::{MOST_DIGITS, Progress, verify};
+use snapload::analysis::Progress;
 use snapload_report::{Verified, case_in_words};
+use snapload_verify::{MOST_DIGITS, verify};
 use std::fmt::Write;
 
 const EXAMPLES: &str = "\

@@ -3,7 +3,8 @@ use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
 use serde::Serialize;
 use snapload::Stop;
-use snapload::analysis::{ExactImpact, Uncertainty, Verification, sensitivity};
+use snapload::analysis::{Uncertainty, sensitivity};
+use snapload_verify::{ExactImpact, Verification};
 use std::fmt::Write;
 
 /// An ordinary run beside the same run with many digits.

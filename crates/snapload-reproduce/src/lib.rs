@@ -7,7 +7,6 @@
 mod claims;
 mod critical_row;
 mod figures;
-mod many_digits;
 mod page;
 mod proved;
 mod reading;

@@ -219,7 +219,7 @@ pub fn proofs() -> Result<String, CaseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::many_digits::Run;
+    use snapload_verify::Run;
 
     /// Some of the proofs that are kept come out the same again; and the run of 76 digits is theirs.
     #[test]

@@ -1,7 +1,6 @@
 //! Every run that the report needs, each computed once.
 
 use crate::critical_row::CriticalRow;
-use crate::many_digits::Run;
 use crate::proved::Proved;
 pub(crate) use crate::reading::{Both, Reading};
 use crate::reading::{first_exceeding, standard, up_to_exceeding};
@@ -9,6 +8,7 @@ use snapload::analysis::{
     ForceScan, OnProgress, Progress, Uncertainty, Unfinished, in_parallel, trusted_run, unwatched,
 };
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, Value, named_case, table_6_1};
+use snapload_verify::Run;
 
 /// A built-in case, its runs, and what is proved of them.
 #[derive(Clone, Debug)]

@@ -57,7 +57,7 @@ fn two_attractors_share_the_starts() {
     let window = Window {
         base,
         keys: ["x", "y"],
-        values: [vec![-0.1, 0.0, 0.1], vec![0.2, 0.5, 0.65]],
+        values: [vec![-0.1, 0.0, 0.1], vec![0.2, 0.425, 0.65]],
     };
     let found = Attraction::of(window, 200, &unwatched).unwrap();
     let symbols: Vec<_> = found

@@ -1,7 +1,7 @@
 //! What is read from a run: its end, its swings, its clear impacts, and what pushes the body.
 
-use crate::many_digits::Run;
 use snapload::{End, Impact, State, Stop, System};
+use snapload_verify::Run;
 
 /// Whether a run left the range: rotation limit or upper bound.
 pub(super) fn exceeds(run: &Run) -> bool {

@@ -4,11 +4,11 @@ use super::numbers::between;
 use super::verdict::{Finding, Verdict};
 use crate::ReportError;
 use crate::critical_row::CriticalRow;
-use crate::many_digits::Run;
 use crate::reading::first_exceeding;
 use crate::study::{CaseRuns, LARGEST, Reading, Study};
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{Case, CaseError, Outcome, Parameters, Trajectory, table_6_1};
+use snapload_verify::Run;
 
 /// How far the neighbours of a start are from it.
 const NEAR: f64 = 1e-12;

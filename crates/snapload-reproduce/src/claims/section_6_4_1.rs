@@ -10,11 +10,11 @@ use super::numbers::{falling, marked_over_others, max, min, span};
 use super::runs::{MANY, Tabled, case, chapter, measured, near, of_runs};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
-use crate::many_digits::Run;
 use crate::proved::{Proved, over_force, restitutions, with_restitution};
 use crate::reading::first_exceeding;
 use snapload::analysis::{ForceScan, in_parallel};
 use snapload::{CaseError, Parameters, Stop};
+use snapload_verify::Run;
 use std::f64::consts::TAU;
 
 /// Checks the claims of this section.

@@ -10,9 +10,9 @@ use super::numbers::{count, falling, max, mean, mean_and_deviation, min, span, s
 use super::runs::{MANY, case, chapter, near, of_exact_runs, run, standard, table_codes};
 use super::verdict::{Claim, Finding, Judged, Judges, Verdict, ask};
 use crate::ReportError;
-use crate::many_digits::Run;
 use crate::study::Study;
 use snapload::{CaseError, Impact, Norms, Parameters, Stop};
+use snapload_verify::Run;
 use std::f64::consts::FRAC_PI_2;
 
 /// Checks the claims of the section.

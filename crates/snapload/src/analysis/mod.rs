@@ -11,7 +11,6 @@ mod progress;
 mod sensitivity;
 mod threads;
 mod trust;
-mod verify;
 
 pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use digits::digits_within;
@@ -29,4 +28,3 @@ pub use trust::{
     Certainty, Graze, Horizon, HorizonCause, START_KEYS, Trust, TrustMonitor, UNCERTAIN_KEYS,
     Uncertainty, trusted_run,
 };
-pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};

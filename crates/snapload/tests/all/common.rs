@@ -199,20 +199,3 @@ pub fn determinant(a: &Square) -> f64 {
 pub fn unending(system: System, t: f64, start: State) -> Simulation {
     Simulation::new(system, Rules::until(t + 1e6), t, start).expect("a legal start")
 }
-
-/// The keys of a case of the oracle's files.
-pub fn keys_of_oracle(truth: &Value) -> impl Iterator<Item = (&'static str, snapload::Value)> {
-    let keys = [
-        ("r", "r"),
-        ("e", "e"),
-        ("a", "a"),
-        ("b", "b"),
-        ("f_o", "f0"),
-        ("nu", "nu"),
-        ("omega", "Om"),
-    ];
-    keys.into_iter().filter_map(|(ours, theirs)| {
-        let value = truth["params"].get(theirs)?;
-        Some((ours, snapload::Value::Number(number(value))))
-    })
-}

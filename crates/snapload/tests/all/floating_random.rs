@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
-    Body, Cable, Excitation, Exponential, Floating, Forcing, Harmonic, Matrix3, Precise, Rules,
-    Shape, Simulation, State, Steps, System, Trajectory,
+    Body, Cable, Excitation, Exponential, Floating, Forcing, Harmonic, Matrix3, Rules, Shape,
+    Simulation, State, System, Trajectory,
 };
 
 /// Numbers without order, evenly between −1 and 1, the same for every run (SplitMix64).
@@ -307,40 +307,6 @@ fn water_that_does_nothing_leaves_the_submerged_body() {
             assert!((ours.impulse - known.impulse).abs() < 1e-10);
         }
     }
-}
-
-/// The first impact, if there is one, and the state at the end of a motion.
-fn first_impact_and_end<T: Steps>(system: &System, start: &State, end: f64) -> Vec<f64> {
-    let over = system.map(T::from_f64);
-    let state = State::from_components(start.components().map(T::from_f64));
-    let rules = Rules::until(T::from_f64(end));
-    let mut simulation = Simulation::new(over, rules, T::ZERO, state).expect("legal");
-    let mut numbers = Vec::new();
-    while let Some(step) = simulation.step() {
-        if let (true, Some(impact)) = (numbers.is_empty(), step.impacts().next()) {
-            numbers.extend([impact.t, impact.v_n, impact.impulse].map(T::to_f64));
-        }
-    }
-    numbers.extend(simulation.state().components().map(T::to_f64));
-    numbers.extend(simulation.memory_force().map(T::to_f64));
-    numbers
-}
-
-/// Doubles against the same motion with 76 digits.
-#[test]
-fn many_digits_find_the_same_motion() {
-    let mut impacts = 0;
-    for seed in [0, 5] {
-        let (system, start) = Random(seed).body(1);
-        let ours = first_impact_and_end::<f64>(&system, &start, 0.4);
-        let exact = first_impact_and_end::<Precise<4>>(&system, &start, 0.4);
-        assert_eq!(ours.len(), exact.len(), "seed {seed}");
-        for (ours, exact) in ours.iter().zip(&exact) {
-            assert!((ours - exact).abs() < 1e-13, "seed {seed}: {ours} {exact}");
-        }
-        impacts += usize::from(ours.len() > 9);
-    }
-    assert!(impacts > 0);
 }
 
 proptest! {

@@ -2,7 +2,7 @@
 
 use snapload::analysis::{
     Cancelled, Certainty, Counter, CriticalForce, Ensemble, ExceedanceCurve, ForceScan, OnProgress,
-    Progress, Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched, verify,
+    Progress, Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched,
 };
 use snapload::{
     Case, Lanes, Outcome, Parameters, Simulation, TautSet, Trajectory, Value, named_case,
@@ -293,7 +293,7 @@ fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
     let exact = Uncertainty::default();
     let scan = ForceScan::new(0.1, 0.3)?;
     type Work<'a> = &'a dyn Fn(OnProgress) -> Result<(), Unfinished>;
-    let works: [(&str, Work); 6] = [
+    let works: [(&str, Work); 5] = [
         ("outcome", &|on| Ok(outcome(&case, on).map(drop)?)),
         ("outcomes", &|on| {
             Ok(outcomes(&vec![case.clone(); 3], on).map(drop)?)
@@ -307,7 +307,6 @@ fn all_long_work_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
         ("exceedance", &|on| {
             ExceedanceCurve::scan(&long, scan, &exact, 3, 1, on).map(drop)
         }),
-        ("verify", &|on| verify(&case, 60, 1e-3, on).map(drop)),
     ];
     for (name, work) in works {
         let told = Mutex::new(Vec::new());

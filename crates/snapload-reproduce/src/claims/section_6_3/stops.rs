@@ -8,9 +8,9 @@ use crate::claims::runs::{
     outcome, past_settling, run, shapes_under, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::many_digits::Run;
 use snapload::analysis::in_parallel;
 use snapload::{Case, CaseError, Outcome, Parameters, Playback, State, Stop, Trajectory};
+use snapload_verify::Run;
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.3.1-01", rotates_easily),

@@ -5,8 +5,8 @@ use crate::claims::motions::{endings, exceeds, places};
 use crate::claims::numbers::{max, min};
 use crate::claims::runs::{Tabled, row};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::many_digits::Run;
 use snapload::{Stop, anchor_height};
+use snapload_verify::Run;
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-01", |_| {

@@ -8,8 +8,8 @@ use crate::claims::runs::{
     outcome, past_settling, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::many_digits::Run;
 use snapload::{Impact, Parameters, natural_inertia};
+use snapload_verify::Run;
 
 pub(super) const JUDGES: &Judges<fn(&Tabled) -> Judged> = &[
     ("6.4.1-09", |tabled| {

@@ -4,8 +4,8 @@ use crate::claims::motions::{CLEAR, attachment_speed, clear, endings, exceeds, p
 use crate::claims::numbers::{list, marked_over_others, max, mean, min, rising, span, spearman};
 use crate::claims::runs::{by_case, measured};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::many_digits::Run;
 use snapload::Impact;
+use snapload_verify::Run;
 
 /// Figs 6.22-6.26: Ω = 0.5, 0.75, 0.9, 1.5, 2.0.
 pub(super) const FREQUENCIES: [&str; 5] = [

@@ -7,9 +7,9 @@ use crate::claims::runs::{
     FEW, NEVER, SAME, chapter, critical_force, each, ensemble, of_runs, shown_span, standard,
 };
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
-use crate::many_digits::Run;
 use crate::study::{CriticalCurve, LARGEST, Reading, Study};
 use snapload::{CaseError, Parameters};
+use snapload_verify::Run;
 
 pub(super) const JUDGES: &Judges<fn(&Study) -> Judged> = &[
     ("6.4.2-11", |study| trend(study, "e", 1.5, -1.0)),

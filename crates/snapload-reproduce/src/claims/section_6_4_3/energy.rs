@@ -124,7 +124,7 @@ fn dissipated(sweeps: &Sweeps) -> Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::many_digits::Run;
+    use snapload_verify::Run;
 
     #[test]
     fn a_stop_is_no_dissipation() {

@@ -1,8 +1,9 @@
 //! What ends trust: events that neighbours may not share, each in a case made for it.
 
 use crate::calibration::{Digits, compared};
-use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched, verify};
+use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched};
 use snapload::{Case, Parameters, Real, Rules, Simulation, Stop, Value, named_case};
+use snapload_verify::verify;
 
 fn case(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Case {
     Parameters::from_entries(entries)

@@ -9,9 +9,9 @@ use snapload::{
 type Digits76 = Precise<4>;
 type Digits153 = Precise<8>;
 
-/// A run as tables and claims look at it.
+/// A run as tables look at it: of doubles, or of many digits rounded to doubles.
 #[derive(Clone, Debug)]
-pub(crate) struct Run {
+pub struct Run {
     system: System,
     /// Where each stretch begins: from there the motion within it is computed.
     stretches: Vec<(f64, State)>,
@@ -22,19 +22,19 @@ pub(crate) struct Run {
 
 impl Run {
     /// In doubles.
-    pub(crate) fn of_doubles(parameters: &Parameters) -> Result<Self, CaseError> {
+    pub fn of_doubles(parameters: &Parameters) -> Result<Self, CaseError> {
         let case = Case::new(*parameters)?;
         let system = case.simulation().system().clone();
         Ok(Self::of(system, case.into_simulation()))
     }
 
     /// In 76 digits, for the decimals of the case.
-    pub(crate) fn of_76_digits(parameters: &Parameters) -> Result<Self, CaseError> {
+    pub fn of_76_digits(parameters: &Parameters) -> Result<Self, CaseError> {
         Self::of_digits(parameters, Digits76::from_decimal)
     }
 
     /// In 153 digits.
-    pub(crate) fn of_153_digits(parameters: &Parameters) -> Result<Self, CaseError> {
+    pub fn of_153_digits(parameters: &Parameters) -> Result<Self, CaseError> {
         Self::of_digits(parameters, Digits153::from_decimal)
     }
 
@@ -95,32 +95,32 @@ impl Run {
     }
 
     /// The system that moved.
-    pub(crate) fn system(&self) -> &System {
+    pub fn system(&self) -> &System {
         &self.system
     }
 
     /// Its impacts in order of time.
-    pub(crate) fn impacts(&self) -> &[Impact] {
+    pub fn impacts(&self) -> &[Impact] {
         &self.impacts
     }
 
     /// The impacts of a cable that was slack: an impulse passed into a taut one is none.
-    pub(crate) fn snaps(&self) -> usize {
+    pub fn snaps(&self) -> usize {
         self.impacts.iter().filter(|hit| hit.v_n > 0.0).count()
     }
 
     /// How it ended.
-    pub(crate) fn end(&self) -> &End {
+    pub fn end(&self) -> &End {
         &self.end
     }
 
     /// Its norms.
-    pub(crate) fn norms(&self) -> &Norms {
+    pub fn norms(&self) -> &Norms {
         &self.norms
     }
 
     /// The state at a time within it.
-    pub(crate) fn at(&self, t: f64) -> State {
+    pub fn at(&self, t: f64) -> State {
         let after = self.stretches.partition_point(|(from, _)| *from <= t);
         let (from, start) = self.stretches[after.saturating_sub(1)];
         let on = || Simulation::new(self.system.clone(), Rules::until(t), from, start).ok();

@@ -1,15 +1,14 @@
 //! What the program says of its own results, against what many digits, the oracle and crowds of
 //! neighbours show.
 
-use crate::common::{keys_of_oracle, oracle};
+use crate::common::{keys_of_oracle, number, oracle};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use rayon::prelude::*;
 use serde_json::Value as Json;
-use snapload::analysis::{
-    Ensemble, HorizonCause, Uncertainty, Verification, trusted_run, unwatched, verify,
-};
+use snapload::analysis::{Ensemble, HorizonCause, START_KEYS, Uncertainty, trusted_run, unwatched};
 use snapload::{Case, Impact, Parameters, Value, anchor_height, named_cases};
+use snapload_verify::{Verification, verify};
 
 /// The tolerance of the oracle's horizons.
 const TOLERANCE: f64 = 1e-6;
@@ -209,23 +208,11 @@ fn a_graze_ends_trust_where_the_doubt_is_larger() {
                     .ok()
             })
             .expect("a peak in the name");
-        let it = crate::common::breakwater(&truth);
-        let number = |key, value| (key, Value::Number(value));
-        let case = case([
-            number("r", it.r),
-            number("e", it.e),
-            number("a", it.a),
-            number("b", it.b),
-            number("f_o", it.f_o),
-            number("nu", it.nu),
-            number("omega", it.omega),
-            number("x", it.start.x),
-            number("y", it.start.y),
-            number("theta", it.start.theta),
-            number("vx", it.start.vx),
-            number("vy", it.start.vy),
-            number("vtheta", it.start.vtheta),
-        ]);
+        let start = START_KEYS
+            .iter()
+            .zip(truth["start"].as_array().expect("six"))
+            .map(|(key, value)| (*key, Value::Number(number(value))));
+        let case = case(keys_of_oracle(&truth).chain(start));
         let cause = |uncertainty: f64| {
             let (_, trust) = trusted_run(
                 &case,

@@ -1,17 +1,9 @@
 //! Proof by more digits: the same motion again in multi-precision.
 
-use crate::analysis::progress::{OnProgress, Progress, Unfinished};
-use crate::analysis::trust::{Trust, Uncertainty, trusted_run};
-use crate::arithmetic::precise::Precise;
-use crate::arithmetic::real::Real;
-use crate::case::Case;
-use crate::case::error::CaseError;
-use crate::case::value::Value;
-use crate::model::rules::Stop;
-use crate::model::state::State;
-use crate::motion::impact::Impact;
-use crate::motion::simulation::Simulation;
-use crate::motion::trajectory::Trajectory;
+use snapload::analysis::{OnProgress, Progress, Trust, Uncertainty, Unfinished, trusted_run};
+use snapload::{
+    Case, CaseError, Impact, Precise, Real, Simulation, State, Stop, Trajectory, Value,
+};
 
 /// The most digits that [`verify`] can compute with.
 pub const MOST_DIGITS: u32 = Precise::<16>::DIGITS;
@@ -223,8 +215,10 @@ fn relative<T: Real>(ours: f64, exact: T) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::progress::unwatched;
-    use crate::case::parameters::Parameters;
+    use snapload::Parameters;
+    use snapload::analysis::unwatched;
+    use std::ops::ControlFlow::{Break, Continue};
+    use std::sync::Mutex;
 
     /// With twice the digits each decimal is the same, but for a rounding of the last one.
     #[test]
@@ -257,6 +251,28 @@ mod tests {
                 assert!((last(few) - last(many)).abs() <= 1, "{few} {many}");
             }
         }
+        Ok(())
+    }
+
+    /// It tells of its progress, which only grows, and ends where it is told to.
+    #[test]
+    fn a_proof_can_be_watched_and_cancelled() -> Result<(), Unfinished> {
+        let case = Case::new(Parameters::STANDARD)?;
+        let told = Mutex::new(Vec::new());
+        verify(&case, 60, 1e-3, &|progress| {
+            assert!((0.0..=progress.of).contains(&progress.done));
+            let mut told = told.lock().expect("no panic");
+            told.push((progress.doing.to_owned(), progress.done));
+            Continue(())
+        })?;
+        let told = told.into_inner().expect("no panic");
+        assert!(!told.is_empty());
+        assert!(
+            told.windows(2)
+                .all(|pair| pair[0].0 != pair[1].0 || pair[0].1 <= pair[1].1)
+        );
+        let cancelled = verify(&case, 60, 1e-3, &|_| Break(()));
+        assert!(matches!(cancelled, Err(Unfinished::Cancelled(_))));
         Ok(())
     }
 }

@@ -1,0 +1,21 @@
+//! Motions with many digits: what an ordinary run is held to.
+//!
+//! The motion is that of the library, over numbers of many digits. It is compiled here, as whatever
+//! uses those numbers would otherwise compile the whole engine for them once more.
+//!
+//! ```
+//! use snapload::analysis::{Unfinished, unwatched};
+//! use snapload::{Case, Parameters};
+//!
+//! let case = Case::new(Parameters::STANDARD)?;
+//! let found = snapload_verify::verify(&case, 60, 1e-3, &unwatched)?;
+//! assert_eq!(found.impacts.len(), 290);
+//! assert!(found.first_wrong > Some(180));
+//! # Ok::<(), Unfinished>(())
+//! ```
+
+mod many_digits;
+mod verify;
+
+pub use many_digits::Run;
+pub use verify::{ExactImpact, MOST_DIGITS, Verification, verify};
