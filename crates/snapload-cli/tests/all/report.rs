@@ -3,7 +3,9 @@
 
 use crate::common::{directory, listing, snapload};
 use serde_json::Value;
+use snapload::analysis::in_parallel;
 use std::collections::HashMap;
+use std::convert::Infallible;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -192,17 +194,18 @@ fn numbers(page: &str) -> Vec<Shown> {
     links.map(number).collect()
 }
 
-/// What each command prints, line by line; all run in a directory of their own.
+/// What each command prints, line by line; all run in a directory of their own, side by side.
 fn printed(commands: &[String]) -> Vec<Vec<Value>> {
     let program = assert_cmd::cargo::cargo_bin!("snapload");
     let mut path = program.parent().unwrap().as_os_str().to_owned();
     path.push(":");
     path.push(std::env::var_os("PATH").unwrap());
     let scratch = directory();
-    let print = |command: &String| {
+    let print = |k: usize| -> Result<Vec<Value>, Infallible> {
+        let command = &commands[k];
         // Made already: it is the report itself.
         if command.starts_with("snapload reproduce") {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let mut shell = Command::new("sh");
         shell.args(["-c", command]).env("PATH", &path);
@@ -211,10 +214,11 @@ fn printed(commands: &[String]) -> Vec<Vec<Value>> {
         assert!(out.status.success() && said.is_empty(), "{command}: {said}");
         let lines = String::from_utf8(out.stdout).unwrap();
         let json = lines.lines().filter(|line| line.starts_with('{'));
-        json.map(|line| serde_json::from_str(line).unwrap())
-            .collect()
+        Ok(json
+            .map(|line| serde_json::from_str(line).unwrap())
+            .collect())
     };
-    commands.iter().map(print).collect()
+    in_parallel(commands.len(), print).unwrap()
 }
 
 /// Every command of the page runs, and gives the very numbers that link to it.
