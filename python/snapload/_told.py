@@ -117,8 +117,8 @@ class Trust(Result):
     end_error : float or None
         Error of the time of the end [T], two standard deviations; 0 at the end time; None past the horizon.
     norm_errors : dict of str to float or None
-        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None where what is past the horizon
-        enters.
+        Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None where what is past
+        the horizon enters.
     exponents : tuple of float or None
         Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
     grazes : tuple of dict
