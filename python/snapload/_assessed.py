@@ -301,6 +301,24 @@ class Seas(_Answer):
         return str(self.data["words"])
 
     @property
+    def checks(self) -> xarray.Dataset:
+        """The checks by the rule of ``[design]``, each over all records; none without that table.
+
+        See Also
+        --------
+        snapload.Assessment.checks : Those of one record.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> sea = {"sea.hs": 2, "sea.tp": 6, "run.duration": 600, "design.least_share": 0}
+        >>> seas = snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
+        >>> seas.checks["passing"].values.tolist()
+        [0, 0]
+        """
+        return _rows(self.data["checks"], "check")
+
+    @property
     def largest_tensions_n(self) -> xarray.DataArray:
         """The largest tension of each record, in a snap or held [N]; empty where tensions are not known.
 
@@ -368,6 +386,55 @@ class Elastic(_Answer):
     def __init__(self, engine: _engine.Elastic) -> None:
         super().__init__(json.loads(engine.json()), engine.summary())
         self._engine = engine
+
+    @property
+    def standing(self) -> str:
+        """How it stands on lines that stretch: ``holds``, ``breaks``, ``exceeds`` or ``unknown``.
+
+        See Also
+        --------
+        snapload.Elastic.verdict : The same in words.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Structure.example().replace({"run.duration": 30}).elastic().standing
+        'holds'
+        """
+        return str(self.data["verdict"]["standing"])
+
+    @property
+    def verdict(self) -> str:
+        """The answer in a sentence or two.
+
+        See Also
+        --------
+        snapload.Elastic.standing : The same in one word.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> snapload.Structure.example().replace({"run.duration": 30}).elastic().verdict[:14]
+        'Lines go slack'
+        """
+        return str(self.data["verdict"]["words"])
+
+    @property
+    def checks(self) -> xarray.Dataset:
+        """The checks of the lines that stretch by the rule of ``[design]``; none without that table.
+
+        See Also
+        --------
+        snapload.Assessment.checks : Those of lines that do not stretch.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> structure = snapload.Structure.example().replace({"run.duration": 30, "design.least_share": 0})
+        >>> structure.elastic().checks["answer"].values.tolist()
+        ['fails', 'fails']
+        """
+        return _rows(self.data["checks"], "check")
 
     @property
     def lines(self) -> xarray.Dataset:

@@ -338,6 +338,15 @@ pub fn given(
         added_mass_inf,
     };
     fit.warnings = warnings(hydro, &fit);
+    let own = fit.entries.iter().filter(|e| e.force == e.motion);
+    let worst = own.fold(0.0_f64, |worst, entry| worst.max(entry.rms));
+    if worst > POOR {
+        let words = format!(
+            "the given memory is off the file by {:.1} %; was it made of another file?",
+            100.0 * worst
+        );
+        fit.warnings.push(Warning::new("fit", words));
+    }
     let least = fit.memory.least_eigenvalue(omega_max);
     if least < -1e-6 {
         let words = format!(

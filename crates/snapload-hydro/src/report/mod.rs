@@ -11,6 +11,7 @@ pub use json::Json;
 pub use page::page;
 pub use words::periods_in_words;
 
+use crate::coefficients::transport;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
     Body, Line, Mode, Natural, Response, Rest, Weight, natural_of_the_file, natural_of_the_memory,
@@ -31,6 +32,34 @@ pub struct GivenMemory {
     pub added_mass_inf: [[f64; 3]; 3],
     /// The exponentials.
     pub memory: Vec<TermRow>,
+    /// The reference point that both are about; that of the file where it is not said \[m\].
+    pub reference_m: Option<[f64; 2]>,
+}
+
+impl GivenMemory {
+    /// The same about another reference point: A∞ and residues become Jᵀ(·)J.
+    fn about(&self, reference_m: [f64; 2]) -> Self {
+        let from = self.reference_m.unwrap_or(reference_m);
+        let j = transport([0, 1].map(|axis| reference_m[axis] - from[axis]));
+        let real = Matrix3::from_fn(|i, k| self.added_mass_inf[i][k]);
+        let term = |row: &TermRow| {
+            let part = |at: usize| {
+                let matrix = Matrix3::from_fn(|i, k| row.residue[i][k][at]);
+                j.transpose() * matrix * j
+            };
+            let [re, im] = [part(0), part(1)];
+            let entry = |i: usize| std::array::from_fn(|k| [re[(i, k)], im[(i, k)]]);
+            TermRow {
+                pole: row.pole,
+                residue: std::array::from_fn(entry),
+            }
+        };
+        Self {
+            added_mass_inf: rows(&(j.transpose() * real * j)),
+            memory: self.memory.iter().map(term).collect(),
+            reference_m: Some(reference_m),
+        }
+    }
 }
 
 /// What is to be said, and of what body.
@@ -89,7 +118,10 @@ impl Report {
     pub fn new(name: &str, reading: Reading, request: &Request) -> Result<Self, HydroError> {
         let hydro = &reading.hydro;
         let fit = match (&request.memory, reading.format) {
-            (Some(memory), _) => given(hydro, memory.added_mass_inf, &memory.memory)?,
+            (Some(memory), _) => {
+                let memory = memory.about(hydro.reference_m);
+                given(hydro, memory.added_mass_inf, &memory.memory)?
+            }
             (None, Format::Section) => given(hydro, rows(&hydro.added_mass[0]), &[])?,
             (None, _) => fit(hydro, request.fit)?,
         };

@@ -234,7 +234,16 @@ fn resistance(structure: &Structure) -> Vec<String> {
         ("linear", body.linear_damping_n_s_m, "N s/m"),
         ("turning", body.turning_damping_n_m_s, "N m s"),
     ];
-    let given = parts.into_iter().filter(|(_, value, _)| *value > 0.0);
+    let afloat = structure.afloat.iter().flat_map(|afloat| {
+        let damping = &afloat.body.damping;
+        [
+            ("beside waves in surge", damping[(0, 0)], "N s/m"),
+            ("beside waves in heave", damping[(1, 1)], "N s/m"),
+            ("beside waves in pitch", damping[(2, 2)], "N m s"),
+        ]
+    });
+    let given = parts.into_iter().chain(afloat);
+    let given = given.filter(|(_, value, _)| *value > 0.0);
     given
         .map(|(name, value, unit)| format!("{name} {value} {unit}"))
         .collect()

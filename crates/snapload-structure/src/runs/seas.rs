@@ -3,6 +3,7 @@
 use super::design::{Check, RecordsCheck, checks};
 use super::outcome::Outcome;
 use super::quantile::sorted;
+use crate::physics::elastic::springs;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
 use crate::physics::warnings::{Warning, limits_afloat, short_records, turning_warning, warnings};
@@ -26,7 +27,7 @@ pub struct SeaOutcome {
 /// What many records come to.
 #[derive(Clone, Debug)]
 pub struct Seas {
-    /// The structure, with the first seed.
+    /// The structure, with the first seed, about its place of rest on these lines.
     pub prepared: Prepared,
     /// Rules of thumb that the case breaks.
     pub warnings: Vec<Warning>,
@@ -69,7 +70,12 @@ pub fn seas(
         Lines::Inextensible => Prepared::new(structure)?,
         Lines::Elastic => Prepared::for_springs(structure)?,
     };
-    let mut warnings = warnings(&prepared);
+    // What is told of lines that stretch is of where the body rests on them.
+    let told = match lines {
+        Lines::Inextensible => prepared.clone(),
+        Lines::Elastic => prepared.on_springs(&springs(&prepared, 1.0)?)?,
+    };
+    let mut warnings = warnings(&told);
     // What lines that stretch decide they have decided.
     warnings.retain(|warning| lines == Lines::Inextensible || warning.decided_by.is_none());
     let open = warnings.iter().any(|warning| warning.decided_by.is_some());
@@ -96,21 +102,28 @@ pub fn seas(
             outcome,
         })
     })?;
+    warnings.extend(seen_in(&told.structure, &records));
+    Ok(Seas {
+        records,
+        lines,
+        warnings,
+        prepared: told,
+    })
+}
+
+/// The warnings that the motion in all records gives.
+fn seen_in(structure: &Structure, records: &[SeaOutcome]) -> Vec<Warning> {
     let outcomes = || records.iter().map(|record| &record.outcome);
     let turned = outcomes()
         .map(|outcome| outcome.turned_rad)
         .fold(0.0, f64::max);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
-    warnings.extend(short_records(&prepared.structure));
-    warnings.extend(turning_warning(&prepared.structure, turned));
-    warnings.extend(limits_afloat(&prepared.structure, seen.as_ref(), turned));
-    Ok(Seas {
-        records,
-        lines,
-        warnings,
-        prepared,
-    })
+    let found = short_records(structure).into_iter();
+    found
+        .chain(turning_warning(structure, turned))
+        .chain(limits_afloat(structure, seen.as_ref(), turned))
+        .collect()
 }
 
 impl Seas {

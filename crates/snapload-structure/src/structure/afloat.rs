@@ -41,23 +41,13 @@ impl Afloat {
             let allowed = "nothing beside [float], whose file has the added mass";
             return Err(own.refuse("added_mass", value, allowed));
         }
-        let file: Option<String> = fields.get("file")?;
-        let shown = file
-            .as_ref()
-            .map_or("(left out)".to_owned(), |file| format!("{file:?}"));
-        let bad = |error: HydroError| {
-            let allowed = format!("coefficients of this body in this water; {error}");
-            fields.refuse("file", &shown, allowed)
-        };
-        let mut reading = match &file {
-            Some(file) => {
-                let mut reading = read(&beside.join(file), &given(fields, site)?).map_err(bad)?;
-                idle(fields, &reading)?;
-                same_volume(own, site, body, &mut reading)?;
-                reading
-            }
-            None => section(fields, site, body)?,
-        };
+        let mut reading = coefficients(entries, beside, site, body)?;
+        let bad = |error: HydroError| refused(fields, &error);
+        // A memory that does not say what it is about is about what the file is.
+        let memory = memory(fields, beside)?.map(|memory| GivenMemory {
+            reference_m: memory.reference_m.or(Some(reading.hydro.reference_m)),
+            ..memory
+        });
         reading.hydro = reading.hydro.about(body.position_m);
         let inertia = own.get("moment_of_inertia")?;
         let without = reading.hydro.hydrostatics.inertia.is_none();
@@ -72,9 +62,10 @@ impl Afloat {
             fit: FitOptions {
                 pairs: fields.get::<u64>("pairs")?.and_then(|n| n.try_into().ok()),
             },
-            memory: memory(fields, beside)?,
+            memory,
             ..Request::default()
         };
+        let file: Option<String> = fields.get("file")?;
         let name = file.as_deref().unwrap_or(SECTION);
         let mut report = Report::new(name, reading, &request).map_err(bad)?;
         let floating = report.floating.clone().map_err(bad)?;
@@ -91,6 +82,32 @@ impl Afloat {
             report,
         })
     }
+}
+
+/// The coefficients of the file beside the case, or of the textbook where it names none.
+fn coefficients(
+    entries: &Entries,
+    beside: &Path,
+    site: &Site,
+    body: &BodySi,
+) -> Result<Reading, CaseError> {
+    let fields = entries.table("float", 0);
+    let Some(file) = fields.get::<String>("file")? else {
+        return section(fields, site, body);
+    };
+    let reading = read(&beside.join(&file), &given(fields, site)?);
+    let mut reading = reading.map_err(|error| refused(fields, &error))?;
+    idle(fields, &reading)?;
+    same_volume(entries.table("body", 0), site, body, &mut reading)?;
+    Ok(reading)
+}
+
+/// That coefficients are not those of this body.
+fn refused(fields: Fields<'_>, error: &HydroError) -> CaseError {
+    let given = fields.given("file");
+    let shown = given.map_or("(left out)".to_owned(), ToString::to_string);
+    let allowed = format!("coefficients of this body in this water; {error}");
+    fields.refuse("file", shown, allowed)
 }
 
 /// The keys that only a file has something for.

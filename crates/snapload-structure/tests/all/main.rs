@@ -4,6 +4,7 @@
 
 mod added_mass;
 mod afloat;
+mod afloat_lines;
 mod conversion;
 mod current;
 mod design;

@@ -63,7 +63,9 @@ impl Prepared {
             Some(_) => self.model.clone(),
             None => Model::about(&structure, rest.place_m, &[]),
         };
-        Ok(Self::starting(structure, rest, model))
+        let mut sprung = Self::starting(structure, rest, model);
+        sprung.held.clone_from(&self.held);
+        Ok(sprung)
     }
 
     /// How the force on a body that rests on springs, as [`Prepared::on_springs`] has it, changes
