@@ -91,6 +91,16 @@ impl ExactCase {
         at.map_or_else(|| Decimal::integer(0), |k| self.numbers[k].clone())
     }
 
+    /// The same where nothing but a limit ends a run: the motion is that of the model itself.
+    pub(crate) fn without_end(&self) -> Self {
+        Self {
+            stop_when_settled: false,
+            stop_when_sliding: false,
+            max_impacts: u64::MAX,
+            ..self.clone()
+        }
+    }
+
     /// The start x, y, θ and its velocities.
     pub(crate) fn start(&self) -> &[Decimal] {
         &self.numbers[7..13]

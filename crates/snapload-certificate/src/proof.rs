@@ -51,8 +51,10 @@ pub(crate) fn prove(
         match run.fly().map_err(|trouble| trouble.at(t))? {
             Next::End(end) => return Ok(*end),
             Next::Impact(crossing) => {
-                let Struck { impact, end, stick } =
-                    run.strike(&crossing).map_err(|trouble| trouble.at(t))?;
+                let struck = run.strike(&crossing).map_err(|trouble| trouble.at(t))?;
+                let Struck {
+                    impact, end, stick, ..
+                } = struck;
                 let t = impact.t.to_f64();
                 tell(Proved::Impact(impact))?;
                 match (end, stick) {

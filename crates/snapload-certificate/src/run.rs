@@ -9,7 +9,7 @@ use crate::case::ExactCase;
 use crate::model::{FIRST_TOP, Force, Model, State};
 use crate::proved::{ProvedEnd, ProvedImpact, Reason};
 use crate::slack::flight::Flight;
-use crate::slack::impact::Impact;
+use crate::slack::impact::{Impact, Matrix};
 use crate::slack::search::{Crossing, Zero, Zeros, first_crossing, name};
 use crate::slack::set::Set;
 use crate::taut::begin::{Begun, Instants, begin};
@@ -55,6 +55,8 @@ pub(crate) struct Struck {
     pub(crate) end: Option<ProvedEnd>,
     /// A cable that sticks where no rule stops the run.
     pub(crate) stick: Option<Stick>,
+    /// Of the states of the flight after it at the new T by those of the flight before at the old one.
+    pub(crate) jacobian: Matrix,
 }
 
 /// What comes first along a flight.
@@ -65,16 +67,16 @@ pub(crate) enum Next {
 
 /// Where a watched value crosses zero.
 pub(crate) struct Root {
-    which: usize,
+    pub(crate) which: usize,
     /// Of the centre's flight, from T on.
     centre: Ball,
     /// Of the flights of all states.
-    whole: Ball,
+    pub(crate) whole: Ball,
 }
 
 impl<'a> Run<'a> {
     /// The flight of all states.
-    fn flight(&self, model: &'a Model) -> Flight<'a> {
+    pub(crate) fn flight(&self, model: &'a Model) -> Flight<'a> {
         let hull = self.set.hull().map(|ball| ball.with_limbs(model.limbs));
         Flight::new(model, self.t.clone(), hull)
     }
@@ -139,7 +141,7 @@ impl<'a> Run<'a> {
 
     /// The end of the run along a flight, at a time from T on.
     fn end_at(&self, (tau, stop): &(Ball, Stop)) -> Result<ProvedEnd, Trouble> {
-        if !Ball::bound(self.slack).is_below(tau) {
+        if !self.is_under_way(tau) {
             return Err(Trouble::undecided("an end and an impact at one instant"));
         }
         let (state, _) = self.flight(self.fine).at(tau);
@@ -222,7 +224,7 @@ impl<'a> Run<'a> {
         let (state, force) = self.flight(self.coarse).at(&root.whole);
         let impact = Impact::new(self.coarse, cable, &state)?;
         let t = &self.t + &root.whole;
-        let next = self.carry(root, &state, &force, &impact)?;
+        let (next, jacobian) = self.carry(root, &state, &force, &impact)?;
         self.impacts += 1;
         let reason = self.rules(cable, &state, &force, &impact)?;
         let stick = match reason {
@@ -253,6 +255,7 @@ impl<'a> Run<'a> {
             impact: proved,
             end,
             stick,
+            jacobian,
         })
     }
 
@@ -321,14 +324,15 @@ impl<'a> Run<'a> {
         ]
     }
 
-    /// The set at a number next to the impact's time, of the flight after it.
+    /// The set at a number next to the impact's time, of the flight after it, and the Jacobian of the map
+    /// there.
     fn carry(
         &self,
         root: &Root,
         state: &State,
         force: &Force,
         impact: &Impact,
-    ) -> Result<(Set<6>, Ball, Radius), Trouble> {
+    ) -> Result<((Set<6>, Ball, Radius), Matrix), Trouble> {
         let centre = Flight::new(self.fine, self.t.clone(), self.set.centre().clone());
         let (struck, _) = centre.at(&root.centre);
         let exact = Impact::new(self.fine, root.which, &struck)?;
@@ -343,7 +347,7 @@ impl<'a> Run<'a> {
         let after = Ball::within(slack);
         let before = root.whole.with_limbs(self.coarse.limbs);
         let jacobian = impact.jacobian(self.coarse, state, force, &before, &after)?;
-        Ok((self.set.mapped(&image, &jacobian)?, next, slack))
+        Ok(((self.set.mapped(&image, &jacobian)?, next, slack), jacobian))
     }
 
     /// What the rules make of an impact (docs/model.md, sections 6 and 7).

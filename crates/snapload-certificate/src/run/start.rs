@@ -16,6 +16,26 @@ use crate::verdict::Trouble;
 const START_TOLERANCE: &str = "1e-9";
 
 impl<'a> Run<'a> {
+    /// All states of a box at an instant, with no cable closed.
+    pub(crate) fn of_states(
+        case: &'a ExactCase,
+        [fine, coarse]: [&'a Model; 2],
+        t: &Ball,
+        states: &State,
+    ) -> Self {
+        Self {
+            case,
+            fine,
+            coarse,
+            t: t.clone(),
+            set: Set::of_box(states),
+            slack: Radius::ZERO,
+            zeros: Zeros::new(),
+            impacts: 0,
+            slow: Vec::new(),
+        }
+    }
+
     pub(crate) fn begin(
         case: &'a ExactCase,
         fine: &'a Model,
@@ -52,17 +72,7 @@ impl<'a> Run<'a> {
                 Trouble::undecided("the start: whether it is at the rotation limit").at(0.0),
             );
         }
-        let mut run = Self {
-            case,
-            fine,
-            coarse,
-            t: Ball::zero(),
-            set: Set::of_box(&start),
-            slack: Radius::ZERO,
-            zeros: Zeros::new(),
-            impacts: 0,
-            slow: Vec::new(),
-        };
+        let mut run = Self::of_states(case, [fine, coarse], &Ball::zero(), &start);
         if at_origin && !run.is_at_rest() {
             for cable in 0..2 {
                 let speed = Impact::new(fine, cable, &start)?.v_n;
@@ -74,6 +84,11 @@ impl<'a> Run<'a> {
             }
         }
         Ok(run)
+    }
+
+    /// Whether its flight has begun a time from T on, for all states.
+    pub(crate) fn is_under_way(&self, tau: &Ball) -> bool {
+        Ball::bound(self.slack).is_below(tau)
     }
 
     /// Whether it starts with both cables closed and without any velocity.

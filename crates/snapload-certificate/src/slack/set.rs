@@ -117,7 +117,7 @@ impl<const N: usize> Set<N> {
 }
 
 /// The product of two matrices.
-fn product<const M: usize, const K: usize, const N: usize>(
+pub(crate) fn product<const M: usize, const K: usize, const N: usize>(
     a: &[[Ball; K]; M],
     b: &[[Ball; N]; K],
 ) -> [[Ball; N]; M] {

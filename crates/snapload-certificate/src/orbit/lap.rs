@@ -1,0 +1,150 @@
+//! One lap of all states of a box, with its derivative.
+
+use crate::arithmetic::ball::Ball;
+use crate::case::ExactCase;
+use crate::model::{Model, State};
+use crate::proved::{ProvedImpact, Reason};
+use crate::run::{Next, Run};
+use crate::slack::impact::Matrix;
+use crate::slack::set::product;
+use crate::verdict::Trouble;
+use snapload::Stop;
+
+/// What laps are proved with: a case in numbers of many digits and of fewer, and when a lap begins.
+pub(super) struct Laps {
+    case: ExactCase,
+    fine: Model,
+    coarse: Model,
+    begin: Ball,
+    /// The periods of the forcing that a lap has, as times since its begin.
+    sections: Vec<Ball>,
+}
+
+/// What is proved of all states of a box.
+pub(super) struct Lap {
+    /// The states after the lap.
+    pub(super) image: State,
+    /// ∂(the state after the lap)/∂(the one before), over all of the box.
+    pub(super) derivative: Matrix,
+    /// The impacts, all of them.
+    pub(super) impacts: Vec<ProvedImpact>,
+    /// The states after each period of the forcing but the last.
+    pub(super) sections: Vec<State>,
+}
+
+impl Laps {
+    /// Laps of a case that begin at a part of the forcing's period, in numbers of so many limbs.
+    pub(super) fn new(
+        case: &ExactCase,
+        (phase, periods): (&Ball, u32),
+        limbs: usize,
+    ) -> Result<Self, Trouble> {
+        let mut fine = Model::new(case, limbs)?;
+        let mut coarse = Model::new(case, limbs.div_ceil(3).max(2))?;
+        if fine.is_steady {
+            return Err(Trouble::beyond(
+                "a force that does not change has no period",
+            ));
+        }
+        // T = 2π/|Ω|.
+        let period = fine.functions.half_pi() * &fine.inverse_omega.abs();
+        let period = period.scaled(2);
+        let begin = &period * phase;
+        let sections: Vec<Ball> = (1..=periods)
+            .map(|k| &period * &Ball::integer(i64::from(k)))
+            .collect();
+        let end = sections.last().map_or(begin.clone(), |last| &begin + last);
+        (fine.t_end, coarse.t_end) = (end.clone(), end);
+        Ok(Self {
+            case: case.without_end(),
+            fine,
+            coarse,
+            begin,
+            sections,
+        })
+    }
+
+    /// A lap of all states of a box: that it has these snaps and nothing else, and where it leads to.
+    pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, Trouble> {
+        let models = [&self.fine, &self.coarse];
+        let mut run = Run::of_states(&self.case, models, &self.begin, states);
+        let mut derivative = unit();
+        let (mut impacts, mut sections) = (Vec::new(), Vec::new());
+        loop {
+            match run.fly()? {
+                Next::Impact(root) => {
+                    self.pass(&run, &root.whole, &mut sections)?;
+                    let snap = run.strike(&root)?;
+                    let expected = struck.get(impacts.len()).copied();
+                    if expected != Some(snap.impact.cable) {
+                        return Err(other_events(snap.impact.cable, impacts.len()));
+                    }
+                    if snap.stick.is_some() || snap.end.is_some() {
+                        let what = "a cable that stays taut: proofs of orbits cover slack flight";
+                        return Err(Trouble::beyond(what));
+                    }
+                    derivative = product(&snap.jacobian, &derivative);
+                    impacts.push(snap.impact);
+                }
+                Next::End(end) if end.reason == Reason::Stop(Stop::EndTime) => {
+                    if impacts.len() < struck.len() {
+                        let (found, all) = (impacts.len(), struck.len());
+                        let what = format!("the lap has {found} snaps, not {all}");
+                        return Err(Trouble::False(what));
+                    }
+                    let left = &end.t - &run.t;
+                    self.pass(&run, &left, &mut sections)?;
+                    return Ok(Lap {
+                        image: end.state,
+                        derivative: product(&self.flown(&left), &derivative),
+                        impacts,
+                        sections,
+                    });
+                }
+                Next::End(end) => {
+                    let what = end.reason.name().replace('_', " ");
+                    let t = end.t.to_f64();
+                    return Err(Trouble::False(format!("it ends at t = {t:.6}: {what}")));
+                }
+            }
+        }
+    }
+
+    /// Keeps the states at the sections that a flight passes before it ends, at a time from its T on.
+    fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), Trouble> {
+        let within = self.sections.len() - 1;
+        while let Some(section) = self.sections[..within].get(kept.len()) {
+            let tau = &self.begin + section - &run.t;
+            if end.is_below(&tau) {
+                break;
+            }
+            if !(tau.is_below(end) && run.is_under_way(&tau)) {
+                return Err(Trouble::undecided("a snap at the instant of a section"));
+            }
+            kept.push(run.flight(&self.fine).at(&tau).0);
+        }
+        Ok(())
+    }
+
+    /// ∂(state)/∂(state before) of a flight: the force does not depend on the state, so that a deviation
+    /// goes on with its velocity.
+    fn flown(&self, time: &Ball) -> Matrix {
+        let time = time.with_limbs(self.coarse.limbs);
+        let mut matrix = unit();
+        for i in 0..3 {
+            matrix[i][i + 3] = time.clone();
+        }
+        matrix
+    }
+}
+
+fn unit() -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| Ball::integer(i64::from(i == j))))
+}
+
+fn other_events(cable: usize, before: usize) -> Trouble {
+    Trouble::False(format!(
+        "the motion has other snaps: cable {} is the one after {before}",
+        cable + 1
+    ))
+}
