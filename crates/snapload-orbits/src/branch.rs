@@ -52,8 +52,8 @@ pub struct Branch {
 const LONGER: f64 = 6.0;
 const SHORTER: f64 = 1e-7;
 /// The corrector's steps from which on a step is made shorter, and up to which longer.
-const MANY: usize = 6;
-const FEW: usize = 4;
+const MANY: usize = 5;
+const FEW: usize = 3;
 /// No event comes nearer to the next or farther from it by more than this in one step.
 const TIMES: f64 = 0.3;
 /// A cable that would have to be longer than this ends a branch.
@@ -237,16 +237,12 @@ impl Walk<'_> {
                 side.end.because = format!("{} points are enough", self.along.most);
                 break;
             }
-            let Some((next, steps)) = stepped(&tracer, &here, &tangent, step) else {
+            let Some((next, steps, direction)) = stepped(&tracer, &here, &tangent, step) else {
                 step *= 0.5;
                 if step < self.along.step * SHORTER {
                     side.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
-            };
-            let Some(direction) = tracer.tangent(&next, &tangent) else {
-                side.end.because = "the equations have no direction here".to_owned();
-                break;
             };
             let found = Orbit::of(&tracer.lap(next.at), &next.closed());
             let reached = tests_of(&found, &direction);
@@ -361,17 +357,17 @@ fn counted_anew<F: Family>(
     orbit
 }
 
-/// The next point, if the corrector finds one near enough.
+/// The next point, if the corrector finds one near enough, and the direction there.
 fn stepped<F: Family>(
     tracer: &Tracer<F>,
     here: &Unknowns,
     tangent: &DVector<f64>,
     step: f64,
-) -> Option<(Unknowns, usize)> {
-    let (next, steps) = tracer.corrected(here, tangent, step)?;
+) -> Option<(Unknowns, usize, DVector<f64>)> {
+    let (next, steps, direction) = tracer.corrected(here, tangent, step)?;
     let moved = here.durations.iter().zip(&next.durations);
     let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     let off = crate::distance(&here.z, &next.z).max((here.at[0] - next.at[0]).abs());
-    let turned = tracer.tangent(&next, tangent)?.dot(tangent);
-    (most < TIMES && off <= 2.0 * step && turned > 0.9).then_some((next, steps))
+    let turned = direction.dot(tangent);
+    (most < TIMES && off <= 2.0 * step && turned > 0.9).then_some((next, steps, direction))
 }

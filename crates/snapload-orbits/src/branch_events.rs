@@ -211,7 +211,7 @@ pub(crate) fn located<F: Family>(
 ) -> Option<BranchEvent> {
     let (tracer, tangent) = (segment.tracer, segment.tangent);
     let orbit_at = |sigma: f64| {
-        let (u, _) = tracer.corrected(segment.from, tangent, sigma)?;
+        let (u, ..) = tracer.corrected(segment.from, tangent, sigma)?;
         let direction = tracer.tangent(&u, tangent)?;
         Some((Orbit::of(&tracer.lap(u.at), &u.closed()), direction))
     };
@@ -239,7 +239,7 @@ pub(crate) fn located<F: Family>(
     let grazes = extreme.filter(|_| kind == Kind::Graze);
     let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));
     // Told with its events counted from the section that they have passed, if they have.
-    let (u, _) = tracer.corrected(segment.from, tangent, sigma)?;
+    let (u, ..) = tracer.corrected(segment.from, tangent, sigma)?;
     let anew = tracer.renumbered(&u);
     let orbit = anew.map_or(orbit, |(moved, u, _)| {
         Orbit::of(&moved.lap(u.at), &u.closed())

@@ -46,6 +46,9 @@ const MOST_STEPS: usize = 12;
 const CLOSED: f64 = 1e-11;
 /// A step below this is rounding.
 const DONE: f64 = 1e-14;
+/// After a step below this the next one would be rounding, and the derivatives are those at the point as
+/// far as a direction needs them.
+const LAST: f64 = 1e-8;
 
 impl Unknowns {
     pub(crate) fn closed(&self) -> Closed {
@@ -96,8 +99,13 @@ impl<F: Family> Tracer<'_, F> {
     /// The direction of the branch at a point, on the side of the one before.
     pub(crate) fn tangent(&self, u: &Unknowns, before: &DVector<f64>) -> Option<DVector<f64>> {
         let (_, jacobian) = self.equations(u, 1);
+        Self::tangent_of(&jacobian, before)
+    }
+
+    /// The same by the derivatives there.
+    fn tangent_of(jacobian: &DMatrix<f64>, before: &DVector<f64>) -> Option<DVector<f64>> {
         let count = jacobian.ncols();
-        let bordered = bordered(&jacobian, before);
+        let bordered = bordered(jacobian, before);
         let mut unit = DVector::zeros(count);
         unit[count - 1] = 1.0;
         let tangent = bordered.lu().solve(&unit)?;
@@ -113,14 +121,14 @@ impl<F: Family> Tracer<'_, F> {
         self.tangent(u, &along)
     }
 
-    /// The point of the branch a length `sigma` along `tangent` from `from`, and how many steps it
-    /// took.
+    /// The point of the branch a length `sigma` along `tangent` from `from`, how many steps it took, and
+    /// the direction of the branch there.
     pub(crate) fn corrected(
         &self,
         from: &Unknowns,
         tangent: &DVector<f64>,
         sigma: f64,
-    ) -> Option<(Unknowns, usize)> {
+    ) -> Option<(Unknowns, usize, DVector<f64>)> {
         let variables = self.family.variables();
         let mut offset = tangent * sigma;
         let mut before = f64::INFINITY;
@@ -138,7 +146,11 @@ impl<F: Family> Tracer<'_, F> {
             let moved = step.amax();
             let size = residual.amax();
             if size < CLOSED && (moved < DONE || moved >= 0.25 * before) {
-                return Some((here, steps));
+                return Some((here, steps, Self::tangent_of(&jacobian, tangent)?));
+            }
+            if moved < LAST {
+                let there = from.moved(variables, &(&offset + &step));
+                return Some((there, steps, Self::tangent_of(&jacobian, tangent)?));
             }
             if !moved.is_finite() || moved > 1.0 {
                 return None;
