@@ -138,6 +138,7 @@ class BaseOrbit:
         self.return_error: float | None = told["return_error"]
         self.error_bound: float | None = told["error_bound"]
         self.proved: bool = told["proved"]
+        self.proof: dict[str, Any] | None = told.get("proof")
         self.modes: tuple[dict[str, Any], ...] = tuple(told["modes"])
         self.events = _events(told["events"])
 

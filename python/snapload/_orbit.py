@@ -66,6 +66,10 @@ class Orbit(BaseOrbit):
         A bound on the error of the state where one is proved.
     proved : bool
         Whether it is.
+    proof : dict or None
+        What is proved: ``state``, ``events`` with their ``t`` and ``v_n`` as decimals, each digit of which is right;
+        ``alone_within``, a distance within which there is no other orbit of this length; ``prime``, whether it takes no
+        fewer periods; or ``why_not``. None where no proof was tried.
     start_distance : float or None
         The largest difference of `state` from the start that was given; None if none was. Far from it another orbit may
         have been meant.
@@ -104,6 +108,35 @@ class Orbit(BaseOrbit):
 
     def _of(self) -> object:
         return self.case
+
+    def prove(self) -> Orbit:
+        """Prove that there is such an orbit, in numbers of many digits.
+
+        Returns
+        -------
+        Orbit
+            The same orbit with `proved`, `error_bound` and `proof`. The theorem is about the case as the decimals that
+            it is written in: the lap has these snaps, each at a velocity above zero, and no others, no limit is
+            reached, and there is one such orbit within `error_bound` of `state`. Orbits with a taut cable are not
+            proved.
+
+        Raises
+        ------
+        ValueError
+            If it is an orbit of no case.
+
+        See Also
+        --------
+        snapload.find_orbits : Proves all that it finds, if asked to.
+
+        Examples
+        --------
+        >>> import snapload
+        >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit().prove()
+        >>> orbit.proved, orbit.error_bound < 1e-14, orbit.proof["state"][0]
+        (True, True, '-0.268810219181438605342115917801')
+        """
+        return Orbit(self.case, self._engine.proved(), self.start_distance)
 
     def run(self, laps: int = 1, *, trust: bool = True) -> Run:
         """Run the motion from the orbit's state at a whole period of the forcing.
@@ -321,6 +354,7 @@ def find_orbits(
     periods: int | None = None,
     symbol: Iterable[int | str] | None = None,
     phase: float = 0.0,
+    prove: bool = False,
     progress: bool = True,
 ) -> list[Orbit]:
     """Look for periodic orbits from random starts, stable and unstable ones.
@@ -339,6 +373,8 @@ def find_orbits(
         The cables that snap, in their order; any if left out.
     phase : float
         Time of the section, in periods of the forcing.
+    prove : bool
+        Whether to prove each of them, as :meth:`Orbit.prove` does.
     progress : bool
         Whether to show a bar if it takes long.
 
@@ -371,7 +407,7 @@ def find_orbits(
     engine, asked = engine_of(case), wanted(periods, symbol, phase)
     starts, seed = whole("starts", starts, 1, 10**7), whole("seed", seed, 0, 2**64 - 1)
     with bar("random starts", starts, progress) as tell:
-        found = _engine.find_orbits(engine, starts, seed, *asked, tell)
+        found = _engine.find_orbits(engine, starts, seed, *asked, bool(prove), tell)
     return [Orbit(case, orbit) for orbit in found]
 
 

@@ -6,15 +6,16 @@ use crate::interrupt::interruptible;
 use crate::run::to_json;
 use crate::study::side;
 use crate::system::System;
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use snapload::analysis::{START_KEYS, Unfinished};
 use snapload::{CaseError, Rules, Value};
+use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Along, BranchEvent, BranchRow, Family, Hybrid, Jet, Kind, Lap, Moored, OrbitRow, Point, Wanted,
-    along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words, period_of,
-    start_of,
+    Along, BranchEvent, BranchRow, Family, Hybrid, Jet, Kind, Lap, Moored, OrbitRow, Point, Starts,
+    Wanted, along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words,
+    period_of, prove_all, start_of,
 };
 use std::sync::Arc;
 
@@ -56,6 +57,18 @@ impl Orbit {
     /// Whether neighbours come back to it.
     fn attracts(&self) -> bool {
         snapload_orbits::attracts(&self.orbit)
+    }
+
+    /// The same with the attempt to prove that it exists.
+    fn proved(&self, py: Python<'_>) -> PyResult<Self> {
+        let Some(case) = &self.case else {
+            let why = "proofs are of orbits of a case, the numbers of which are decimals";
+            return Err(PyValueError::new_err(why));
+        };
+        let exact = ExactCase::of(case.parameters(), |_| None).map_err(PyValueError::new_err)?;
+        let mut orbit = self.orbit.clone();
+        orbit.proof = Some(py.detach(|| self.orbit.prove(&exact)));
+        Ok(Self::of_case(case.clone(), orbit))
     }
 
     /// The case that it is an orbit of.
@@ -237,13 +250,25 @@ pub(crate) fn find_orbits(
     periods: Option<u32>,
     symbol: Option<Vec<usize>>,
     phase: f64,
+    prove: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Vec<Orbit>> {
     let wanted = wanted(periods, symbol, phase).map_err(of_case)?;
     let parameters = *case.parameters();
+    let exact = prove.then(|| ExactCase::of(&parameters, |_| None));
+    let exact = exact.transpose().map_err(PyValueError::new_err)?;
     let orbits = interruptible(py, progress, move |watch| {
         let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
-        snapload_orbits::find_orbits(&parameters, starts, seed, &wanted, &on_progress)
+        let starts = Starts {
+            count: starts,
+            seed,
+            near: &[],
+        };
+        let mut orbits = snapload_orbits::find_orbits(&parameters, &starts, &wanted, &on_progress)?;
+        if let Some(exact) = &exact {
+            prove_all(&mut orbits, exact, &on_progress)?;
+        }
+        Ok::<_, Unfinished>(orbits)
     })?;
     let orbits = orbits.map_err(of_work)?.into_iter();
     Ok(orbits

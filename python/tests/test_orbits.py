@@ -175,6 +175,21 @@ def test_where_there_is_no_orbit_it_is_said_why(command):
     assert issubclass(snapload.NoOrbitError, ValueError)
 
 
+def test_orbits_are_proved():
+    orbit = snapload.Case(**VOLLEY).orbit()
+    assert orbit.proof is None and not orbit.proved
+    proved = orbit.prove()
+    assert proved.proved and 0 < proved.error_bound < 1e-14 and proved.proof["prime"]
+    # 50 digits by an independent program, of which 30.
+    assert proved.proof["state"][1] == "0.383046644264561321217849045988"
+    assert pickle.loads(pickle.dumps(proved)).proof == proved.proof
+    found = snapload.find_orbits(snapload.Case(a=0.3, b=0.3, f_o=0.5, omega=2.5), 150, seed=1, prove=True)
+    assert found and all(one.proved for one in found)
+    slides = snapload.Case(body="point", r=1.4, e=0.9, f_o=0.3, nu=0, omega=3)
+    taut = slides.orbit({"x": 0.1529, "y": 0.1855, "vx": 0.3589, "vy": 0.521}).prove()
+    assert not taut.proved and taut.error_bound is None and "taut" in taut.proof["why_not"]
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

@@ -4,16 +4,15 @@ use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::orbit::NearArgs;
+use crate::orbit_columns::{OF_ORBITS, of_orbit, words_of};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::stage::Stage;
-use crate::table::{TableFile, names};
+use crate::table::TableFile;
 use serde::Serialize;
 use snapload::Parameters;
-use snapload::analysis::{OnProgress, Progress, START_KEYS};
+use snapload::analysis::{OnProgress, Progress};
 use snapload_figures::Layer;
-use snapload_orbits::{
-    Along, Branch, BranchEvent, BranchRow, Kind, Moored, Orbit, branch_in_words,
-};
+use snapload_orbits::{Along, Branch, BranchEvent, BranchRow, Kind, Moored, branch_in_words};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
 use std::fmt::Write;
@@ -204,36 +203,6 @@ fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
     text.split(',').map(kind).collect()
 }
 
-/// What of an orbit is a number, by its column.
-pub(crate) const OF_ORBITS: [&str; 11] = [
-    "arclength",
-    "x",
-    "y",
-    "theta",
-    "vx",
-    "vy",
-    "vtheta",
-    "largest_multiplier",
-    "least_v_n",
-    "y_max",
-    "theta_max",
-];
-
-pub(crate) fn of_orbit(column: &str, keys: [&str; 2], orbit: &Orbit, arclength: f64) -> f64 {
-    let place = START_KEYS.iter().position(|name| *name == column);
-    match (column, place) {
-        _ if column == keys[0] => orbit.at[0],
-        _ if column == keys[1] => orbit.at[1],
-        (_, Some(place)) => orbit.z[place],
-        ("arclength", _) => arclength,
-        ("largest_multiplier", _) => orbit.multipliers.largest(),
-        ("least_v_n", _) => orbit.survey.least_speed.map_or(f64::NAN, |snap| snap.value),
-        ("y_max", _) => orbit.survey.y_max,
-        ("theta_max", _) => orbit.survey.theta_max,
-        _ => f64::NAN,
-    }
-}
-
 fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     let points = || branch.points.iter();
     let number = |column: &'static str| {
@@ -244,12 +213,9 @@ fn columns(key: &'static str, branch: &Branch) -> Vec<(&'static str, Values)> {
     let others = OF_ORBITS.into_iter().filter(|column| *column != key);
     let mut columns: Vec<_> = others.map(number).collect();
     columns.insert(1, number(key));
-    let symbols = points().map(|point| Some(point.orbit.lap.sequence.symbol().join(" ").into()));
-    columns.push(("symbol", Values::Words(symbols.collect())));
-    let stability = points().map(|point| Some(point.orbit.stability().name()));
-    columns.push(("stability", names(stability)));
-    let real = points().map(|point| Some(point.orbit.is_admissible()));
-    columns.push(("admissible", Values::Flags(real.collect())));
+    columns.extend(words_of(
+        &points().map(|point| &point.orbit).collect::<Vec<_>>(),
+    ));
     columns
 }
 

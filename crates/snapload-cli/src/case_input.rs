@@ -28,15 +28,11 @@ pub(crate) struct Input {
     pub(crate) name: String,
     /// The case, checked.
     pub(crate) case: Case,
-    entries: Entries,
+    /// Its keys as they were given.
+    pub(crate) entries: Entries,
 }
 
 impl Input {
-    /// A number of the case as it was typed, if it was.
-    pub(crate) fn written(&self, key: &str) -> Option<&str> {
-        self.entries.written(key)
-    }
-
     /// The same case with one key changed; what follows from it, such as the inertia, follows anew.
     pub(crate) fn with(&self, key: &'static str, value: Value) -> Result<Parameters, CaseError> {
         Parameters::from_entries(self.entries.values("case").chain([(key, value)]))
@@ -73,9 +69,16 @@ impl CaseArgs {
 
     /// Reads and checks the values of the case, whose start need not be legal.
     pub(crate) fn parameters(&self) -> Result<(String, Parameters), Failure> {
+        let (name, parameters, _) = self.parameters_as_given()?;
+        Ok((name, parameters))
+    }
+
+    /// The same with the keys as they were given.
+    pub(crate) fn parameters_as_given(&self) -> Result<(String, Parameters, Entries), Failure> {
         let (name, entries) = self.entries(&CASE)?;
         let parameters = Parameters::from_entries(entries.values("case"));
-        Ok((name, parameters.map_err(|error| entries.locate(error))?))
+        let parameters = parameters.map_err(|error| entries.locate(error))?;
+        Ok((name, parameters, entries))
     }
 
     /// Reads and checks the case.

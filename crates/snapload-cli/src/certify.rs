@@ -1,11 +1,12 @@
 //! `snapload certify`: a run as a theorem, proved and written down, and checked again.
 use crate::bar::Bar;
-use crate::case_input::{CaseArgs, Input, read_up_to};
+use crate::case_input::{CaseArgs, read_up_to};
 use crate::failure::{Failure, print};
 use crate::json::{Json, JsonArgs};
 use crate::stage::Stage;
 use serde::Serialize;
 use snapload::analysis::Progress;
+use snapload::{Entries, Parameters};
 use snapload_certificate::{
     Cancelled, Certification, Decimal, Ended, ExactCase, NUMBERS, Reason, Verdict, certify, check,
 };
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 fn run_certify(args: &Args) -> Result<(), Failure> {
     let input = args.case.read()?;
-    let case = exact(&input)?;
+    let case = exact(input.case.parameters(), &input.entries)?;
     let mut stage = Stage::default();
     let out = Json::open(&mut stage, args.out.as_deref())?;
     let json = args.json.open(&mut stage)?;
@@ -109,19 +110,28 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The case as decimals: what was typed stays as typed.
-pub(crate) fn exact(input: &Input) -> Result<ExactCase, Failure> {
+/// The case as decimals: what was typed stays as typed, of all keys that have their values from there.
+pub(crate) fn exact(parameters: &Parameters, entries: &Entries) -> Result<ExactCase, Failure> {
+    exact_but(parameters, entries, "")
+}
+
+/// The same where one key has another value than was typed.
+pub(crate) fn exact_but(
+    parameters: &Parameters,
+    entries: &Entries,
+    changed: &str,
+) -> Result<ExactCase, Failure> {
+    let written = |key: &str| entries.written(key).filter(|_| key != changed);
     for key in NUMBERS.into_iter().chain(["inertia"]) {
-        let written = input.written(key);
-        if let Some(text) = written.filter(|text| Decimal::typed(text).is_none()) {
+        if let Some(text) = written(key).filter(|text| Decimal::typed(text).is_none()) {
             return Err(Failure::BadInput(format!(
-                "{key} = {text}: a certificate needs a decimal of at most 399 characters and a power of \
+                "{key} = {text}: a proof needs a decimal of at most 399 characters and a power of \
                  ten within 400, such as 0.25 or 1e-6"
             )));
         }
     }
-    let typed = |key: &str| input.written(key).and_then(Decimal::typed);
-    ExactCase::of(input.case.parameters(), typed).map_err(Failure::BadInput)
+    let typed = |key: &str| written(key).and_then(Decimal::typed);
+    ExactCase::of(parameters, typed).map_err(Failure::BadInput)
 }
 
 fn in_words(proof: &Certification, seconds: f64) -> String {

@@ -1,10 +1,10 @@
 //! `snapload curve`: special orbits as two keys change.
 use crate::bar::Bar;
-use crate::branch::{OF_ORBITS, of_orbit};
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::orbit::NearArgs;
+use crate::orbit_columns::{OF_ORBITS, of_orbit};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::stage::Stage;
 use crate::table::{TableFile, names};

@@ -33,7 +33,9 @@ mod merge;
 #[cfg(feature = "structure")]
 mod moordyn;
 mod orbit;
+mod orbit_columns;
 mod orbit_picture;
+mod orbit_search;
 mod pictures;
 #[cfg(feature = "reproduce")]
 mod reproduce;

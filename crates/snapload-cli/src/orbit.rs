@@ -1,18 +1,20 @@
 //! `snapload orbit`: periodic orbits.
-use crate::bar::Bar;
 use crate::case_input::CaseArgs;
 use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
+use crate::orbit_search::{Found, Search, columns};
 use crate::stage::Stage;
+use crate::table::{TableFile, axis};
 use serde::Serialize;
-use snapload::analysis::{OnProgress, Progress, START_KEYS};
+use snapload::analysis::{OnProgress, START_KEYS};
 use snapload::{Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Wanted, checked_phase, distance, find_orbits, of_attractor,
+    Moored, Orbit, OrbitRow, Point, Proofs, Wanted, checked_phase, distance, of_attractor,
     orbit_in_words, start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
+use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 An orbit is a motion that repeats itself after whole periods of the forcing. It is closed to rounding by
@@ -25,7 +27,12 @@ Examples:
   snapload orbit --set omega=3 --start x=-0.06,y=0.12,theta=0.48,vx=0.39,vy=0.65,vtheta=-1.67
       the one near a start, which may be unstable
   snapload orbit --set omega=3 --find 2000 --seed 1 --json - | jq '.orbits[].multipliers[0]'
-      all that random starts lead to, for the next program";
+      all that random starts lead to, for the next program
+  snapload orbit --set a=0.3 --set b=0.3 --set omega=2.5 --find 1000 --vary f_o=0.4:0.6:21 --prove \\
+      --out orbits.parquet
+      more than a thousand orbits of a square, each proved to exist
+
+Exit status: 0 found, 1 no orbit there, or with --prove one that is not proved, 2 bad input.";
 
 /// Which case, and which orbit.
 #[derive(clap::Args)]
@@ -44,6 +51,22 @@ pub(crate) struct Args {
     /// Which random starts
     #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
     seed: u64,
+    /// Look for them at each of these values of a key: from the random starts, and from the orbits at the value
+    /// before
+    #[arg(
+        long,
+        value_name = "KEY=first:last:n",
+        requires = "find",
+        allow_hyphen_values = true
+    )]
+    vary: Option<String>,
+    /// Prove that the orbit exists, in numbers of many digits, and say how far off the printed one is at most:
+    /// orbits in slack flight, of the case as the decimals that it is written in
+    #[arg(long)]
+    prove: bool,
+    /// Write a table with a row an orbit, FILE.parquet or FILE.csv
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
     #[command(flatten)]
     json: JsonArgs,
 }
@@ -111,87 +134,94 @@ struct One<'a> {
     orbit: OrbitRow,
 }
 
-#[derive(Serialize)]
-struct Many<'a> {
-    case: CaseEcho<'a>,
-    starts: u32,
-    seed: u64,
-    orbits: Vec<OrbitRow>,
-}
-
 /// Runs it.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
-    let (name, parameters) = args.case.parameters()?;
+    let (name, parameters, entries) = args.case.parameters_as_given()?;
     let (start, mut wanted) = args.near.read(&parameters)?;
     wanted.struck = args.symbol.as_deref().map(cables).transpose()?;
+    let values = args.vary.as_deref().map(|text| axis("--vary", text));
+    let search = Search {
+        parameters: &parameters,
+        entries: &entries,
+        wanted: &wanted,
+        along: values.transpose()?,
+        prove: args.prove,
+    };
+    let cases = search.cases()?;
     let mut stage = Stage::default();
+    let table = TableFile::open(&mut stage, args.out.as_deref())?;
     let json = args.json.open(&mut stage)?;
-    let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
-    let written = if let Some(starts) = args.find {
-        let row = many(args, &parameters, (starts, &wanted), &mut text)?;
-        json.write(stage, &row)?
-    } else {
-        let orbit = one(&parameters, start, &wanted)?;
-        text.push_str(&orbit_in_words(&orbit));
-        if let Some(far) = start.and_then(|start| orbit.far_from(&start)) {
+    let found = match args.find {
+        Some(starts) => search.many(&cases, (starts, args.seed))?,
+        None => search.one(&cases[0], start)?,
+    };
+    table.stage(&mut stage, &columns(&found))?;
+    let case = CaseEcho(&parameters);
+    let written = match args.find {
+        Some(starts) => json.write(stage, &found.row(case, starts, args.seed))?,
+        None => {
+            let row = One {
+                case,
+                start_distance: start.map(|start| distance(&found.orbits[0].z, &start)),
+                orbit: OrbitRow::new(&found.orbits[0]),
+            };
+            json.write(stage, &row)?
+        }
+    };
+    if let Some(written) = written {
+        let mut text = format!("Case      {}\n", case_in_words(&name, &parameters));
+        text.push_str(&in_words(args, &found, start));
+        for path in written {
+            let _ = writeln!(text, "Written   {}", path.display());
+        }
+        print(&text)?;
+    }
+    match found.proofs {
+        Some(proofs) if args.find.is_none() && proofs.proved == 0 => Err(Failure::Answered(1)),
+        _ => Ok(()),
+    }
+}
+
+/// So many orbits are told one by one.
+const TOLD: usize = 12;
+
+fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
+    let mut text = String::new();
+    let orbits = &found.orbits;
+    if let Some(starts) = args.find {
+        let of_each = if args.vary.is_some() {
+            " at each value"
+        } else {
+            ""
+        };
+        let _ = writeln!(
+            text,
+            "Found     {} orbits from {starts} random starts{of_each}",
+            orbits.len()
+        );
+        if let Some(Proofs { proved, distinct }) = found.proofs {
             let _ = writeln!(
                 text,
-                "Far       from the start: by {far:.3} in one coordinate, and no nearer one was found"
+                "Proved    {proved} of them, {distinct} of which are certainly different orbits"
             );
         }
-        let row = One {
-            case: CaseEcho(&parameters),
-            start_distance: start.map(|start| distance(&orbit.z, &start)),
-            orbit: OrbitRow::new(&orbit),
-        };
-        json.write(stage, &row)?
-    };
-    let Some(written) = written else {
-        return Ok(());
-    };
-    for path in written {
-        let _ = writeln!(text, "Written   {}", path.display());
     }
-    print(&text)
-}
-
-/// The orbit near a start, or the one that the motion of the case comes to.
-fn one(parameters: &Parameters, start: Option<Point>, wanted: &Wanted) -> Result<Orbit, Failure> {
-    let bar = Bar::new();
-    let orbit = match start {
-        Some(start) => {
-            let family = Moored::case(*parameters, [None; 2]);
-            Orbit::find(&family, [0.0; 2], &start, wanted)
-        }
-        None => of_attractor(parameters, wanted, &|progress: Progress| bar.show(progress))?,
-    };
-    orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
-}
-
-/// All orbits that random starts lead to.
-fn many<'a>(
-    args: &Args,
-    parameters: &'a Parameters,
-    (starts, wanted): (u32, &Wanted),
-    text: &mut String,
-) -> Result<Many<'a>, Failure> {
-    let bar = Bar::new();
-    let on_progress = |progress: Progress| bar.show(progress);
-    let orbits = find_orbits(parameters, starts as usize, args.seed, wanted, &on_progress)?;
-    let _ = writeln!(
-        text,
-        "Found     {} orbits from {starts} random starts",
-        orbits.len()
-    );
-    for orbit in &orbits {
+    for orbit in orbits.iter().take(TOLD) {
         text.push_str(&orbit_in_words(orbit));
     }
-    Ok(Many {
-        case: CaseEcho(parameters),
-        starts,
-        seed: args.seed,
-        orbits: orbits.iter().map(OrbitRow::new).collect(),
-    })
+    if let Some(left) = orbits.len().checked_sub(TOLD).filter(|left| *left > 0) {
+        let _ = writeln!(
+            text,
+            "And       {left} more, with --json FILE or --out FILE"
+        );
+    }
+    if let Some(far) = start.and_then(|start| orbits.first()?.far_from(&start)) {
+        let _ = writeln!(
+            text,
+            "Far       from the start: by {far:.3} in one coordinate, and no nearer one was found"
+        );
+    }
+    text
 }
 
 /// A start out of `x=..,y=..`.

@@ -122,7 +122,10 @@ fn certified(args: &Args, input: &Input, trusted: &Trusted) -> Result<Option<Cer
     if !args.certify {
         return Ok(None);
     }
-    let (case, t_end) = (exact(input)?, input.case.parameters().t_end);
+    let (case, t_end) = (
+        exact(input.case.parameters(), &input.entries)?,
+        input.case.parameters().t_end,
+    );
     let bar = Bar::new();
     let proof = prove(&case, t_end, &|progress| bar.show(progress));
     let proof =

@@ -1,6 +1,7 @@
 //! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
 
-use crate::hybrid::Point;
+use crate::hybrid::{Family, Hybrid, Point};
+use crate::lap::Lap;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, Wanted, distance};
@@ -79,49 +80,89 @@ const BATCH: usize = 16;
 /// Two orbits whose sections are nearer than this are one.
 const SAME: f64 = 1e-8;
 
-/// All orbits that Newton's method finds from so many random starts in the box |x| ≤ w, −w ≤ y ≤ h,
-/// |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a body has, the
-/// most stable ones first.
+/// Starts from which orbits are looked for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Starts<'a> {
+    /// So many random ones.
+    pub count: usize,
+    /// Which random ones.
+    pub seed: u64,
+    /// These before them, such as the orbits of a case nearby.
+    pub near: &'a [Point],
+}
+
+/// All orbits that Newton's method finds from given starts and from random ones in the box |x| ≤ w, −w ≤ y ≤ h,
+/// |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a body has, each
+/// once, whichever of its periods it was met in, the most stable ones first. One that repeats itself
+/// after fewer periods than are wanted is left out.
 ///
 /// # Errors
 /// [`Unfinished`] if the case can not be, or it is told to end.
 pub fn find_orbits(
     parameters: &Parameters,
-    starts: usize,
-    seed: u64,
+    starts: &Starts,
     wanted: &Wanted,
     on_progress: OnProgress,
 ) -> Result<Vec<Orbit>, Unfinished> {
     period_of(parameters)?;
     let family = Moored::case(*parameters, [None; 2]);
-    let counter = Counter::new("starts", 0, starts as u64, on_progress);
-    let batches = starts.div_ceil(BATCH);
+    let all = starts.near.len() + starts.count;
+    let counter = Counter::new("starts", 0, all as u64, on_progress);
+    let batches = all.div_ceil(BATCH);
+    let start = |k: usize| match k.checked_sub(starts.near.len()) {
+        None => starts.near.get(k).copied(),
+        Some(k) => random_start(parameters, starts.seed, k as u64),
+    };
     let made = on_all_threads(batches, |numbers| {
-        let mut all = Vec::new();
+        let mut made = Vec::new();
         for batch in numbers {
             let first = batch * BATCH;
-            let last = (first + BATCH).min(starts);
+            let last = (first + BATCH).min(all);
             let mut found: Vec<Orbit> = Vec::new();
             for k in first..last {
-                let start = random_start(parameters, seed, k as u64);
-                found.extend(start.and_then(|z| crate::orbit::from_afar(&family, &z, wanted)));
+                found.extend(start(k).and_then(|z| crate::orbit::from_afar(&family, &z, wanted)));
             }
             counter.add((last - first) as u64)?;
-            all.push(found);
+            made.push(found);
         }
-        Ok::<_, snapload::analysis::Cancelled>(all)
+        Ok::<_, snapload::analysis::Cancelled>(made)
     })?;
     let mut orbits: Vec<Orbit> = Vec::new();
+    let mut met: Vec<Point> = Vec::new();
+    let is_in = |points: &[Point], z: &Point| points.iter().any(|p| distance(p, z) < SAME);
     for orbit in made.into_vec().into_iter().flatten() {
-        if !orbits
-            .iter()
-            .any(|known| distance(&known.z, &orbit.z) < SAME)
-        {
+        if is_in(&met, &orbit.z) {
+            continue;
+        }
+        let sections = sections(&family, &orbit);
+        if !is_in(&sections[1..], &orbit.z) {
+            met.extend(sections);
             orbits.push(orbit);
         }
     }
     orbits.sort_by(|a, b| a.multipliers.largest().total_cmp(&b.multipliers.largest()));
     Ok(orbits)
+}
+
+/// The states at all sections of a lap, one a period of the forcing, beginning with the orbit's own.
+fn sections(family: &Moored, orbit: &Orbit) -> Vec<Point> {
+    let lap = Lap {
+        family,
+        at: orbit.at,
+        sequence: &orbit.lap.sequence,
+        phase: orbit.phase,
+        periods: orbit.periods,
+    };
+    let system = family.plain(orbit.at);
+    let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
+    let (begun, length) = lap.times();
+    let period = length / f64::from(orbit.periods);
+    let later = (1..orbit.periods).filter_map(|k| {
+        let t = begun + period * f64::from(k);
+        let leg = legs.iter().rev().find(|leg| leg.t <= t)?;
+        Some(system.flow(leg.held, leg.t, &leg.start, t - leg.t))
+    });
+    std::iter::once(orbit.z).chain(later).collect()
 }
 
 /// The k-th random start; none where it is not legal.

@@ -3,7 +3,7 @@
 use crate::branch::{Branch, BranchEnd, BranchPoint};
 use crate::branch_events::BranchEvent;
 use crate::hybrid::Point;
-use crate::rows::StabilityRow;
+use crate::orbit_row::StabilityRow;
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -4,7 +4,7 @@ use crate::branch_events::BranchEvent;
 use crate::branch_rows::EventRow;
 use crate::curve::{Curve, CurveEnd, CurvePoint};
 use crate::hybrid::Point;
-use crate::rows::StabilityRow;
+use crate::orbit_row::StabilityRow;
 use serde::Serialize;
 use std::fmt::Write;
 

@@ -32,6 +32,16 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
     if let Some(error) = orbit.return_error {
         let _ = writeln!(text, "Returns   to {error:.1e} when it is run");
     }
+    let _ = match &orbit.proof {
+        Some(Ok(proved)) => writeln!(
+            text,
+            "Proved    to exist within {:.1e} of the section, and to be alone within {:.1e}",
+            proved.error_of(&orbit.z),
+            proved.alone_within
+        ),
+        Some(Err(why)) => writeln!(text, "Unproved  {why}"),
+        None => Ok(()),
+    };
     text
 }
 

@@ -48,7 +48,7 @@ pub fn along(
     step: f64,
     most: usize,
 ) -> Result<(&'static str, f64, Along), CaseError> {
-    let (key, value) = followed(parameters, key)?;
+    let (key, value) = followed("along", parameters, key)?;
     check_range(key, value, [low, high])?;
     let step = checked_step(step)?;
     let range = [low, high];
@@ -67,7 +67,7 @@ pub fn across(
     most: usize,
 ) -> Result<([&'static str; 2], Across), CaseError> {
     let of = |(key, range): (&str, Option<[f64; 2]>)| {
-        let (key, value) = followed(parameters, key)?;
+        let (key, value) = followed("along", parameters, key)?;
         let range = match range {
             Some(range) => range,
             None => usual_range(key, value)?,
@@ -99,19 +99,26 @@ fn usual_range(key: &str, value: f64) -> Result<[f64; 2], CaseError> {
     })
 }
 
-/// A key that orbits change with, and its value.
-fn followed(parameters: &Parameters, key: &str) -> Result<(&'static str, f64), CaseError> {
+/// A key that orbits change with, and its value; `option` is where it was given.
+///
+/// # Errors
+/// A [`CaseError`] if it is no such key.
+pub fn followed(
+    option: &'static str,
+    parameters: &Parameters,
+    key: &str,
+) -> Result<(&'static str, f64), CaseError> {
     let key = key_named(key)?.name;
     if !UNCERTAIN_KEYS.contains(&key) {
         let allowed = format!(
             "a key that orbits change with: one of {}",
             UNCERTAIN_KEYS.join(", ")
         );
-        return Err(CaseError::value("along", key, allowed));
+        return Err(CaseError::value(option, key, allowed));
     }
     let value = parameters.get(key).as_ref().and_then(Value::number);
     let allowed = "a key that holds a number, of this body";
-    let value = value.ok_or_else(|| CaseError::value("along", key, allowed))?;
+    let value = value.ok_or_else(|| CaseError::value(option, key, allowed))?;
     Ok((key, value))
 }
 

@@ -8,6 +8,7 @@ use crate::scan::scan;
 use crate::sequence::{Sequence, Timed};
 use crate::survey::{Survey, survey};
 use snapload::TautSet;
+use snapload_certificate::ProvedOrbit;
 use std::fmt;
 
 /// A periodic orbit of a system.
@@ -39,7 +40,12 @@ pub struct Orbit {
     pub why_not: Vec<String>,
     /// det M as the law of impact and the drag say, where one says so.
     pub rule: Option<f64>,
+    /// What became of the attempt to prove it, where one was made.
+    pub proof: Option<Proof>,
 }
+
+/// What became of the attempt to prove an orbit: it, or why it is not proved.
+pub type Proof = Result<ProvedOrbit, String>;
 
 /// One row of the events of an orbit.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,6 +191,7 @@ impl Orbit {
             return_error,
             why_not,
             rule,
+            proof: None,
         }
     }
 

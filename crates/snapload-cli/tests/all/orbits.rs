@@ -229,3 +229,81 @@ fn where_there_is_no_orbit_it_is_said_why() {
             "no orbit was found: the motion of this start stops at t = 10.02",
         ));
 }
+
+#[test]
+fn an_orbit_is_proved_with_a_bound_on_the_error_of_what_is_printed() {
+    let orbit = json("orbit", &["--prove"]);
+    assert_eq!(orbit["proved"], true);
+    let bound = number(&orbit["error_bound"]);
+    assert!(bound > 0.0 && bound < 1e-14, "{bound:e}");
+    // Of 50 digits by an independent program, 30.
+    let proof = &orbit["proof"];
+    let exact = "-0.268810219181438605342115917801";
+    assert_eq!(proof["state"][0], exact);
+    assert_eq!(proof["state"][2], "0.000000000000000000000000000000");
+    assert_eq!(proof["events"][0]["cable"], 2);
+    assert_eq!(proof["prime"], true);
+    let printed = number(&orbit["section"]["state"][0]);
+    assert!((printed - exact.parse::<f64>().unwrap()).abs() <= bound);
+    // What was typed is what is proved: a decimal that no double is.
+    let d = directory();
+    let typed = "r=1.70000000000000000000000000001";
+    let out = snapload(d.path())
+        .arg("orbit")
+        .args(&VOLLEY[..VOLLEY.len() - 1])
+        .args(["--set", typed, "--prove", "--json", "-"])
+        .assert()
+        .success();
+    let other: Value = serde_json::from_slice(&out.get_output().stdout).unwrap();
+    assert_eq!(other["section"]["state"], orbit["section"]["state"]);
+    assert_ne!(other["proof"]["state"][0], proof["state"][0]);
+}
+
+#[test]
+fn a_taut_lap_is_not_proved_and_says_why() {
+    let d = directory();
+    snapload(d.path())
+        .args(
+            "orbit --set body=point --set r=1.4 --set e=0.9 --set f_o=0.3 --set nu=0 --set omega=3"
+                .split(' '),
+        )
+        .args(["--start", "x=0.1529,y=0.1855,vx=0.3589,vy=0.521", "--prove"])
+        .assert()
+        .code(1)
+        .stdout(contains("Unproved  cable 2 is taut on a part of the lap"));
+    refused(&["orbit", "--vary", "f_o=0.1:0.2:3"], "--find");
+    refused(
+        &["orbit", "--find", "5", "--vary", "t_end=1:2:3"],
+        "a key that orbits change with",
+    );
+}
+
+#[test]
+fn orbits_of_many_cases_are_found_from_those_before_and_proved() {
+    let d = directory();
+    snapload(d.path())
+        .args("orbit --set a=0.3 --set b=0.3 --set omega=2.5".split(' '))
+        .args(
+            "--find 40 --seed 1 --vary f_o=0.48:0.5:3 --prove --out o.csv --json o.json".split(' '),
+        )
+        .assert()
+        .success()
+        .stdout(contains("certainly different orbits"));
+    let read = |name: &str| std::fs::read_to_string(d.path().join(name)).unwrap();
+    let found: Value = serde_json::from_str(&read("o.json")).unwrap();
+    let orbits = found["orbits"].as_array().unwrap();
+    assert_eq!(found["vary"], "f_o");
+    assert_eq!(number(&found["proved"]) as usize, orbits.len());
+    assert_eq!(found["distinct"], found["proved"]);
+    let at = |value: f64| {
+        orbits
+            .iter()
+            .filter(|o| number(&o["value"]) == value)
+            .count()
+    };
+    assert!([0.48, 0.49, 0.5].iter().all(|value| at(*value) >= 2));
+    let table = read("o.csv");
+    assert!(table.starts_with("f_o,x,y,theta,vx,vy,vtheta,largest_multiplier"));
+    assert_eq!(table.lines().count(), orbits.len() + 1);
+    assert!(table.lines().nth(1).unwrap().contains(",true,true,"));
+}

@@ -10,4 +10,5 @@ mod curves;
 mod diagrams;
 mod held;
 mod orbits;
+mod proofs;
 mod wall;

@@ -1,0 +1,79 @@
+//! Orbits that are proved to exist.
+//!
+//! Everything else in this crate is computed in doubles. Here the orbit of a case of decimals is a
+//! theorem, by numbers of many digits with bounds on their errors: see [`prove_orbit`].
+
+use crate::orbit::{Orbit, Proof};
+use serde::Serialize;
+use snapload::TautSet;
+use snapload::analysis::{Cancelled, Counter, OnProgress, in_parallel};
+use snapload_certificate::{ExactCase, ProvedOrbit, Supposed, prove_orbit};
+
+/// How many orbits are proved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Proofs {
+    /// Those that exist.
+    pub proved: usize,
+    /// Of these as many as are certainly not one and the same orbit.
+    pub distinct: usize,
+}
+
+impl Orbit {
+    /// The proof that there is an orbit of these snaps next to this one, for the case of decimals that
+    /// it is an orbit of.
+    pub fn prove(&self, case: &ExactCase) -> Proof {
+        let held = self.lap.sequence.held().into_iter();
+        let taut = held.fold(TautSet::SLACK, TautSet::union);
+        if let Some(cable) = taut.iter().next() {
+            return Err(format!(
+                "cable {} is taut on a part of the lap, and proofs of orbits cover slack flight",
+                cable + 1
+            ));
+        }
+        if let Some(why) = self.why_not.first() {
+            return Err(format!("no body has it: {why}"));
+        }
+        let supposed = Supposed {
+            phase: self.phase,
+            periods: self.periods,
+            state: self.z,
+            struck: &self.lap.sequence.struck(),
+        };
+        prove_orbit(case, &supposed)
+    }
+}
+
+/// Proves orbits of one case on all threads, and counts those that are certainly different ones.
+///
+/// # Errors
+/// [`Cancelled`] if it is told to end.
+pub fn prove_all(
+    orbits: &mut [Orbit],
+    case: &ExactCase,
+    on_progress: OnProgress,
+) -> Result<Proofs, Cancelled> {
+    let counter = Counter::new("proofs", 0, orbits.len() as u64, on_progress);
+    let proofs = in_parallel(orbits.len(), |k| {
+        let proof = orbits[k].prove(case);
+        counter.add(1)?;
+        Ok(proof)
+    })?;
+    let mut distinct: Vec<&ProvedOrbit> = Vec::new();
+    let proved: Vec<&ProvedOrbit> = proofs
+        .iter()
+        .filter_map(|proof| proof.as_ref().ok())
+        .collect();
+    for orbit in &proved {
+        if distinct.iter().all(|other| orbit.is_another_than(other)) {
+            distinct.push(orbit);
+        }
+    }
+    let counted = Proofs {
+        proved: proved.len(),
+        distinct: distinct.len(),
+    };
+    for (orbit, proof) in orbits.iter_mut().zip(proofs) {
+        orbit.proof = Some(proof);
+    }
+    Ok(counted)
+}
