@@ -1,6 +1,6 @@
 //! What there is in the file of a study, for a person.
 use crate::failure::{Failure, print};
-use snapload_study::{Axis, Plan, Side, Tally, ends};
+use snapload_study::{Axis, Plan, Side, StudyEnds, ends};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Summary<'a> {
     file: &'a Path,
     rows: u64,
-    tally: Tally,
+    tally: StudyEnds,
     picture: Option<PathBuf>,
     plan: Option<&'a Plan>,
 }
@@ -62,7 +62,7 @@ impl<'a> Summary<'a> {
         };
         let _ = writeln!(text, "Ends      {ends}");
         if tally.judged > 0 {
-            let Tally {
+            let StudyEnds {
                 certain, judged, ..
             } = tally;
             let _ = writeln!(

@@ -1,6 +1,6 @@
 //! A run with what is known of it: how far it can be trusted, and how its neighbours end.
 use snapload::analysis::{
-    DEFAULT_MEMBERS, Ensemble, Horizon, HorizonCause, OnProgress, Sensitivity, Tally, Trust,
+    DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Horizon, HorizonCause, OnProgress, Sensitivity, Trust,
     Uncertainty, Unfinished, sensitivity, trusted_run,
 };
 use snapload::{Case, Trajectory};
@@ -19,7 +19,7 @@ pub struct Trusted {
     /// Which neighbours were drawn.
     pub seed: u64,
     /// How neighbours end; none where the run is certain, or none were asked for.
-    pub tally: Option<Tally>,
+    pub tally: Option<EnsembleEnds>,
     /// How the first impacts depend on every key.
     pub sensitivity: Vec<Sensitivity>,
 }

@@ -46,6 +46,6 @@ pub use table::{Column, Take, columns};
 pub use table_file::write_table;
 pub use threads::threads_for;
 pub use whole::{
-    Shown, Tally, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
+    Shown, StudyEnds, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
     read_shown,
 };

@@ -36,7 +36,7 @@ fn side_by_side(
     numbers: &mut dyn Iterator<Item = usize>,
     counter: &Counter,
 ) -> Result<Vec<Row>, Cancelled> {
-    let mut made = Vec::new();
+    let mut made = Vec::with_capacity(numbers.size_hint().1.unwrap_or(0));
     let cases = numbers.filter_map(|k| match drawn.case(k) {
         Ok(case) => {
             made.push(Ok(*case.parameters()));

@@ -229,7 +229,7 @@ fn missing(rows: Range<u64>, parts: &[(Identity, &PathBuf)]) -> StudyError {
 
 /// How the runs of a file ended.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct StudyEnds {
     /// How many in which way.
     pub ends: BTreeMap<String, u64>,
     /// Of how many it was found out whether the end is certain.
@@ -246,8 +246,8 @@ pub struct Tally {
 ///
 /// # Errors
 /// [`StudyError::Damaged`] if it can not be read.
-pub fn ends(path: &Path) -> Result<Tally, StudyError> {
-    let mut tally = Tally::default();
+pub fn ends(path: &Path) -> Result<StudyEnds, StudyError> {
+    let mut tally = StudyEnds::default();
     let mut row = identity_of(path).map_or(0, |identity| identity.rows.start);
     let columns = Columns::named(path, &["end", "certain", "error"])?;
     columns.each(|columns| {

@@ -1,14 +1,13 @@
 //! Neighbours of a case: what comes of it where one run can not tell.
 
+use crate::analysis::outcomes::{on_all_threads, outcomes_on_one_thread};
 use crate::analysis::progress::{Counter, OnProgress, Unfinished};
-use crate::analysis::threads::in_parallel;
 use crate::analysis::trust::{START_KEYS, Uncertainty};
 use crate::case::Case;
 use crate::case::error::CaseError;
 use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::rules::Stop;
-use crate::motion::outcome::Outcome;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::ops::Range;
@@ -112,21 +111,21 @@ impl Ensemble {
         given.map_or(0.0, |(_, size)| *size)
     }
 
-    /// Runs all members, on all threads that there are.
+    /// Runs all members, side by side in the lanes of the processor, on all threads that there are.
     ///
     /// # Errors
     /// A [`CaseError`] if a member could not be drawn, and [`Unfinished::Cancelled`].
-    pub fn tally(&self, on_progress: OnProgress) -> Result<Tally, Unfinished> {
+    pub fn tally(&self, on_progress: OnProgress) -> Result<EnsembleEnds, Unfinished> {
         let counter = Counter::new("neighbours", 0, self.count.into(), on_progress);
         let (ends, clear) = (self.ends(0..self.count, &counter)?, false);
-        Ok(Tally { ends, clear })
+        Ok(EnsembleEnds { ends, clear })
     }
 
     /// The same, but where the first 200 members end alike, no more are run.
     ///
     /// # Errors
     /// As for [`Ensemble::tally`].
-    pub fn tally_until_clear(&self, on_progress: OnProgress) -> Result<Tally, Unfinished> {
+    pub fn tally_until_clear(&self, on_progress: OnProgress) -> Result<EnsembleEnds, Unfinished> {
         let counter = Counter::new("neighbours", 0, self.count.into(), on_progress);
         let first = self.count.min(CLEAR);
         let mut ends = self.ends(0..first, &counter)?;
@@ -134,27 +133,38 @@ impl Ensemble {
         if !clear {
             ends.extend(self.ends(first..self.count, &counter)?);
         }
-        Ok(Tally { ends, clear })
+        Ok(EnsembleEnds { ends, clear })
     }
 
     fn ends(&self, members: Range<u32>, counter: &Counter) -> Result<Vec<Stop>, Unfinished> {
-        in_parallel(members.len(), |k| {
-            let outcome = Outcome::of(&self.member(members.start + k as u32)?);
-            counter.add(1)?;
-            Ok::<_, Unfinished>(outcome.end.reason)
-        })
+        let made = on_all_threads(members.len(), |numbers| {
+            let mut refused = None;
+            let drawn = numbers.map_while(|k| match self.member(members.start + k as u32) {
+                Ok(case) => Some(case),
+                Err(error) => {
+                    refused = Some(error);
+                    None
+                }
+            });
+            let outcomes = outcomes_on_one_thread(drawn, counter)?;
+            match refused {
+                Some(error) => Err(Unfinished::from(error)),
+                None => Ok(outcomes.iter().map(|outcome| outcome.end.reason).collect()),
+            }
+        })?;
+        Ok(made.into_vec())
     }
 }
 
 /// How the members of an ensemble end.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tally {
+pub struct EnsembleEnds {
     ends: Vec<Stop>,
     /// Whether the rest was not run, as these ended alike.
     clear: bool,
 }
 
-impl Tally {
+impl EnsembleEnds {
     /// How many members there are.
     pub fn members(&self) -> usize {
         self.ends.len()

@@ -33,6 +33,30 @@ impl<R> Made<R> {
     }
 }
 
+/// The numbers below a count that one of several threads is handed.
+struct Numbers<'a> {
+    next: &'a AtomicUsize,
+    count: usize,
+    mine: Vec<usize>,
+}
+
+impl Iterator for Numbers<'_> {
+    type Item = usize;
+
+    fn next(&mut self) -> Option<usize> {
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        (number < self.count).then(|| {
+            self.mine.push(number);
+            number
+        })
+    }
+
+    /// The other threads may take all that are left.
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (0, Some(self.count - self.mine.len()))
+    }
+}
+
 /// What `work` makes of each number below `count`, on all threads that there are.
 ///
 /// Each thread is handed numbers one by one, and makes one result of each, in that order. So its
@@ -48,18 +72,20 @@ pub fn on_all_threads<R: Send, E: Send>(
     work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
 ) -> Result<Made<R>, E> {
     let next = AtomicUsize::new(0);
-    let done = in_parallel(rayon::current_num_threads().min(count), |_| {
-        let mut mine = Vec::new();
-        let mut numbers = std::iter::from_fn(|| {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            (number < count).then(|| {
-                mine.push(number);
-                number
-            })
-        });
+    let threads = rayon::current_num_threads().min(count);
+    let done = in_parallel(threads, |_| {
+        let mut numbers = Numbers {
+            next: &next,
+            count,
+            mine: Vec::with_capacity(count.div_ceil(threads)),
+        };
         let made = work(&mut numbers).inspect_err(|_| next.store(count, Ordering::Relaxed))?;
-        assert_eq!(made.len(), mine.len(), "every number has one result");
-        Ok((mine, made))
+        assert_eq!(
+            made.len(),
+            numbers.mine.len(),
+            "every number has one result"
+        );
+        Ok((numbers.mine, made))
     })?;
     let mut places = vec![(0, 0); count];
     for (list, (numbers, _)) in done.iter().enumerate() {
@@ -101,19 +127,19 @@ fn outcomes_of(
     cases: &mut dyn Iterator<Item = Case>,
     counter: &Counter,
 ) -> Result<Vec<Outcome>, Cancelled> {
-    let runs = cases.map(|case| (case.into_simulation(), Unfollowed));
+    let runs = cases.map(|case| (case.into_boxed(), Unfollowed));
     let told = side_by_side(Lanes::best(), runs, counter)?;
-    Ok(told.map(|(outcome, _)| outcome).collect())
+    Ok(told.map(|(outcome, ())| outcome).collect())
 }
 
-/// What runs come to, and their followers, in their order. Each is counted when it begins, and the
+/// What runs come to, and what their followers say, in their order. Each is counted when it begins, and the
 /// counter asked whether to go on.
 ///
 /// # Errors
 /// As for [`outcomes`].
 pub(crate) fn side_by_side<F: Follower>(
     lanes: Lanes,
-    runs: impl Iterator<Item = (Simulation, F)>,
+    runs: impl Iterator<Item = (Box<Simulation>, F)>,
     counter: &Counter,
 ) -> Result<Told<F>, Cancelled> {
     let mut cancelled = None;

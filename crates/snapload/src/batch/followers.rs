@@ -9,6 +9,8 @@ use crate::motion::simulation::{Simulation, Step};
 pub(crate) trait Follower: Sized {
     /// The same beside the runs of several lanes.
     type LaneFollowers<L: Doubles>: LaneFollowers<L, Alone = Self>;
+    /// What it has to say in the end.
+    type Verdict;
 
     /// Takes in a step that the run made out of the lanes.
     fn take(&mut self, simulation: &Simulation, step: &Step);
@@ -16,6 +18,8 @@ pub(crate) trait Follower: Sized {
     fn goes_on(&self) -> bool;
     /// Whether it can follow the run in a lane now.
     fn fits_a_lane(&self) -> bool;
+    /// What it has to say, wherever it has come to.
+    fn verdict(self) -> Self::Verdict;
 }
 
 /// The followers of the runs in all lanes.
@@ -42,6 +46,7 @@ pub(crate) struct Unfollowed;
 
 impl Follower for Unfollowed {
     type LaneFollowers<L: Doubles> = Self;
+    type Verdict = ();
 
     #[inline(always)]
     fn take(&mut self, _: &Simulation, _: &Step) {}
@@ -53,6 +58,7 @@ impl Follower for Unfollowed {
     fn fits_a_lane(&self) -> bool {
         true
     }
+    fn verdict(self) {}
 }
 
 impl<L: Lane> LaneFollowers<L> for Unfollowed {

@@ -16,8 +16,11 @@ use crate::motion::simulation::Simulation;
 use std::iter::Flatten;
 use std::vec::IntoIter;
 
-/// What runs came to, and their followers, in their order.
-pub(crate) type Told<C> = Flatten<IntoIter<Option<(Outcome, C)>>>;
+/// What runs came to, and what their followers say, in their order.
+pub(crate) type Told<C> = Flatten<IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>>;
+
+/// Room is made for so many outcomes at once; for more it grows.
+const MOST_AT_ONCE: usize = 1 << 16;
 
 /// How many runs go side by side. All give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,9 +77,11 @@ impl Lanes {
 
     /// The outcomes of many cases, in their order, on one thread, and how well the lanes were used.
     pub fn outcomes(self, cases: &[Case]) -> (Vec<Outcome>, Usage) {
-        let runs = cases.iter().map(|case| (case.simulation(), Unfollowed));
+        let runs = cases
+            .iter()
+            .map(|case| (Box::new(case.simulation()), Unfollowed));
         let (told, usage) = self.outcomes_beside(runs);
-        let outcomes: Vec<Outcome> = told.map(|(outcome, _)| outcome).collect();
+        let outcomes: Vec<Outcome> = told.map(|(outcome, ())| outcome).collect();
         assert_eq!(outcomes.len(), cases.len(), "every run is told of once");
         (outcomes, usage)
     }
@@ -84,9 +89,10 @@ impl Lanes {
     /// The same of motions that have just begun, each with what follows it. A run that its follower has left goes on without.
     pub(crate) fn outcomes_beside<C: Follower>(
         self,
-        runs: impl Iterator<Item = (Simulation, C)>,
+        runs: impl Iterator<Item = (Box<Simulation>, C)>,
     ) -> (Told<C>, Usage) {
-        let mut told: Vec<Option<(Outcome, C)>> = Vec::new();
+        let many = runs.size_hint().1.unwrap_or(0).min(MOST_AT_ONCE);
+        let mut told: Vec<Option<(Outcome, C::Verdict)>> = Vec::with_capacity(many);
         let mut left = Vec::new();
         let mut begun = runs
             .enumerate()
@@ -101,7 +107,7 @@ impl Lanes {
             if told.len() <= index {
                 told.resize_with(index + 1, || None);
             }
-            told[index] = Some((outcome.ended(&simulation), follower));
+            told[index] = Some((outcome.ended(&simulation), follower.verdict()));
             if simulation.stop().is_none() {
                 left.push(Box::new(Slot {
                     index,

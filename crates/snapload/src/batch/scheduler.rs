@@ -43,7 +43,7 @@ impl Usage {
 
 /// What a run counts on its way.
 #[derive(Clone, Copy, Default)]
-struct Tally<L> {
+struct Counts<L> {
     impacts: L,
     /// Impacts of the second cable among them.
     second: L,
@@ -57,11 +57,18 @@ struct Tally<L> {
     repeats: L,
 }
 
+/// Whether a run comes to a lane for the first time, or back to the one that has its system.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Comes {
+    Anew,
+    Back,
+}
+
 /// A run that may have a lane.
 pub(super) struct Slot<C> {
     /// Its place in the order in which they came.
     pub(super) index: usize,
-    pub(super) simulation: Simulation,
+    pub(super) simulation: Box<Simulation>,
     pub(super) outcome: Outcome,
     pub(super) follower: C,
 }
@@ -72,7 +79,7 @@ pub(super) struct LaneScheduler<'a, L: Doubles, C: Follower> {
     slots: Vec<Option<Box<Slot<C>>>>,
     two_cables: TwoCableSystem<L>,
     after_impact: AfterImpact<L>,
-    tally: Tally<L>,
+    tally: Counts<L>,
     beside: C::LaneFollowers<L>,
     usage: Usage,
 }
@@ -95,7 +102,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             slots: (0..L::WIDTH).map(|_| None).collect(),
             two_cables: TwoCableSystem::zip_with(&system, &system, zero),
             after_impact: AfterImpact::zip_with(&motion, &motion, zero),
-            tally: Tally::zip_with(&tally, &tally, zero),
+            tally: Counts::zip_with(&tally, &tally, zero),
             beside: C::LaneFollowers::empty(),
             usage: Usage {
                 width: L::WIDTH,
@@ -153,7 +160,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
                 self.leave(lane, &mut slot);
                 slot.step();
                 self.usage.steps_apart += 1;
-                if !self.fill(lane, slot) {
+                if !self.fill(lane, slot, Comes::Back) {
                     self.refill(lane);
                 }
             }
@@ -167,7 +174,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     /// Gives a lane to the next run that comes to fly freely; those before it end without a lane.
     fn refill(&mut self, lane: usize) {
         while let Some(slot) = self.runs.next() {
-            if self.fill(lane, slot) {
+            if self.fill(lane, slot, Comes::Anew) {
                 return;
             }
         }
@@ -175,7 +182,7 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
 
     /// Puts a run into a lane once it flies freely, or hands it on if it ends here before that.
     /// Returns whether the lane is taken.
-    fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>) -> bool {
+    fn fill(&mut self, lane: usize, mut slot: Box<Slot<C>>, comes: Comes) -> bool {
         loop {
             if slot.simulation.stop().is_some() || !slot.follower.goes_on() {
                 (self.tell)(slot);
@@ -185,7 +192,10 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             let begun = slot.outcome.first.is_some() && slot.follower.fits_a_lane();
             if let (true, Some((two_cables, after_impact))) = (begun, slot.simulation.lane_start())
             {
-                self.enter(lane, &slot, &two_cables, &after_impact);
+                if comes == Comes::Anew {
+                    self.two_cables = self.two_cables.zip_with(two_cables, put(lane));
+                }
+                self.enter(lane, &slot, &after_impact);
                 self.slots[lane] = Some(slot);
                 return true;
             }
@@ -194,15 +204,9 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
         }
     }
 
-    fn enter(
-        &mut self,
-        lane: usize,
-        slot: &Slot<C>,
-        two_cables: &TwoCableSystem<f64>,
-        after_impact: &AfterImpact<f64>,
-    ) {
+    fn enter(&mut self, lane: usize, slot: &Slot<C>, after_impact: &AfterImpact<f64>) {
         let progress = slot.simulation.progress();
-        let tally = Tally {
+        let tally = Counts {
             impacts: progress.impacts as f64,
             second: slot.outcome.impacts[1] as f64,
             rho1: slot.outcome.norms.rho1,
@@ -212,13 +216,8 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
             v_n: progress.last.v_n,
             repeats: f64::from(progress.last.repeats),
         };
-        let put = |mut all: L, one| {
-            all.set(lane, one);
-            all
-        };
-        self.two_cables = self.two_cables.zip_with(two_cables, put);
-        self.after_impact = self.after_impact.zip_with(after_impact, put);
-        self.tally = self.tally.zip_with(&tally, put);
+        self.after_impact = self.after_impact.zip_with(after_impact, put(lane));
+        self.tally = self.tally.zip_with(&tally, put(lane));
         self.beside.put(lane, &slot.follower);
     }
 
@@ -247,9 +246,18 @@ impl<'a, L: Doubles, C: Follower> LaneScheduler<'a, L, C> {
     }
 }
 
+/// Puts a double into a lane.
+#[inline(always)]
+fn put<L: Doubles>(lane: usize) -> impl Fn(L, f64) -> L + Copy {
+    move |mut all, one| {
+        all.set(lane, one);
+        all
+    }
+}
+
 impl<C: Follower> Slot<C> {
     /// A run about to begin.
-    pub(super) fn new(index: usize, simulation: Simulation, follower: C) -> Box<Self> {
+    pub(super) fn new(index: usize, simulation: Box<Simulation>, follower: C) -> Box<Self> {
         Box::new(Self {
             index,
             outcome: Outcome::begun(&simulation),
@@ -266,7 +274,7 @@ impl<C: Follower> Slot<C> {
     }
 }
 
-impl<L: Lane> Tally<L> {
+impl<L: Lane> Counts<L> {
     /// With an impact counted in every lane, as [`Outcome::take`] and [`Simulation`] do.
     #[inline(always)]
     fn with(
@@ -291,11 +299,11 @@ impl<L: Lane> Tally<L> {
     }
 }
 
-impl<L: Copy> Tally<L> {
+impl<L: Copy> Counts<L> {
     /// What `number` makes of each number and the other tally's.
     #[inline(always)]
-    fn zip_with<M: Copy, U>(&self, other: &Tally<M>, number: impl Fn(L, M) -> U) -> Tally<U> {
-        Tally {
+    fn zip_with<M: Copy, U>(&self, other: &Counts<M>, number: impl Fn(L, M) -> U) -> Counts<U> {
+        Counts {
             impacts: number(self.impacts, other.impacts),
             second: number(self.second, other.second),
             rho1: number(self.rho1, other.rho1),

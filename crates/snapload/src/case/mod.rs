@@ -40,7 +40,8 @@ use std::ops::ControlFlow;
 #[derive(Clone, Debug)]
 pub struct Case {
     parameters: Parameters,
-    simulation: Simulation,
+    /// Large, and moved about by those who run many.
+    simulation: Box<Simulation>,
 }
 
 impl Case {
@@ -79,7 +80,7 @@ impl Case {
 
     /// The motion at its start.
     pub fn simulation(&self) -> Simulation {
-        self.simulation.clone()
+        Simulation::clone(&self.simulation)
     }
 
     /// The same, to look at.
@@ -89,6 +90,11 @@ impl Case {
 
     /// The same where nothing else is asked of the case any more.
     pub fn into_simulation(self) -> Simulation {
+        *self.simulation
+    }
+
+    /// The same where it lies.
+    pub(crate) fn into_boxed(self) -> Box<Simulation> {
         self.simulation
     }
 
@@ -159,10 +165,10 @@ impl Outcome {
 struct Begin<'a>(&'a Parameters);
 
 impl Kernel for Begin<'_> {
-    type Output = Result<Simulation, StartError>;
+    type Output = Result<Box<Simulation>, StartError>;
     #[inline(always)]
     fn run(self) -> Self::Output {
-        begin(self.0)
+        begin(self.0).map(Box::new)
     }
 }
 

@@ -22,11 +22,11 @@
 
 use crate::arithmetic::lane::{Lane, select_each};
 use crate::arithmetic::plane::{Rotation, Vector2};
-use crate::arithmetic::processor::apart;
+use crate::arithmetic::processor::{Kernel, apart, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::cable::{Cable, Normal};
 use crate::model::contact_law::Snap;
-use crate::model::forcing::Push;
+use crate::model::forcing::{Harmonic, Push};
 use crate::model::state::State;
 use crate::motion::attachment::GapJet;
 use crate::motion::extremes::highest;
@@ -79,6 +79,25 @@ pub(crate) struct FlightFacts<L> {
     pub(crate) other: Normal<L>,
 }
 
+/// Height and its rate a time into a flight, by the best instructions for it.
+struct HeightAt<'a, T: Real> {
+    from: &'a State<T>,
+    constant: Vector2<T>,
+    wave: &'a Harmonic<T>,
+    s: T,
+}
+
+impl<T: Real> Kernel for HeightAt<'_, T> {
+    type Output = (T, T);
+    #[inline(always)]
+    fn run(self) -> (T, T) {
+        let (from, s) = (self.from, self.s);
+        let push = Push::constant(self.constant, s).with_harmonic(self.wave, s);
+        let y = from.y + (from.vy * s + push.drift.y);
+        (y, from.vy + push.gain.y)
+    }
+}
+
 /// The larger of `record` and the highest y of a flight of length `s` that begins at `from`.
 #[inline(always)]
 pub(crate) fn highest_point<T: Real>(
@@ -89,9 +108,12 @@ pub(crate) fn highest_point<T: Real>(
 ) -> T {
     let wave = two_cables.wave.shifted(from.t);
     let height = |s: T| {
-        let push = Push::constant(two_cables.constant, s).with_harmonic(&wave, s);
-        let y = from.state.y + (from.state.vy * s + push.drift.y);
-        (y, from.state.vy + push.gain.y)
+        dispatch_over::<T, _>(HeightAt {
+            from: &from.state,
+            constant: two_cables.constant,
+            wave: &wave,
+            s,
+        })
     };
     highest(
         &height,

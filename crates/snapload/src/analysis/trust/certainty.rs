@@ -28,6 +28,7 @@ impl Kernel for Following<'_> {
 
 impl Follower for SpreadMonitor {
     type LaneFollowers<L: Doubles> = Followed<L>;
+    type Verdict = Certainty;
 
     fn take(&mut self, simulation: &Simulation, step: &Step) {
         dispatch(Following(self, simulation, step));
@@ -39,6 +40,12 @@ impl Follower for SpreadMonitor {
 
     fn fits_a_lane(&self) -> bool {
         self.adds_by_signs()
+    }
+
+    fn verdict(self) -> Certainty {
+        Certainty {
+            horizon: self.horizon,
+        }
     }
 }
 
@@ -124,13 +131,9 @@ impl Certainty {
     ) -> Result<Vec<(Outcome, Self)>, Cancelled> {
         let runs = cases.map(|case| {
             let monitor = SpreadMonitor::of_exact_case(&case, case.start());
-            (case.into_simulation(), monitor)
+            (case.into_boxed(), monitor)
         });
-        let certainty = |(outcome, monitor): (Outcome, SpreadMonitor)| {
-            let horizon = monitor.horizon;
-            (outcome, Self { horizon })
-        };
-        Ok(side_by_side(lanes, runs, counter)?.map(certainty).collect())
+        Ok(side_by_side(lanes, runs, counter)?.collect())
     }
 
     /// Whether the way in which the run ends is certain.

@@ -47,8 +47,8 @@ impl<T: Real> Simulation<T> {
     }
 
     /// What a lane needs to carry the motion on; none if it does not fly freely now.
-    pub(crate) fn lane_start(&self) -> Option<(TwoCableSystem<T>, AfterImpact<T>)> {
-        Some((self.two_cables?, self.after_impact()?))
+    pub(crate) fn lane_start(&self) -> Option<(&TwoCableSystem<T>, AfterImpact<T>)> {
+        Some((self.two_cables.as_ref()?, self.after_impact()?))
     }
 
     /// The impacts so far.
