@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from operator import index
 from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex, TypeAlias
 
+from . import _engine
+
 if TYPE_CHECKING:
-    from . import _engine
     from ._case import Case
 
 #: One size for every start value, a size for each key, or nothing but rounding.
@@ -36,6 +38,17 @@ def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
     if low <= number <= high:
         return number
     raise ValueError(f"{name} = {value!r} is not allowed; allowed: a whole number, {low} <= {name} <= {high:g}")
+
+
+def threads_for(asked: SupportsIndex, callers: int) -> int:
+    """As many threads as asked for, up to a few for each that the machine runs at a time.
+
+    Where these are fewer a warning says so, at the code that called the package through so many functions.
+    """
+    threads, fewer = _engine.threads_for(number := whole("threads", asked, 1, 65535))
+    if fewer:
+        warnings.warn(f"threads={number}: {fewer}", stacklevel=2 + callers)
+    return threads
 
 
 def number(name: str, value: SupportsFloat) -> float:

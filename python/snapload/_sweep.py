@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-import warnings
 from collections.abc import Iterable, Mapping
 from os import PathLike, fspath
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack
 
 from . import _engine
 from ._case import Case
-from ._check import there, whole
+from ._check import there, threads_for
 from ._keys import Axes
 from ._later import Later
 from ._plan import plan
@@ -122,9 +121,7 @@ def sweep(
     if chunks is not None and out is None:
         raise ValueError("chunks opens the file lazily, and there is none; give out, such as out='study.parquet'")
     if threads is not None:
-        threads, fewer = _engine.threads_for(asked := whole("threads", threads, 1, 65535))
-        if fewer:
-            warnings.warn(f"threads={asked}: {fewer}", stacklevel=2)
+        threads = threads_for(threads, callers=1)
     asked_for = plan(case, trust, axes, random, seed, cases)
     study = asked_for.study
     with tempfile.TemporaryDirectory(prefix="snapload-", ignore_cleanup_errors=True) as scratch:

@@ -12,7 +12,7 @@ import xarray
 
 from . import _engine
 from ._axes import listed, values_of
-from ._check import whole
+from ._check import threads_for
 from ._dataset import ABOUT, attributes, flags
 from ._progress import bar
 
@@ -33,7 +33,7 @@ def sweep_systems(
     if not 1 <= count <= _MOST:
         raise ValueError(f"{count} runs are not allowed; allowed: 1 to {_MOST}")
     if threads is not None:
-        threads, _ = _engine.threads_for(whole("threads", threads, 1, 65535))
+        threads = threads_for(threads, callers=2)
     systems: list[_engine.System] = []
     errors = np.full(count, "", dtype=object)
     for row, combination in enumerate(product(*(along.tolist() for along in values.values()))):

@@ -124,6 +124,9 @@ def test_a_study_is_its_runs():
     assert cell.certain.item() == run.outcome.certain and study.certain.dtype == bool
     plain = system.sweep(restitution=[0.2, 0.6], omega_1=[1.5, 1.7, 2.1], trust=False, threads=1, progress=False)
     assert "certain" not in plain and plain.rho1.equals(study.rho1)
+    with pytest.warns(UserWarning, match=r"^threads=60000: this machine runs \d+ at a time.* are used$"):
+        capped = system.sweep(restitution=[0.2, 0.6], omega_1=[1.5, 1.7, 2.1], threads=60_000, progress=False)
+    assert capped.equals(study)
 
 
 def test_what_is_no_system_is_a_cell_without_a_run():
