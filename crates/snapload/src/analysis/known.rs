@@ -2,7 +2,7 @@
 
 use crate::analysis::trust::Trust;
 use crate::model::rules::Stop;
-use crate::model::state::State;
+use crate::motion::extremes::Extremes;
 use crate::motion::impact::Impact;
 use crate::motion::playback::Playback;
 use crate::motion::trajectory::{RHO2_UNTIL, Trajectory};
@@ -17,8 +17,7 @@ pub struct NormErrors {
     pub rho2: Option<f64>,
     /// Of ρ3 = Σ v_n⁻.
     pub rho3: Option<f64>,
-    /// Of the highest y \[L\]; none where the run is not certain to its end, or reaches it after its
-    /// last impact with a cable taut, as no error is told there.
+    /// Of the highest y \[L\]; none where the run is not certain to its end.
     pub y_max: Option<f64>,
     /// Of the largest |θ| \[rad\], likewise.
     pub theta_max: Option<f64>,
@@ -48,75 +47,115 @@ impl NormErrors {
         }
         let rho1 = run.norms().rho1;
         let whole = |error: f64| Some(error).filter(|_| horizon.is_none());
+        let [y_max, theta_max] = extreme_errors(run, trust);
         Self {
             rho1: whole((most - rho1).max(rho1 - least)),
             rho2: Some(early).filter(|_| known(RHO2_UNTIL * (1.0 + LATER))),
             rho3: whole(all),
-            y_max: extreme_error(run, trust, |state| [state.y, state.vy], run.norms().y_max),
+            y_max,
             theta_max: match run.end().reason {
                 // It is the limit, and no neighbour has another.
                 Stop::RotationLimit => whole(0.0),
-                _ => {
-                    let turned = |state: &State| [state.theta.abs(), state.vtheta];
-                    extreme_error(run, trust, turned, run.norms().theta_max)
-                }
+                _ => theta_max,
             },
         }
     }
 }
 
-/// Between two impacts a motion is looked at so many times.
-const LOOKS: u32 = 64;
-/// A top that is seen this much lower than the largest may be that: between two looks a motion rises
-/// by less.
-const UNSEEN: f64 = 1e-3;
-
-/// The error of the largest value of a component of the state, given with its rate: the largest that
-/// it may have in those stretches between impacts that may reach it. A deviation E of the states and
-/// of the time at the impact before grows along a flight by no more than
+/// Errors of the highest y and of the largest |θ|: the largest that either may have in those
+/// stretches between impacts that may reach it. A deviation E of the states and of the time at the
+/// impact before grows along a flight to no more than
 ///
 /// ```text
 /// E (max(1, |q|) + s max(1, |q̇|) + s²/2 max(1, t) |ḟ|)
 /// ```
 ///
-/// as the forces at a phase that is off by E t differ by that much. With a cable taut it is bounded by
-/// what has become of it at the impact after.
-fn extreme_error(
-    run: &Trajectory,
-    trust: &Trust,
-    component: impl Fn(&State) -> [f64; 2],
-    largest: f64,
-) -> Option<f64> {
+/// as the forces at a phase that is off by E t differ by that much. With a cable taut what has
+/// become of it at the impact after, or at the end, counts where it is more. The end may come sooner or
+/// later by its own error.
+fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     if trust.horizon.is_some() {
-        return None;
+        return [None; 2];
     }
-    let [_, rate, _] = run.system().forcing.bounds();
+    let norms = run.norms();
+    let largest = [norms.y_max, norms.theta_max];
     let mut playback = Playback::new(run);
-    let mut most = 0.0_f64;
-    let end = run.end().t;
+    let mut worst = [0.0_f64; 2];
     let rows = run.impacts().iter().zip(&trust.errors);
-    let mut edges: Vec<(f64, Option<f64>)> = rows.map(|(i, error)| (i.t, Some(*error))).collect();
-    edges.push((end, None));
-    let (mut from, mut before) = (run.segments().first()?.t, None);
-    for (to, after) in edges {
-        let error = [before, after].into_iter().flatten().reduce(f64::max);
-        let s = to - from;
-        let (mut top, mut speed, mut taut) = (0.0_f64, 1.0_f64, false);
-        for k in 0..=LOOKS {
-            let motion = playback.at(from + s * f64::from(k) / f64::from(LOOKS));
-            let [value, velocity] = component(&motion.state);
-            (top, speed) = (top.max(value), speed.max(velocity.abs()));
-            taut |= k < LOOKS && !motion.taut.is_empty();
+    let rows = rows.map(|(impact, error)| (impact.t, *error, 0.0));
+    let start = run.segments().first().map_or(0.0, |first| first.t);
+    let ([mut before, last], end, mut from) = (trust.edge_errors, run.end().t, start);
+    for (to, after, late) in rows.chain([(end, last, trust.end_error)]) {
+        let (span, told) = ([from, to], after.max(before));
+        let along = Along::of(&mut playback, span);
+        let off = |k: usize| along.growth(run, k, span) * told + along.speeds[k] * late;
+        let offs = [off(0), off(1)];
+        let floor = |k: usize| largest[k] - offs[k] - PLAYED_BACK * largest[k].abs().max(1.0);
+        let floors = [floor(0), floor(1)];
+        let tops = along.tops(&mut playback, span, floors);
+        for k in 0..2 {
+            if tops[k] >= floors[k] {
+                worst[k] = worst[k].max(offs[k]);
+            }
         }
-        let growth = largest.abs().max(1.0) + s * speed + 0.5 * s * s * to.max(1.0) * rate;
-        let off = error.map(|error| error * growth);
-        if top + UNSEEN + off.unwrap_or(0.0) >= largest {
-            let known = after.is_some() || !taut;
-            most = most.max(off.filter(|_| known)?);
-        }
-        (from, before) = (to, after.or(before));
+        (from, before) = (to, after);
     }
-    Some(most)
+    worst.map(Some)
+}
+
+/// A motion that is played back is that of the run to this.
+const PLAYED_BACK: f64 = 1e-14;
+
+/// A stretch between two impacts, by its y and its |θ|.
+struct Along {
+    /// The largest of each at an end of a piece of it, and a bound on it within.
+    reached: [f64; 2],
+    bound: [f64; 2],
+    /// Bounds on the ways that they go, ∫ |q̇| dt, and their speeds at the end.
+    ways: [f64; 2],
+    speeds: [f64; 2],
+}
+
+impl Along {
+    fn of(playback: &mut Playback, span: [f64; 2]) -> Self {
+        let mut along = Self {
+            reached: [f64::NEG_INFINITY; 2],
+            bound: [f64::NEG_INFINITY; 2],
+            ways: [0.0; 2],
+            speeds: [0.0; 2],
+        };
+        playback.each_piece(span, |piece| {
+            let (ends, bends, width) = (piece.ends(), piece.bends(), piece.width);
+            let values = ends.map(|state| [state.y, state.theta.abs()]);
+            let speeds = ends.map(|state| [state.vy.abs(), state.vtheta.abs()]);
+            along.speeds = speeds[1];
+            for k in 0..2 {
+                let top = values[0][k].max(values[1][k]);
+                let speed = speeds[0][k].max(speeds[1][k]) + bends[k] * width * 0.5;
+                along.reached[k] = along.reached[k].max(top);
+                along.bound[k] = along.bound[k].max(top + bends[k] * width * width * 0.125);
+                along.ways[k] += speed * width;
+            }
+        });
+        along
+    }
+
+    /// By how much a deviation of its start may grow in y or in θ.
+    fn growth(&self, run: &Trajectory, k: usize, [from, to]: [f64; 2]) -> f64 {
+        let ([_, rate, _], s) = (run.system().forcing.bounds(), to - from);
+        self.bound[k].abs().max(1.0) + self.ways[k].max(s) + 0.5 * s * s * to.max(1.0) * rate
+    }
+
+    /// The largest of each within; where that is below its floor, something below it.
+    fn tops(&self, playback: &mut Playback, span: [f64; 2], floors: [f64; 2]) -> [f64; 2] {
+        if (0..2).all(|k| self.bound[k] < floors[k] || floors[k] <= self.reached[k]) {
+            return self.reached;
+        }
+        let [y_max, theta_max] = self.reached;
+        let mut extremes = Extremes { y_max, theta_max };
+        playback.each_piece(span, |piece| piece.cover(&mut extremes));
+        [extremes.y_max, extremes.theta_max]
+    }
 }
 
 /// A horizon counts as later than a time if it is by this part of it, which is more than times
@@ -187,6 +226,41 @@ mod tests {
                 largest <= told && told <= 1e3 * largest,
                 "{largest:e} {told:e}"
             );
+        }
+        Ok(())
+    }
+
+    /// With cables taut no digits are at hand: neighbours of a body that rocks on both cables from its
+    /// start keep within.
+    #[test]
+    fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
+        let rocking = Parameters {
+            y: 0.0,
+            f_o: 0.1,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        };
+        for t_end in [3.0, 9.0, 30.0] {
+            let certain = Parameters { t_end, ..rocking };
+            let case = Case::new(certain)?;
+            let doubt = 1e-9;
+            let mut uncertainty = Uncertainty::default();
+            uncertainty.set("f_o", doubt)?;
+            let (run, trust) = trusted_run(&case, &uncertainty, &unwatched)?;
+            let told = NormErrors::of(&run, &trust);
+            let told = [told.y_max, told.theta_max].map(|error| error.unwrap_or(f64::NAN));
+            for side in [-doubt, doubt] {
+                let f_o = certain.f_o + side;
+                let other = Case::new(Parameters { f_o, ..certain })?.run();
+                let (ours, theirs) = (run.norms(), other.norms());
+                let off = [
+                    (ours.y_max - theirs.y_max).abs(),
+                    (ours.theta_max - theirs.theta_max).abs(),
+                ];
+                for (off, told) in off.into_iter().zip(told) {
+                    assert!(off <= told && told < 1e-5, "{t_end}: {off:e} {told:e}");
+                }
+            }
         }
         Ok(())
     }

@@ -6,11 +6,14 @@ use crate::model::state::State;
 use crate::model::taut_set::{MAX_CABLES, PerCable, TautSet};
 use crate::motion::active_set::tensions;
 use crate::motion::contact::Contact;
+use crate::motion::extremes::Extremes;
 use crate::motion::flight::Flight;
 use crate::motion::segments::Segment;
+use crate::motion::simulation::within::{StateAt, Stretch};
 use crate::motion::taut_series::Series;
 use crate::motion::trajectory::Trajectory;
 use crate::motion::waves::Waves;
+use std::borrow::Cow;
 
 /// The motion at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +30,74 @@ pub struct Motion {
     pub energy: f64,
     /// The force with which the water's memory holds a floating body back \[F, F, F L\].
     pub memory_force: [f64; 3],
+}
+
+/// A part of the motion between two events.
+pub(crate) struct Piece<'p, 'a> {
+    playback: &'p Playback<'a>,
+    /// How long its flight or expansion has lasted where it begins.
+    begun: f64,
+    /// How long it lasts.
+    pub(crate) width: f64,
+}
+
+/// The time to come to, in the segment of an index, by the best instructions for it.
+struct Reaching<'p, 'a>(&'p mut Playback<'a>, usize, f64);
+
+impl Kernel for Reaching<'_, '_> {
+    /// How long the flight or expansion there has lasted then, and up to when it may be used.
+    type Output = (f64, f64);
+    #[inline(always)]
+    fn run(self) -> (f64, f64) {
+        let Self(playback, index, t) = self;
+        let segment = playback.come_to(index, t);
+        let free = playback.run.system().flies_freely(segment.active.taut);
+        let used = if free {
+            f64::INFINITY
+        } else {
+            segment.t + playback.series.step()
+        };
+        (t - segment.t, used)
+    }
+}
+
+impl Piece<'_, '_> {
+    fn stretch(&self) -> Stretch<'_, f64> {
+        let Playback {
+            run,
+            reached,
+            flight,
+            series,
+            ..
+        } = self.playback;
+        let taut = reached.as_ref().map(|(_, segment)| segment.active.taut);
+        if taut.is_some_and(|taut| run.system().flies_freely(taut)) {
+            Stretch::Closed(Cow::Borrowed(flight))
+        } else {
+            Stretch::Expanded(series)
+        }
+    }
+
+    /// The states at its start and at its end, before the event there.
+    pub(crate) fn ends(&self) -> [State; 2] {
+        let motion = self.stretch();
+        [0.0, self.width].map(|s| dispatch(StateAt(&motion, self.begun + s)))
+    }
+
+    /// Bounds on |ÿ| and |θ̈| along it.
+    pub(crate) fn bends(&self) -> [f64; 2] {
+        let [_, y, theta] = self.stretch().bends(self.playback.run.system());
+        [y, theta]
+    }
+
+    /// Takes it into what was the largest before.
+    pub(crate) fn cover(&self, extremes: &mut Extremes<f64>) {
+        let motion = self.stretch();
+        let within = |s: f64| dispatch(StateAt(&motion, self.begun + s));
+        let [first, last] = self.ends();
+        let bends = motion.bends(self.playback.run.system());
+        extremes.cover(within, self.width, [&first, &last], bends);
+    }
 }
 
 impl Trajectory {
@@ -79,14 +150,41 @@ impl<'a> Playback<'a> {
         dispatch(MotionAt(self, t))
     }
 
+    /// Shows every piece of the motion between two times within the run: a flight or an expansion, or
+    /// what of one lies between them.
+    pub(crate) fn each_piece(&mut self, [from, to]: [f64; 2], mut show: impl FnMut(&Piece)) {
+        let mut t = from;
+        while t < to {
+            let index = self.segment_at(t);
+            let next = self.run.segments().get(index + 1);
+            let next = next.map_or(f64::INFINITY, |next| next.t);
+            let (begun, expanded_to) = dispatch(Reaching(self, index, t));
+            let end = to.min(next).min(expanded_to);
+            let piece = Piece {
+                playback: self,
+                begun,
+                width: end - t,
+            };
+            if piece.width > 0.0 {
+                show(&piece);
+            }
+            // An expansion too short for time to move on ends its chain.
+            t = if end > t { end } else { next };
+        }
+    }
+
+    /// The segment that a time lies in, by index. A run has at least the segment of its end; before the
+    /// start it is the start that counts.
+    fn segment_at(&self, t: f64) -> usize {
+        let segments = self.run.segments();
+        let after = segments.partition_point(|segment| segment.t <= t);
+        after.saturating_sub(1)
+    }
+
     #[inline(always)]
     fn at_here(&mut self, t: f64) -> Motion {
         let t = t.min(self.run.end().t);
-        let segments = self.run.segments();
-        let after = segments.partition_point(|segment| segment.t <= t);
-        // A run has at least the segment of its end; before the start it is the start that counts.
-        let index = after.saturating_sub(1);
-        let segment = self.come_to(index, t);
+        let segment = self.come_to(self.segment_at(t), t);
         let s = (t - segment.t).max(0.0);
         let taut = segment.active.taut;
         let state = if s <= 0.0 {

@@ -27,7 +27,7 @@ use crate::motion::waves::Waves;
 
 mod bounces;
 mod event_laws;
-mod within;
+pub(super) mod within;
 
 use within::StateAt;
 

@@ -22,6 +22,8 @@ pub struct TrustMonitor {
     grazes: Vec<Graze>,
     begin: f64,
     end: f64,
+    /// Errors of the states in which the run begins and to which it has come.
+    edge_errors: [f64; 2],
 }
 
 /// A step to be followed, by the best instructions for it.
@@ -47,7 +49,7 @@ impl TrustMonitor {
     /// A [`CaseError`] if a key that is in doubt has no value in this case.
     pub fn of_case(case: &Case, uncertainty: &Uncertainty) -> Result<Self, CaseError> {
         let spread = SpreadMonitor::of_case(case, uncertainty)?;
-        Ok(Self::of(spread, &case.simulation()))
+        Ok(Self::of(spread, case.start()))
     }
 
     /// Of the simulation of a case whose values are exact, so that rounding alone is in doubt.
@@ -56,11 +58,13 @@ impl TrustMonitor {
     }
 
     fn of(spread: SpreadMonitor, simulation: &Simulation) -> Self {
+        let edge_errors = [spread.error_at_start(simulation.state()); 2];
         Self {
             spread,
             frame: Frame::new(),
             errors: Vec::new(),
             grazes: Vec::new(),
+            edge_errors,
             begin: simulation.time(),
             end: simulation.time(),
         }
@@ -82,6 +86,7 @@ impl TrustMonitor {
             latest: (simulation, step),
         };
         let error = self.spread.follow(simulation, step, &mut records);
+        self.edge_errors[1] = error;
         let rows = self.spread.impacts - before;
         self.errors.extend(std::iter::repeat_n(error, rows));
     }
@@ -93,14 +98,16 @@ impl TrustMonitor {
 
     /// What there is to say, at the end of the run or wherever it has come to.
     pub fn verdict(self) -> Trust {
-        let end_error = match self.spread.horizon {
-            Some(_) => f64::INFINITY,
-            None => self.spread.end_error,
+        let [first_error, last_error] = self.edge_errors;
+        let [end_error, last_error] = match self.spread.horizon {
+            Some(_) => [f64::INFINITY; 2],
+            None => [self.spread.end_error, last_error],
         };
         Trust {
             errors: self.errors,
             horizon: self.spread.horizon,
             end_error,
+            edge_errors: [first_error, last_error],
             grazes: self.grazes,
             exponents: self.frame.exponents(self.end - self.begin),
         }

@@ -192,7 +192,7 @@ impl SpreadMonitor {
         let start = uncertainty.of_start_of(case.parameters());
         let mut monitor = Self {
             slant: rounding::slant(case),
-            ..Self::new(&case.simulation(), &start, uncertainty.tolerance)
+            ..Self::new(case.start(), &start, uncertainty.tolerance)
         };
         for (name, size) in &uncertainty.keys {
             monitor.keys.push(UncertainKey::new(case, name, *size)?);
@@ -208,6 +208,12 @@ impl SpreadMonitor {
             slant: rounding::slant(case),
             ..Self::new(simulation, &[0.0; 6], tolerance)
         }
+    }
+
+    /// The error of the state in which the motion begins.
+    pub(super) fn error_at_start(&self, state: &State) -> f64 {
+        let squares = self.covariance.sizes().map(|size| size * size);
+        ERROR * relative(&squares, state, 0.0).sqrt()
     }
 
     /// Takes in the step that `simulation` has just made, and shows what it does to deviations;

@@ -21,7 +21,7 @@ use std::borrow::Cow;
 const LOOKS: usize = 64;
 
 /// The motion along a stretch.
-pub(super) enum Stretch<'a, T: Real> {
+pub(in crate::motion) enum Stretch<'a, T: Real> {
     /// In closed form.
     Closed(Cow<'a, Flight<T>>),
     /// By a series, as cables are taut, or the water resists or carries.
@@ -51,7 +51,10 @@ impl<T: Real> Kernel for TensionsWithin<'_, T> {
 }
 
 /// A state to be looked at, likewise.
-pub(super) struct StateAt<'a, T: Real>(pub(super) &'a Stretch<'a, T>, pub(super) T);
+pub(in crate::motion) struct StateAt<'a, T: Real>(
+    pub(in crate::motion) &'a Stretch<'a, T>,
+    pub(in crate::motion) T,
+);
 
 impl<T: Real> Kernel for StateAt<'_, T> {
     type Output = State<T>;
@@ -91,7 +94,7 @@ impl<T: Real> Stretch<'_, T> {
 
     /// Bounds on ÿ, |ÿ| and |θ̈| along it.
     #[inline(always)]
-    pub(super) fn bends(&self, system: &System<T>) -> [T; 3] {
+    pub(in crate::motion) fn bends(&self, system: &System<T>) -> [T; 3] {
         let forcing = &system.forcing;
         match self {
             Self::Closed(_) => [
