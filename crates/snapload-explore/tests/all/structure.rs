@@ -120,7 +120,7 @@ fn without_neighbours_the_verdict_is_the_same() {
 fn lines_that_stretch_are_what_elastic_tells() {
     let asked = json!({ "case": { "set": ["wave.period=5"] }, "window": [30.0, 50.0] });
     let told = ask(&serve(), "/api/structure/elastic", asked);
-    let prepared = Prepared::new(structure(&["wave.period=5"])).unwrap();
+    let prepared = Prepared::for_springs(structure(&["wave.period=5"])).unwrap();
     let direct = both_models(prepared, 1.0, 0.02, &unwatched).unwrap();
     let expected = direct.to_json("cylinder.toml");
     assert_eq!(told["elastic"]["lines"], expected["lines"]);
