@@ -20,9 +20,9 @@ use crate::waves::{water_acceleration, wave_number};
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// The frequencies for which it is tabulated \[rad/s\], and how many: all waves of a sea, so close
+/// The frequencies for which it is tabulated \[rad/s\], and how many: all waves and swings, so close
 /// that splines between them are off by less than 1e-6.
-const RANGE_RAD_S: [f64; 2] = [0.02, 12.0];
+const RANGE_RAD_S: [f64; 2] = [0.02, 60.0];
 const FREQUENCIES: u32 = 400;
 /// Ends take 5 % and more of the added mass of a body that is shorter than so many widths.
 const LONG: f64 = 10.0;
