@@ -46,19 +46,19 @@ RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --document-private-it
 # The extension module is built along with the tests, so that it shares what they compile.
 cargo build --workspace --lib --bins --tests --locked
 python3 release/rehearse.py --quick
-cargo test --workspace --locked
 
 wait "$installing"
 cp -f "$target/debug/lib_engine.so" python/snapload/_engine.abi3.so
 export PYTHONPATH=$PWD/python PYTHONDONTWRITEBYTECODE=1
 "$python" -m ruff check python docs/conf.py release
 "$python" -m ruff format --check python docs/conf.py release
-# The manual runs its notebooks beside the tests of the package; what it says, it says at the end.
+# The manual runs its notebooks beside the tests; what it says, it says at the end.
 "$python" -m sphinx -E -W --keep-going -q -b html docs "$target/manual" -d "$target/manual-doctrees" \
   >"$target/manual.log" 2>&1 &
 manual=$!
 trap 'kill "$manual" 2>/dev/null || true' EXIT
-"$python" -m pytest
+cargo test --workspace --locked
+"$python" -m pytest --numprocesses 2 --dist loadfile
 wait "$manual" || {
   cat "$target/manual.log"
   exit 1
