@@ -10,6 +10,7 @@ import { SweepMap } from "./map.js";
 import { Take } from "./take.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
 import { Link } from "./link.js";
+import { LongRun } from "./long-run.js";
 import { note, openStructure, opening, paintedSince, purposeAndSkip, themeButton } from "./page.js";
 import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
@@ -91,6 +92,13 @@ class Page {
     });
     this.pins = new Pins(this.state, () => this.run, { onChange: () => this.drawAll() });
     this.proof = new Proof();
+    this.longRun = new LongRun({
+      values: () => this.state.values,
+      onPick: (start) => {
+        this.state.set({ values: { ...this.state.values, ...start }, t: 0, window: null });
+        this.link.write({ now: true });
+      },
+    });
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
       onAnswer: (answer, since, question) => this.take(answer, since, question),
@@ -143,6 +151,7 @@ class Page {
     this.stage.take(this.run);
     this.transport.take(this.run);
     this.proof.take(question.values);
+    this.longRun.take(question.values);
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();

@@ -5,7 +5,7 @@ use crate::request::{Body, LARGEST_BODY};
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::compute;
-use crate::{case_file, export, map, page, proof, run};
+use crate::{basin, case_file, export, map, page, proof, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -22,7 +22,7 @@ const WORKERS: usize = 4;
 const WRITERS: usize = 2;
 /// Lines of maps at one time, each of which takes all processors: maps take turns.
 const MAPPERS: usize = 1;
-/// Proofs at one time.
+/// Proofs, and sections, at one time.
 const PROVERS: usize = 2;
 
 /// What the answers are made from.
@@ -55,6 +55,8 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
         .route("/api/proof", post(answer_proof))
+        .route("/api/section", post(answer_section))
+        .route("/api/basin", post(answer_basin))
         .route("/api/export/{name}", post(answer_export))
         .route(
             "/api/structure",
@@ -115,6 +117,29 @@ async fn answer_proof(
 ) -> Result<impl IntoResponse, Refusal> {
     let answer = compute(&shared.provers, move |allowance| {
         proof::answer(request, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_section(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<section::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    let answer = compute(&shared.provers, move |allowance| {
+        section::answer(request, allowance)
+    })
+    .await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+/// It takes all processors, as a map does.
+async fn answer_basin(
+    State(shared): State<Arc<Shared>>,
+    Body(request): Body<basin::Request>,
+) -> Result<impl IntoResponse, Refusal> {
+    let answer = compute(&shared.mappers, move |allowance| {
+        basin::answer(request, allowance)
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))

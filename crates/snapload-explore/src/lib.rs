@@ -11,6 +11,7 @@
 //! one request may cost.
 
 mod api;
+mod basin;
 mod case_file;
 mod export;
 mod guard;
@@ -22,6 +23,7 @@ mod refusal;
 mod request;
 mod run;
 mod schema;
+mod section;
 mod server;
 mod structure;
 mod work;

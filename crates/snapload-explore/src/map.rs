@@ -45,7 +45,7 @@ pub(crate) struct Request {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct AxisGiven {
+pub(crate) struct AxisGiven {
     key: String,
     low: f64,
     high: f64,
@@ -53,15 +53,15 @@ struct AxisGiven {
 }
 
 /// A key and its values.
-struct Axis {
-    key: &'static str,
-    values: Vec<f64>,
+pub(crate) struct Axis {
+    pub(crate) key: &'static str,
+    pub(crate) values: Vec<f64>,
 }
 
 impl AxisGiven {
     /// The values are those of `snapload sweep --vary`, each the decimal number that one would
     /// write.
-    fn read(&self) -> Result<Axis, Refusal> {
+    pub(crate) fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
             let message = format!("{} holds no number that can be varied", key.name);

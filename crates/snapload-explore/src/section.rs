@@ -1,0 +1,61 @@
+//! `/api/section`: where a motion stands once a period of its forcing, in the long run.
+use crate::refusal::Refusal;
+use crate::request::{Values, case};
+use crate::work::Allowance;
+use serde::{Deserialize, Serialize};
+use snapload::analysis::Unfinished;
+use snapload_orbits::{Section, SectionRow, section_in_words, stretch};
+use std::time::Duration;
+
+/// What it may take.
+const BUDGET: Duration = Duration::from_secs(20);
+/// Periods that are followed, and points that are kept, if nothing else is said; and at most.
+const PERIODS: u64 = 800;
+const KEEP: u64 = 400;
+const MOST: u64 = 20_000;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    #[serde(default)]
+    values: Values,
+    #[serde(default)]
+    periods: Option<u64>,
+    #[serde(default)]
+    keep: Option<u64>,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    words: String,
+    #[serde(flatten)]
+    section: SectionRow,
+}
+
+/// The answer, as JSON.
+pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
+    let case = case(request.values)?;
+    let periods = request.periods.unwrap_or(PERIODS).min(MOST);
+    let stretch = stretch(periods, request.keep.unwrap_or(KEEP.min(periods)), 0.0)?;
+    let allowance = allowance.within(BUDGET);
+    let section = Section::of(case.parameters(), &stretch, &|progress| {
+        allowance.go_on(progress)
+    });
+    let section = section.map_err(|why| unfinished(why, "snapload section"))?;
+    let answer = Answer {
+        words: section_in_words(&section),
+        section: SectionRow::new(&section, stretch.phase),
+    };
+    serde_json::to_vec(&answer).map_err(Refusal::failed)
+}
+
+/// Why there is no answer.
+pub(crate) fn unfinished(why: Unfinished, command: &str) -> Refusal {
+    match why {
+        Unfinished::Case(error) => error.into(),
+        Unfinished::Cancelled(_) => Refusal::values(format!(
+            "this takes more than {} s here\nhint: {command} has as long as it takes",
+            BUDGET.as_secs()
+        )),
+    }
+}
