@@ -1,19 +1,19 @@
 //! Periodic orbits as theorems: that there is one, where it is, and that no other one is near.
 //!
-//! Let P be the map from the section to the section a lap later. A lap of all states of a box X about
-//! a number ẑ is proved to have one sequence of snaps, each at a velocity above zero, with no other
-//! gap closed and no limit reached in between, so that P is smooth on X; and its derivative lies in an
-//! interval matrix A there. Let C be any matrix, f = P − 1 and
+//! Let P be the map from the section to the section a lap later. A lap of all states of a box X
+//! about a number ẑ is proved to have one sequence of snaps, each at a velocity above zero, with no
+//! other gap closed and no limit reached in between, so that P is smooth on X; and its derivative
+//! lies in an interval matrix A there. Let C be any matrix, f = P − 1 and
 //!
 //! ```text
 //! q = ‖1 − C (A − 1)‖,      c = ‖C f(ẑ)‖,
 //! ```
 //!
 //! in the largest-component norm. The map z → z − C f(z) has the derivative 1 − C (P' − 1), and so
-//! contracts X by q; if c + q δ < δ, δ the radius of X, it maps X into itself and has there exactly one
-//! fixed point, by Banach. As q < 1, C is not singular, and the fixed point closes the lap. It is
-//! within c/(1 − q) of ẑ (R. Krawczyk, *Computing* 4 (1969) 187; R. E. Moore, *SIAM J. Numer. Anal.* 14
-//! (1977) 611).
+//! contracts X by q; if c + q δ < δ, δ the radius of X, it maps X into itself and has there exactly
+//! one fixed point, by Banach. As q < 1, C is not singular, and the fixed point closes the lap. It
+//! is within c/(1 − q) of ẑ (R. Krawczyk, *Computing* 4 (1969) 187; R. E. Moore, *SIAM J. Numer.
+//! Anal.* 14 (1977) 611).
 
 mod lap;
 
@@ -147,7 +147,8 @@ struct Near {
     size: Radius,
 }
 
-/// Newton's method from a guess. How good it is has no part in the proof, but for its last residual.
+/// Newton's method from a guess. How good it is has no part in the proof, but for its last
+/// residual.
 fn refined(
     laps: &Laps,
     mut centre: State,

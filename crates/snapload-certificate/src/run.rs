@@ -55,7 +55,8 @@ pub(crate) struct Struck {
     pub(crate) end: Option<ProvedEnd>,
     /// A cable that sticks where no rule stops the run.
     pub(crate) stick: Option<Stick>,
-    /// Of the states of the flight after it at the new T by those of the flight before at the old one.
+    /// Of the states of the flight after it at the new T by those of the flight before at the old
+    /// one.
     pub(crate) jacobian: Matrix,
 }
 
@@ -324,8 +325,8 @@ impl<'a> Run<'a> {
         ]
     }
 
-    /// The set at a number next to the impact's time, of the flight after it, and the Jacobian of the map
-    /// there.
+    /// The set at a number next to the impact's time, of the flight after it, and the Jacobian of
+    /// the map there.
     fn carry(
         &self,
         root: &Root,

@@ -110,7 +110,8 @@ fn run_certify(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// The case as decimals: what was typed stays as typed, of all keys that have their values from there.
+/// The case as decimals: what was typed stays as typed, of all keys that have their values from
+/// there.
 pub(crate) fn exact(parameters: &Parameters, entries: &Entries) -> Result<ExactCase, Failure> {
     exact_but(parameters, entries, "")
 }

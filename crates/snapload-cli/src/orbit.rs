@@ -51,8 +51,8 @@ pub(crate) struct Args {
     /// Which random starts
     #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
     seed: u64,
-    /// Look for them at each of these values of a key: from the random starts, and from the orbits at the value
-    /// before
+    /// Look for them at each of these values of a key: from the random starts, and from the orbits
+    /// at the value before
     #[arg(
         long,
         value_name = "KEY=first:last:n",
@@ -60,8 +60,8 @@ pub(crate) struct Args {
         allow_hyphen_values = true
     )]
     vary: Option<String>,
-    /// Prove that the orbit exists, in numbers of many digits, and say how far off the printed one is at most:
-    /// orbits in slack flight, of the case as the decimals that it is written in
+    /// Prove that the orbit exists, in numbers of many digits, and say how far off the printed one
+    /// is at most: orbits in slack flight, of the case as the decimals that it is written in
     #[arg(long)]
     prove: bool,
     /// Write a table with a row an orbit, FILE.parquet or FILE.csv

@@ -142,8 +142,8 @@ impl Found {
         }
     }
 
-    /// Adds the orbits of a case, and proves them where that is asked for. Orbits of different cases
-    /// are different ones.
+    /// Adds the orbits of a case, and proves them where that is asked for. Orbits of different
+    /// cases are different ones.
     fn add(
         &mut self,
         case: &OneCase,

@@ -18,8 +18,8 @@ pub(crate) struct Request {
 pub(crate) struct Answer {
     /// Whether it is the case of a structure, which has a page of its own.
     structure: bool,
-    /// The keys in which it differs from the standard case. Whether they can be run is asked with the
-    /// run.
+    /// The keys in which it differs from the standard case. Whether they can be run is asked with
+    /// the run.
     values: Map<String, JsonValue>,
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Its added mass is that of the section at high frequency ([`added_mass_of_section`]) at all
 //! frequencies, it makes no waves, and the waves go on as if it were not there. Their force is that
-//! of long waves, about the middle O of the waterplane with the displaced volume V at the depth z_B:
+//! of long waves, about the middle O of the waterplane with the displaced volume V at the depth
+//! z_B:
 //!
 //! ```text
 //! F1 = (ρV + A11) u̇,    F3 = ρg S η + (ρV + A33) ẇ,    F5 = (ρV z_B + A15) u̇ − ρg I ∂η/∂x
@@ -20,8 +21,8 @@ use crate::waves::{water_acceleration, wave_number};
 use nalgebra::{Complex, Matrix3, Vector3};
 use std::f64::consts::PI;
 
-/// The frequencies for which it is tabulated \[rad/s\], and how many: all waves and swings, so close
-/// that splines between them are off by less than 1e-6.
+/// The frequencies for which it is tabulated \[rad/s\], and how many: all waves and swings, so
+/// close that splines between them are off by less than 1e-6.
 const RANGE_RAD_S: [f64; 2] = [0.02, 60.0];
 const FREQUENCIES: u32 = 400;
 /// Ends take 5 % and more of the added mass of a body that is shorter than so many widths.
@@ -137,8 +138,9 @@ impl SectionBody {
         }
     }
 
-    /// X of a wave of unit amplitude: with e^{−iωt} and its crest over the body at t = 0 the water's
-    /// acceleration there is (−i a_x, −a_z), its slope i k; a wave to −x turns the signs of both i.
+    /// X of a wave of unit amplitude: with e^{−iωt} and its crest over the body at t = 0 the
+    /// water's acceleration there is (−i a_x, −a_z), its slope i k; a wave to −x turns the signs of
+    /// both i.
     fn wave_force(
         &self,
         water: &Water,

@@ -91,10 +91,10 @@ pub struct Starts<'a> {
     pub near: &'a [Point],
 }
 
-/// All orbits that Newton's method finds from given starts and from random ones in the box |x| ≤ w, −w ≤ y ≤ h,
-/// |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a body has, each
-/// once, whichever of its periods it was met in, the most stable ones first. One that repeats itself
-/// after fewer periods than are wanted is left out.
+/// All orbits that Newton's method finds from given starts and from random ones in the box |x| ≤ w,
+/// −w ≤ y ≤ h, |v| ≤ 1, |θ| ≤ π/3, |θ̇| ≤ 2, with w half the cables' length, or less: those that a
+/// body has, each once, whichever of its periods it was met in, the most stable ones first. One
+/// that repeats itself after fewer periods than are wanted is left out.
 ///
 /// # Errors
 /// [`Unfinished`] if the case can not be, or it is told to end.
@@ -144,7 +144,8 @@ pub fn find_orbits(
     Ok(orbits)
 }
 
-/// The states at all sections of a lap, one a period of the forcing, beginning with the orbit's own.
+/// The states at all sections of a lap, one a period of the forcing, beginning with the orbit's
+/// own.
 fn sections(family: &Moored, orbit: &Orbit) -> Vec<Point> {
     let lap = Lap {
         family,

@@ -19,8 +19,8 @@ pub struct Proofs {
 }
 
 impl Orbit {
-    /// The proof that there is an orbit of these snaps next to this one, for the case of decimals that
-    /// it is an orbit of.
+    /// The proof that there is an orbit of these snaps next to this one, for the case of decimals
+    /// that it is an orbit of.
     pub fn prove(&self, case: &ExactCase) -> Proof {
         let held = self.lap.sequence.held().into_iter();
         let taut = held.fold(TautSet::SLACK, TautSet::union);

@@ -46,8 +46,8 @@ const MOST_STEPS: usize = 12;
 const CLOSED: f64 = 1e-11;
 /// A step below this is rounding.
 const DONE: f64 = 1e-14;
-/// After a step below this the next one would be rounding, and the derivatives are those at the point as
-/// far as a direction needs them.
+/// After a step below this the next one would be rounding, and the derivatives are those at the
+/// point as far as a direction needs them.
 const LAST: f64 = 1e-8;
 
 impl Unknowns {
@@ -121,8 +121,8 @@ impl<F: Family> Tracer<'_, F> {
         self.tangent(u, &along)
     }
 
-    /// The point of the branch a length `sigma` along `tangent` from `from`, how many steps it took, and
-    /// the direction of the branch there.
+    /// The point of the branch a length `sigma` along `tangent` from `from`, how many steps it
+    /// took, and the direction of the branch there.
     pub(crate) fn corrected(
         &self,
         from: &Unknowns,

@@ -64,7 +64,8 @@ impl Laps {
         })
     }
 
-    /// A lap of all states of a box: that it has these snaps and nothing else, and where it leads to.
+    /// A lap of all states of a box: that it has these snaps and nothing else, and where it leads
+    /// to.
     pub(super) fn of(&self, states: &State, struck: &[usize]) -> Result<Lap, Trouble> {
         let models = [&self.fine, &self.coarse];
         let mut run = Run::of_states(&self.case, models, &self.begin, states);
@@ -110,7 +111,8 @@ impl Laps {
         }
     }
 
-    /// Keeps the states at the sections that a flight passes before it ends, at a time from its T on.
+    /// Keeps the states at the sections that a flight passes before it ends, at a time from its T
+    /// on.
     fn pass(&self, run: &Run<'_>, end: &Ball, kept: &mut Vec<State>) -> Result<(), Trouble> {
         let within = self.sections.len() - 1;
         while let Some(section) = self.sections[..within].get(kept.len()) {
@@ -126,8 +128,8 @@ impl Laps {
         Ok(())
     }
 
-    /// ∂(state)/∂(state before) of a flight: the force does not depend on the state, so that a deviation
-    /// goes on with its velocity.
+    /// ∂(state)/∂(state before) of a flight: the force does not depend on the state, so that a
+    /// deviation goes on with its velocity.
     fn flown(&self, time: &Ball) -> Matrix {
         let time = time.with_limbs(self.coarse.limbs);
         let mut matrix = unit();

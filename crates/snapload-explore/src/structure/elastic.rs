@@ -1,4 +1,5 @@
-//! `/api/structure/elastic`: the same structure on lines that stretch, as `snapload elastic` tells it.
+//! `/api/structure/elastic`: the same structure on lines that stretch, as `snapload elastic` tells
+//! it.
 use super::Latest;
 use super::motion::Columns;
 use super::opened::{Asked, Opened};

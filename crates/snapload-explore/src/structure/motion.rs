@@ -1,4 +1,5 @@
-//! The motion of a structure within a stretch of time, as columns in metres, kilonewtons and seconds.
+//! The motion of a structure within a stretch of time, as columns in metres, kilonewtons and
+//! seconds.
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use snapload::{Impact, Playback, State, Trajectory};
 use snapload_structure::{ElasticRun, Scales};
@@ -6,8 +7,8 @@ use snapload_structure::{ElasticRun, Scales};
 /// Rows within the stretch that is looked at.
 const ROWS: u32 = 1500;
 
-/// Times, places, velocities and tensions, a row a time; angles and places are those of z up. Times are
-/// whole doubles; the rest is drawn, and as exact as that takes.
+/// Times, places, velocities and tensions, a row a time; angles and places are those of z up. Times
+/// are whole doubles; the rest is drawn, and as exact as that takes.
 #[derive(Default)]
 pub(super) struct Columns {
     t: Vec<f64>,

@@ -1,4 +1,5 @@
-//! `/api/structure/run`: a structure as `snapload assess` tells it, and all that the page draws of it.
+//! `/api/structure/run`: a structure as `snapload assess` tells it, and all that the page draws of
+//! it.
 use super::motion::Columns;
 use super::opened::{Asked, Case, Opened};
 use super::{Kept, Latest};
@@ -134,7 +135,8 @@ struct Answer {
     lasts_s: f64,
     transient_s: f64,
     geometry: JsonValue,
-    /// The waves as sinusoids: amplitude \[m\], ω \[rad/s\], wave number \[1/m\] along +x, phase \[rad\].
+    /// The waves as sinusoids: amplitude \[m\], ω \[rad/s\], wave number \[1/m\] along +x, phase
+    /// \[rad\].
     waves: Vec<[f64; 4]>,
     snaps: Snaps,
     modes: Modes,

@@ -84,7 +84,8 @@ fn long_waves_push_by_their_pressure() {
     assert!(long < 1e-2 && longer < 0.3 * long, "{long} {longer}");
 }
 
-/// Heave swings as ω² = ρg S/(m + A33), and a body that makes no waves has no damping; that is said.
+/// Heave swings as ω² = ρg S/(m + A33), and a body that makes no waves has no damping; that is
+/// said.
 #[test]
 fn it_swings_without_damping() {
     let body = box_of(2.0, 1.2);

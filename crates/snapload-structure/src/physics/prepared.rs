@@ -226,9 +226,9 @@ impl Prepared {
     }
 }
 
-/// Whether lines share the load at rest otherwise than those that do not stretch, whose tensions come
-/// first. The water carries what the lines of a floating body lose as they stretch, so of one it is
-/// their parts of all that they carry that count.
+/// Whether lines share the load at rest otherwise than those that do not stretch, whose tensions
+/// come first. The water carries what the lines of a floating body lose as they stretch, so of one
+/// it is their parts of all that they carry that count.
 fn shared_otherwise(structure: &Structure, tensions_n: [&[f64]; 2]) -> bool {
     let units = match structure.afloat {
         Some(_) => tensions_n.map(|pulls| pulls.iter().sum::<f64>().max(f64::MIN_POSITIVE)),

@@ -279,9 +279,9 @@ fn in_waves(
     ]
 }
 
-/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with the
-/// mass m that it has to stop. Those lines for which that is more than a tenth of the waves' period,
-/// in words.
+/// The engine's snap takes no time; a line of spring rate k takes half a period, π sqrt(m/k) with
+/// the mass m that it has to stop. Those lines for which that is more than a tenth of the waves'
+/// period, in words.
 fn soft_lines(prepared: &Prepared, period_s: f64) -> String {
     let lines = prepared.structure.lines.iter().enumerate();
     let soft = lines.filter_map(|(index, line)| {

@@ -61,7 +61,8 @@ struct ElasticText<'a> {
     end: Option<&'static str>,
     e: f64,
     zeta: f64,
-    /// Spring rate, damping, part of the time slack, and peak of each line; slack if it did not stretch.
+    /// Spring rate, damping, part of the time slack, and peak of each line; slack if it did not
+    /// stretch.
     lines: Vec<([f64; 4], Option<f64>)>,
     rows: Vec<String>,
     /// How many snaps there are of lines that do not stretch.

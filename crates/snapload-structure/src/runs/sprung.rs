@@ -25,8 +25,8 @@ impl Outcome {
         Ok((sprung, outcome))
     }
 
-    /// What a motion on lines that stretch comes to. A snap is a pull that begins at [`SLOWEST_M_S`]
-    /// or more.
+    /// What a motion on lines that stretch comes to. A snap is a pull that begins at
+    /// [`SLOWEST_M_S`] or more.
     pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
         let transient_s = sprung.structure.transient_s;
         let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);

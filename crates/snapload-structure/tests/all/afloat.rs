@@ -194,7 +194,8 @@ fn slack_lines_leave_the_response_of_the_frequency_domain() {
                 .scales
                 .to_si([motion.state().x, motion.state().y]);
             let (sine, cosine) = (omega * t).sin_cos();
-            // Re 0.2 i ξ e^{−iωt}, about where weight and buoyancy, equal to a newton, are in balance.
+            // Re 0.2 i ξ e^{−iωt}, about where weight and buoyancy, equal to a newton, are in
+            // balance.
             let still = afloat.body.constant_force[1] / afloat.body.stiffness[(1, 1)];
             let heave = still + 0.2 * (xi[1].re * sine - xi[1].im * cosine);
             assert!((z - heave).abs() < 1e-6, "{t} {z} {heave}");

@@ -1,5 +1,5 @@
-//! Lines under a body that floats: how they share what the water leaves them, and how they answer small
-//! waves as they stretch.
+//! Lines under a body that floats: how they share what the water leaves them, and how they answer
+//! small waves as they stretch.
 
 use crate::afloat::{by_hand, case, parsed, structure};
 use nalgebra::{Complex, Matrix3, Vector3};
@@ -76,7 +76,8 @@ fn taut_springs_answer_small_waves_as_the_frequency_domain_does() {
     let force = hydro.excitation_to(1.0).unwrap().force[k] * Complex::new(height / 2.0, 0.0);
     let answer = impedance.lu().solve(&force).unwrap();
 
-    // What is of the second order in the waves has other frequencies, and is fitted beside the answer.
+    // What is of the second order in the waves has other frequencies, and is fitted beside the
+    // answer.
     let run = run_elastic(&sprung, &law, 0.2, &unwatched).unwrap();
     let looks: Vec<_> = run.looks.iter().filter(|look| look.t_s > 240.0).collect();
     let columns = nalgebra::DMatrix::from_fn(looks.len(), 5, |row, column| {
@@ -132,7 +133,8 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     let prepared = Prepared::new(structure(&text)).unwrap();
     let a33 = prepared.structure.body.added_mass.heave_kg;
     let b = 2.0;
-    // Between the rows of the table, 2.1987 and 2.1421 b² at b/T of 5/3 and 2 (half of the double body's).
+    // Between the rows of the table, 2.1987 and 2.1421 b² at b/T of 5/3 and 2 (half of the double
+    // body's).
     assert!((a33 / (1025.0 * 20.0 * b * b) - 2.1987).abs() < 1e-3);
     let c33 = 1025.0 * 9.81 * 2.0 * b * 20.0;
     let k = 4.9e6 / 9.8;
@@ -180,8 +182,9 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     }
 }
 
-/// Four lines, two on each side of which one is 2 mm shorter than the other: by their stiffness they
-/// share what the water leaves them as springs do, and without a stiffness the verdict is open.
+/// Four lines, two on each side of which one is 2 mm shorter than the other: by their stiffness
+/// they share what the water leaves them as springs do, and without a stiffness the verdict is
+/// open.
 #[test]
 fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
     let text = case(
@@ -247,8 +250,8 @@ fn more_lines_than_hold_a_floating_body_share_by_stiffness() {
     assert_eq!(shared.is_some(), long < 0.9 * short, "{short} {long}");
 }
 
-/// A memory is about the reference point that its file says, and is carried to the body's centre: as
-/// Jᵀ(·)J there, and as good a fit as it was.
+/// A memory is about the reference point that its file says, and is carried to the body's centre:
+/// as Jᵀ(·)J there, and as good a fit as it was.
 #[test]
 fn a_memory_is_carried_to_the_centre() {
     let (report, _) = by_hand();
@@ -274,8 +277,8 @@ fn a_memory_is_carried_to_the_centre() {
     assert!(warned.is_none(), "{warned:?}");
 }
 
-/// Thrown about by its lines as they stretch, with the memory of the waves it makes, the pontoon pulls
-/// at them when and as hard as another program has it.
+/// Thrown about by its lines as they stretch, with the memory of the waves it makes, the pontoon
+/// pulls at them when and as hard as another program has it.
 #[test]
 fn snaps_on_springs_are_those_of_another_program() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));

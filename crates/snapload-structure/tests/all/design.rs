@@ -234,8 +234,8 @@ fn factors_that_go_together_are_given_together() {
     }
 }
 
-/// The checks of lines that stretch, by hand from what they hold, and of many records, of which each
-/// has those of its own run.
+/// The checks of lines that stretch, by hand from what they hold, and of many records, of which
+/// each has those of its own run.
 #[test]
 fn springs_and_records_are_checked_by_the_same_rule() {
     let rule = "[design]\npretension_factor = 1.2\nenvironment_factor = 1.5\nstrength_factor = 0.95\n\

@@ -363,8 +363,8 @@ fn it_may_start_where_the_lines_have_stretched() {
     assert!(floor.to_string().contains("above the floor"), "{floor}");
 }
 
-/// Each pull of the lines as MoorDyn 2.7.2 has it with its steps made so small that its peaks do not
-/// hang on them, to 0.1 % and to a few of its steps (bench/moordyn).
+/// Each pull of the lines as MoorDyn 2.7.2 has it with its steps made so small that its peaks do
+/// not hang on them, to 0.1 % and to a few of its steps (bench/moordyn).
 #[test]
 fn the_pulls_are_those_of_moordyn() {
     let results = include_str!("../../../../bench/moordyn/results.json");

@@ -1,5 +1,5 @@
-//! All tests from outside, as one program: it is linked once, and the tests of all files run side by
-//! side.
+//! All tests from outside, as one program: it is linked once, and the tests of all files run side
+//! by side.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod arithmetics;

@@ -71,8 +71,8 @@ impl NormErrors {
 /// ```
 ///
 /// as the forces at a phase that is off by E t differ by that much. With a cable taut what has
-/// become of it at the impact after, or at the end, counts where it is more. The end may come sooner or
-/// later by its own error.
+/// become of it at the impact after, or at the end, counts where it is more. The end may come
+/// sooner or later by its own error.
 fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     if trust.horizon.is_some() {
         return [None; 2];
@@ -232,9 +232,9 @@ mod tests {
         Ok(())
     }
 
-    /// Of random runs that are certain, the highest y and the largest |θ| with 76 digits are within the
-    /// errors: by start, body, forcing and restitution, so that they are reached at the start, within
-    /// flights, at impacts and at the limits.
+    /// Of random runs that are certain, the highest y and the largest |θ| with 76 digits are within
+    /// the errors: by start, body, forcing and restitution, so that they are reached at the start,
+    /// within flights, at impacts and at the limits.
     #[test]
     fn extremes_with_many_digits_are_within_the_errors() -> Result<(), Unfinished> {
         let (mut compared, mut sharp) = (0, 0);
@@ -284,8 +284,8 @@ mod tests {
         Ok(())
     }
 
-    /// With cables taut no digits are at hand: neighbours of a body that rocks on both cables from its
-    /// start keep within.
+    /// With cables taut no digits are at hand: neighbours of a body that rocks on both cables from
+    /// its start keep within.
     #[test]
     fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
         let rocking = Parameters {

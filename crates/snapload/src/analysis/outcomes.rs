@@ -132,8 +132,8 @@ fn outcomes_of(
     Ok(told.map(|(outcome, ())| outcome).collect())
 }
 
-/// What runs come to, and what their followers say, in their order. Each is counted when it begins, and the
-/// counter asked whether to go on.
+/// What runs come to, and what their followers say, in their order. Each is counted when it begins,
+/// and the counter asked whether to go on.
 ///
 /// # Errors
 /// As for [`outcomes`].

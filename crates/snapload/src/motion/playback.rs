@@ -150,8 +150,8 @@ impl<'a> Playback<'a> {
         dispatch(MotionAt(self, t))
     }
 
-    /// Shows every piece of the motion between two times within the run: a flight or an expansion, or
-    /// what of one lies between them.
+    /// Shows every piece of the motion between two times within the run: a flight or an expansion,
+    /// or what of one lies between them.
     pub(crate) fn each_piece(&mut self, [from, to]: [f64; 2], mut show: impl FnMut(&Piece)) {
         let mut t = from;
         while t < to {
@@ -173,8 +173,8 @@ impl<'a> Playback<'a> {
         }
     }
 
-    /// The segment that a time lies in, by index. A run has at least the segment of its end; before the
-    /// start it is the start that counts.
+    /// The segment that a time lies in, by index. A run has at least the segment of its end; before
+    /// the start it is the start that counts.
     fn segment_at(&self, t: f64) -> usize {
         let segments = self.run.segments();
         let after = segments.partition_point(|segment| segment.t <= t);

@@ -100,7 +100,8 @@ impl Prepared {
             self.model.at_rest(rest.place_m, rest.theta_rad),
             &system.cables[line],
         );
-        // The normal is the span over the line's length, and shorter than 1 where the line is slack.
+        // The normal is the span over the line's length, and shorter than 1 where the line is
+        // slack.
         let [x, y] = cable.span(&at).components();
         let along = x.hypot(y) / cable.length();
         along * along / system.body.inverse_effective_mass(&cable.normal(&at))

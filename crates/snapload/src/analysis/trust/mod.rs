@@ -213,8 +213,8 @@ pub struct Trust {
     /// Error of the time at which the run ends \[T\]: nothing where that is the end of the time
     /// asked for, infinite past the horizon.
     pub end_error: f64,
-    /// Errors of the states in which the run begins and ends, as they are told at impacts; that of the
-    /// end is infinite past the horizon.
+    /// Errors of the states in which the run begins and ends, as they are told at impacts; that of
+    /// the end is infinite past the horizon.
     pub edge_errors: [f64; 2],
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,

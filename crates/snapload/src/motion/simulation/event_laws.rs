@@ -118,8 +118,9 @@ impl<T: Real> Simulation<T> {
         result.v_after[cable].abs() <= rounding * UNMOVED
     }
 
-    /// Of the cables at rest after an impact those that are so once the slow ones have stuck: one that
-    /// hands its load over to a cable that sticks is let go with the velocity that this takes away.
+    /// Of the cables at rest after an impact those that are so once the slow ones have stuck: one
+    /// that hands its load over to a cable that sticks is let go with the velocity that this takes
+    /// away.
     #[inline(always)]
     fn still_at_rest(&self, at_rest: TautSet, slow: TautSet) -> TautSet {
         if slow.intersection(self.active.taut).is_empty() {
@@ -276,7 +277,8 @@ mod tests {
     use crate::motion::simulation::Simulation;
 
     /// A cable counts as resting only where its normal velocity is zero. Bodies on four cables, and
-    /// snaps far above rounding stick, so that whatever is let go as they do has a velocity that shows.
+    /// snaps far above rounding stick, so that whatever is let go as they do has a velocity that
+    /// shows.
     #[test]
     fn what_rests_has_no_normal_velocity() {
         let mut rested = 0;
