@@ -10,6 +10,7 @@ use json::rows;
 pub use json::Json;
 pub use page::page;
 pub use words::periods_in_words;
+use words::plain;
 
 use crate::coefficients::transport;
 use crate::error::{HydroError, Warning};
@@ -205,7 +206,7 @@ impl Floating {
                 let words = format!(
                     "waves damp pitch by {:.1} % of critical only, and no other damping was given: its \
                      resonance is not to be believed without",
-                    100.0 * mode.damping_ratio
+                    plain(100.0 * mode.damping_ratio, 0.1)
                 );
                 warnings.push(Warning::new("pitch", words));
             }
@@ -216,10 +217,11 @@ impl Floating {
             let draft = weight * reading.hydro.water.gravity_m_s2 / self.body.stiffness[(1, 1)];
             if rest.q[2].abs() > 0.05 || (draft > 0.0 && rest.q[1].abs() > 0.1 * draft) {
                 let words = format!(
-                    "the body rests {:.3} m above and at {:.1}° of pitch from where the file has \
-                     it; make the file again there",
-                    rest.q[1],
-                    rest.q[2].to_degrees()
+                    "the body rests {:.3} m {} and at {:.1}° of pitch from where the file has it; \
+                     make the file again there",
+                    rest.q[1].abs(),
+                    if rest.q[1] < 0.0 { "below" } else { "above" },
+                    plain(rest.q[2].to_degrees(), 0.1)
                 );
                 warnings.push(Warning::new("place of rest", words));
             }

@@ -143,7 +143,7 @@ impl Floating {
 }
 
 /// Zero where it is less than half a unit of the last place that is printed, so that it has no sign.
-fn plain(value: f64, unit: f64) -> f64 {
+pub(super) fn plain(value: f64, unit: f64) -> f64 {
     if value.abs() < 0.5 * unit { 0.0 } else { value }
 }
 
@@ -178,7 +178,7 @@ pub fn periods_in_words(natural: &[Natural], modes: &[Mode]) -> String {
             FREEDOMS[natural.freedom],
             natural.period_s,
             mode.period_s,
-            100.0 * mode.damping_ratio
+            plain(100.0 * mode.damping_ratio, 1e-2)
         )
     };
     let all: Vec<String> = natural.iter().zip(modes).map(one).collect();
