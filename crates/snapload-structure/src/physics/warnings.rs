@@ -132,16 +132,20 @@ fn warnings_afloat(prepared: &Prepared, afloat: &Afloat) -> Vec<Warning> {
     let deep =
         report.reading.hydro.water.depth_m.is_infinite() && structure.site.depth_m.is_finite();
     let lost = 100.0 * left_out(structure, afloat);
+    let textbook = report.reading.format == Format::Section;
+    let again = match textbook {
+        true => "give body.position and displaced_volume as they are there",
+        false => "compute them again there",
+    };
     let mut found = vec![
         shared_loads(rest),
         stretch_at_rest(rest),
-        broken(elsewhere, "place of rest", [heave, degrees], ""),
+        broken(elsewhere, "place of rest", [heave, degrees], again),
         broken(deep, "deep water", [structure.site.depth_m, 0.0], ""),
         broken(lost > 0.0, "frequencies left out", [lost, 0.0], ""),
     ];
     if let Some((highest, wave)) = governing_wave(structure, body.position_m[1].min(0.0)) {
         // What a file's coefficients are for, a textbook's leave out.
-        let textbook = report.reading.format == Format::Section;
         let all = in_waves(prepared, f64::INFINITY, highest, &wave).into_iter();
         found.extend(all.filter(|found| {
             found

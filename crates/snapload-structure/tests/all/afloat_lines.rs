@@ -182,6 +182,24 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     }
 }
 
+/// A short line holds the body 0.2 m below where its section is that of the textbook's values.
+#[test]
+fn a_place_of_rest_below_the_given_one_is_told_as_below() {
+    let text = of_its_section("", "length = 9.6");
+    let assessment = assess(structure(&text), 0, &unwatched).unwrap();
+    let mut warnings = assessment.warnings.iter();
+    let found = warnings.find(|w| w.rule == "place of rest");
+    let words = &found.expect("a warning").message;
+    assert!(
+        words.starts_with("the body rests 0.200 m below and at 0.0 degrees"),
+        "{words}"
+    );
+    assert!(
+        words.ends_with("give body.position and displaced_volume as they are there"),
+        "{words}"
+    );
+}
+
 /// Four lines, two on each side of which one is 2 mm shorter than the other: by their stiffness
 /// they share what the water leaves them as springs do, and without a stiffness the verdict is
 /// open.
