@@ -1,6 +1,7 @@
 //! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
 
 use crate::hybrid::{Family, Hybrid, Point};
+use crate::in_words::periods;
 use crate::lap::Lap;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
@@ -61,9 +62,10 @@ pub fn of_attractor(
         .is_some_and(|periods| period as u32 != periods)
     {
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start repeats itself after {period} periods of the forcing, and an orbit \
-             of {} was asked for",
-            wanted.periods.unwrap_or(1)
+            "the motion of this start repeats itself after {} of the forcing, and an orbit of {} was \
+             asked for; leave the periods out, or say near which state it is",
+            periods(period),
+            periods(wanted.periods.unwrap_or(1) as usize)
         ))));
     }
     let wanted = Wanted {

@@ -18,7 +18,8 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
         orbit.length,
         words(&orbit.lap.sequence)
     );
-    let state: Vec<String> = orbit.z.iter().map(|c| format!("{c:.9}")).collect();
+    // Adding 0 makes 0 of -0.
+    let state: Vec<String> = orbit.z.iter().map(|c| format!("{:.9}", c + 0.0)).collect();
     let _ = writeln!(text, "Section   {}", state.join(" "));
     let multiplier = |[re, im]: &[f64; 2]| match *im {
         0.0 => format!("{re:.6}"),
@@ -35,9 +36,13 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
     let _ = match &orbit.proof {
         Some(Ok(proved)) => writeln!(
             text,
-            "Proved    to exist within {:.1e} of the section, and to be alone within {:.1e}",
+            "Proved    to exist within {:.1e} of the section, and to be alone within {:.1e}{}",
             proved.error_of(&orbit.z),
-            proved.alone_within
+            proved.alone_within,
+            match proved.is_prime() {
+                true => "",
+                false => "; not that it takes no fewer periods",
+            }
         ),
         Some(Err(why)) => writeln!(text, "Unproved  {why}"),
         None => Ok(()),
@@ -45,7 +50,7 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
     text
 }
 
-fn periods(n: usize) -> String {
+pub(crate) fn periods(n: usize) -> String {
     match n {
         1 => "one period".to_owned(),
         n => format!("{n} periods"),
@@ -114,6 +119,11 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
 /// A safe basin.
 pub fn basin_in_words(basin: &Basin) -> String {
     let m = &basin.measures;
+    if m.legal == 0 {
+        return "Safe      none, as no cell is legal: each start of the window is beyond a cable or a \
+                limit; choose another window\n"
+            .to_owned();
+    }
     let mut text = format!(
         "Safe      {} of {} legal cells: {:.4} ({:.4} to {:.4})\n",
         m.safe, m.legal, m.gim, m.interval[0], m.interval[1]
@@ -156,7 +166,8 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
     for (value, basin) in &erosion.points {
         let m = &basin.measures;
         let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
-        let _ = writeln!(text, "{value:<12} {:<8.4} {lim:<8} {disc}", m.gim);
+        let safe = maybe((m.legal > 0).then_some(m.gim));
+        let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
     }
     if let Some(knee) = erosion.knee() {
         let _ = writeln!(text, "Knee      at {} = {knee}", erosion.key);

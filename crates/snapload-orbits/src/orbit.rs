@@ -264,6 +264,24 @@ impl<F: Family> Search<'_, F> {
         wanted.is_none_or(|struck| *struck == sequence.struck())
     }
 
+    /// Why a lap that closes is no answer: no body has it, or its snaps are not those asked for.
+    fn why_refused(&self, orbit: &Orbit) -> String {
+        let mut reasons = orbit.why_not.clone();
+        let wanted = self.wanted.struck.as_ref();
+        if let Some(struck) = wanted.filter(|_| !self.is_wanted(&orbit.lap.sequence)) {
+            let cables: Vec<String> = struck.iter().map(|k| (k + 1).to_string()).collect();
+            let asked = match cables.is_empty() {
+                true => "none".to_owned(),
+                false => cables.join(", "),
+            };
+            reasons.push(format!(
+                "the snaps asked for are {asked}; leave the symbol out, or begin near another state"
+            ));
+        }
+        let (found, but) = (words(&orbit.lap.sequence), reasons.join("; "));
+        format!("a lap closes with the events {found}, but {but}")
+    }
+
     /// Simulates a lap, closes it with its events, and simulates again, until the events stay.
     fn by_simulation(&self, start: &Point) -> Result<Orbit, NoOrbit> {
         let period = self.family.forcing_period(self.at).value;
@@ -278,7 +296,8 @@ impl<F: Family> Search<'_, F> {
                 return Err(NoOrbit("this system has no simulation".to_owned()));
             };
             if let Some(words) = simulated.illegal {
-                why = format!("the search came to a state that is not legal: {words}");
+                why =
+                    format!("the search came to a state beyond what is allowed; allowed: {words}");
                 break;
             }
             if let Some((stop, t)) = simulated.stop {
@@ -299,11 +318,7 @@ impl<F: Family> Search<'_, F> {
                 if orbit.is_admissible() && self.is_wanted(sequence) {
                     return Ok(orbit);
                 }
-                why = format!(
-                    "a lap closes with the events {}, but {}",
-                    words(sequence),
-                    orbit.why_not.join("; ")
-                );
+                why = self.why_refused(&orbit);
                 if closing.is_none() && self.is_wanted(sequence) {
                     closing = Some(orbit);
                 }

@@ -4,7 +4,7 @@ use crate::common::{number, parameters, reference};
 use serde_json::Value as Json;
 use snapload::analysis::unwatched;
 use snapload::{Parameters, Stop, key_named};
-use snapload_orbits::{Basin, Cell, Window};
+use snapload_orbits::{Basin, Cell, Window, basin_in_words};
 
 /// Evenly spaced decimals, as a grid of the command has them.
 fn even(axis: &Json) -> (&'static str, Vec<f64>) {
@@ -89,4 +89,18 @@ fn cells_are_those_of_the_reference() {
     agrees("circle_xy_f0.1", true);
     agrees("circle_xy_f0.3", false);
     agrees("circle_f_omega", false);
+}
+
+#[test]
+fn a_window_beyond_the_cables_is_said_to_be_so() {
+    let window = Window {
+        base: Parameters::STANDARD,
+        keys: ["x", "y"],
+        values: [vec![5.0, 6.0], vec![5.0, 6.0]],
+    };
+    let text = basin_in_words(&Basin::of(window, false, &unwatched).unwrap());
+    assert!(
+        text.contains("no cell is legal") && !text.contains("NaN"),
+        "{text}"
+    );
 }

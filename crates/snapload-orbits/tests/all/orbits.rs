@@ -2,7 +2,9 @@
 
 use crate::common::{number, numbers, parameters, point, reference, relative};
 use serde_json::Value as Json;
-use snapload_orbits::{Moored, Orbit, Stability, Wanted, distance};
+use snapload::Parameters;
+use snapload_certificate::ExactCase;
+use snapload_orbits::{Moored, Orbit, Point, Stability, Wanted, distance, orbit_in_words};
 
 /// The orbit near the reference's, from 1e-4 beside it.
 fn found(reference: &Json, beside: f64) -> Orbit {
@@ -144,4 +146,47 @@ fn kinds_of_stability_are_told() {
     assert_eq!(one("square_six"), Stability::Unstable);
     assert_eq!(one("rock_circle"), Stability::Neutral);
     assert_eq!(one("corner_rest_e0"), Stability::Superstable);
+}
+
+/// The stable orbit of the snaps 2, 1, and a start beside it.
+fn volley() -> (Moored, Parameters, Point) {
+    let all = orbits();
+    let volley = all.iter().find(|orbit| orbit["name"] == "volley").unwrap();
+    let case = parameters(&volley["case"]);
+    let family = Moored::case(case, [None; 2]);
+    (family, case, point(&volley["section_point"]))
+}
+
+#[test]
+fn snaps_that_were_asked_for_and_are_not_there_are_named() {
+    let (family, _, start) = volley();
+    for (struck, words) in [(vec![0, 0], "1, 1"), (vec![], "none")] {
+        let wanted = Wanted {
+            struck: Some(struck),
+            ..Wanted::default()
+        };
+        let why = Orbit::find(&family, [0.0; 2], &start, &wanted).unwrap_err();
+        let told = format!(
+            "a lap closes with the events 2, 1, but the snaps asked for are {words}; leave the symbol out"
+        );
+        assert!(why.to_string().contains(&told), "{why}");
+    }
+}
+
+/// Two laps of an orbit of one period are a theorem, but not that they are one orbit of two.
+#[test]
+fn two_laps_are_not_told_as_an_orbit_that_takes_no_fewer_periods() {
+    let (family, case, start) = volley();
+    let exact = ExactCase::of(&case, |_| None).unwrap();
+    for (periods, is_prime) in [(1, true), (2, false)] {
+        let wanted = Wanted {
+            periods: Some(periods),
+            ..Wanted::default()
+        };
+        let mut orbit = Orbit::find(&family, [0.0; 2], &start, &wanted).unwrap();
+        orbit.proof = Some(orbit.prove(&exact));
+        let text = orbit_in_words(&orbit);
+        assert!(text.contains("Proved    to exist"), "{text}");
+        assert_eq!(!text.contains("no fewer periods"), is_prime, "{text}");
+    }
 }
