@@ -133,6 +133,17 @@ def test_labels_of_axes_stay_on_the_canvas(open_page):
     assert "10000" in cut["labels"] and cut["cut"] == []
 
 
+def test_an_axis_has_two_labels_at_the_least(open_page):
+    values = open_page("t=0").evaluate(
+        """async () => {
+            const { ticks } = await import('./plot.js');
+            return [[-0.19, 0.17], [-3.66, -3.51], [0.1, 1900]].map(([low, high]) => ticks(low, high, 3).values);
+        }"""
+    )
+    assert values[0] == pytest.approx([-0.1, 0, 0.1])
+    assert all(len(labels) >= 2 for labels in values)
+
+
 def test_on_paper_nothing_lies_over_the_charts(open_page):
     page = open_page("t=2")
     page.emulate_media(media="print")

@@ -149,6 +149,7 @@ def test_what_is_refused_is_said_at_its_field(open_structure, command):
     expect(said).to_contain_text("60")
     assert said.inner_text().split("allowed", 1)[1].strip() in refused
     expect(page.locator("#failed")).to_contain_text("of the last values that could be run")
+    expect(page.locator("#failed")).to_contain_text("Not run: wave.height = 60 ")
 
 
 def test_the_hardest_snaps_and_the_record_lead_to_their_time(open_structure):

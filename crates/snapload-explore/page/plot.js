@@ -2,14 +2,18 @@
 
 import { fixed, number } from "./words.js";
 
-/** Round values across a range, about so many. */
+/** Round values across a range, about so many, but two at the least: one alone gives no scale. */
 export function ticks(low, high, about) {
   const rough = (high - low) / Math.max(about, 1);
   if (!(rough > 0) || !Number.isFinite(rough)) return { values: [low], label: (v) => number(v) };
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999);
+  const steps = [10, 5, 2, 1, 0.5, 0.2].map((m) => m * power);
+  const coarse = steps.findLast((s) => s >= rough * 0.999);
+  const multiples = (s) => [Math.ceil(low / s - 1e-9), Math.floor(high / s + 1e-9)];
+  const step = steps.find((s) => s <= coarse && multiples(s)[1] > multiples(s)[0]) ?? coarse;
+  const [first, last] = multiples(step);
   const values = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) values.push(k * step);
+  for (let k = first; k <= last; k += 1) values.push(k * step);
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const label = (v) => (decimals > 6 ? number(v, 3) : fixed(Math.abs(v) < step * 1e-6 ? 0 : v, decimals));
   return { values, label };

@@ -93,5 +93,5 @@ export function tellSnaps(run) {
     `${cell(utilisation[i] === null ? "–" : fixed(utilisation[i], 2))}` +
     `<td>${t[i] < run.transient_s ? "no, the waves have just begun" : "yes"}</td></tr>`;
   $("events-body").innerHTML = hardest.map(row).join("");
-  $("events-words").textContent = all ? `${hardest.length} of ${all} of 1 cm/s or more` : "no line snaps at 1 cm/s or more";
+  $("events-words").textContent = all ? `${hardest.length} of the ${all} at 1 cm/s or more` : "no line snaps at 1 cm/s or more";
 }

@@ -1,5 +1,6 @@
 //! Answers that say no: a status, the words that the command line would print, and the key that is
 //! to be changed.
+use crate::request::LARGEST_BODY;
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::http::StatusCode;
@@ -68,7 +69,9 @@ impl Refusal {
 }
 
 impl From<CaseError> for Refusal {
-    fn from(error: CaseError) -> Self {
+    fn from(mut error: CaseError) -> Self {
+        // What is changed on the page stands in a field, not on a command line.
+        error.place = error.place.filter(|place| **place != *"--set");
         Self {
             key: Some(error.key.clone()),
             ..Self::values(error.to_string())
@@ -81,6 +84,10 @@ impl From<JsonRejection> for Refusal {
         match rejection.status() {
             StatusCode::BAD_REQUEST | StatusCode::UNPROCESSABLE_ENTITY => {
                 Self::malformed(rejection.body_text())
+            }
+            status @ StatusCode::PAYLOAD_TOO_LARGE => {
+                let most = LARGEST_BODY >> 10;
+                Self::new(status, format!("more than {most} KiB, which no case needs"))
             }
             status => Self::new(status, rejection.body_text()),
         }
