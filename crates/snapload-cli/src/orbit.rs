@@ -196,8 +196,9 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
         };
         let _ = writeln!(
             text,
-            "Found     {} orbits from {starts} random starts{of_each}",
-            orbits.len()
+            "Found     {} {} from {starts} random starts{of_each}",
+            orbits.len(),
+            if orbits.len() == 1 { "orbit" } else { "orbits" }
         );
         if let Some(Proofs { proved, distinct }) = found.proofs {
             let _ = writeln!(
