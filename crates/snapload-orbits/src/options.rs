@@ -116,7 +116,10 @@ pub fn followed(
         );
         return Err(CaseError::value(option, key, allowed));
     }
+    // A point mass has no size.
+    let is_of_body = parameters.inertia.is_some() || !matches!(key, "a" | "b");
     let value = parameters.get(key).as_ref().and_then(Value::number);
+    let value = value.filter(|_| is_of_body);
     let allowed = "a key that holds a number, of this body";
     let value = value.ok_or_else(|| CaseError::value(option, key, allowed))?;
     Ok((key, value))

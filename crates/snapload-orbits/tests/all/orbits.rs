@@ -4,7 +4,9 @@ use crate::common::{number, numbers, parameters, point, reference, relative};
 use serde_json::Value as Json;
 use snapload::Parameters;
 use snapload_certificate::ExactCase;
-use snapload_orbits::{Moored, Orbit, Point, Stability, Wanted, distance, orbit_in_words};
+use snapload_orbits::{
+    Moored, Orbit, Point, Stability, Wanted, distance, followed, orbit_in_words,
+};
 
 /// The orbit near the reference's, from 1e-4 beside it.
 fn found(reference: &Json, beside: f64) -> Orbit {
@@ -189,4 +191,14 @@ fn two_laps_are_not_told_as_an_orbit_that_takes_no_fewer_periods() {
         assert!(text.contains("Proved    to exist"), "{text}");
         assert_eq!(!text.contains("no fewer periods"), is_prime, "{text}");
     }
+}
+
+#[test]
+fn a_point_mass_is_not_followed_along_its_size() {
+    let (_, case, _) = volley();
+    for key in ["a", "b", "inertia"] {
+        let refused = followed("along", &case, key).unwrap_err().to_string();
+        assert!(refused.contains("of this body"), "{refused}");
+    }
+    assert_eq!(followed("along", &case, "r").unwrap(), ("r", 1.7));
 }
