@@ -87,7 +87,10 @@ impl From<JsonRejection> for Refusal {
             }
             status @ StatusCode::PAYLOAD_TOO_LARGE => {
                 let most = LARGEST_BODY >> 10;
-                Self::new(status, format!("more than {most} KiB, which no case needs"))
+                Self::new(
+                    status,
+                    format!("more than {most} KiB, which no case needs; open a case file in TOML"),
+                )
             }
             status => Self::new(status, rejection.body_text()),
         }
