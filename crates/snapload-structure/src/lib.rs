@@ -31,7 +31,7 @@ pub use physics::warnings::{Warning, warnings};
 pub use physics::waterline::Waterline;
 pub use physics::wave::LinearWave;
 pub use report::{Standing, Verdict, end_words};
-pub use runs::assess::{Assessment, ByRestitution, NEIGHBOUR, assess};
+pub use runs::assess::{Assessment, ByRestitution, DEFAULT_NEIGHBOURS, NEIGHBOUR, assess};
 pub use runs::both::{BothModels, Inextensible, both_models};
 pub use runs::design::{Answer, Check, Criterion, RecordsCheck};
 pub use runs::motion::MotionSi;

@@ -5,14 +5,12 @@ use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::Deserialize;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::assess;
 use snapload_structure::note::{self, Source};
+use snapload_structure::{DEFAULT_NEIGHBOURS, assess};
 use std::time::Duration;
 
 /// What a run and its neighbours may take.
 const BUDGET: Duration = Duration::from_secs(120);
-/// Neighbours as `snapload assess` has them.
-const NEIGHBOURS: u32 = 40;
 
 /// A file that can be asked for.
 #[derive(Clone, Copy)]
@@ -62,7 +60,8 @@ impl File {
         let allowance = allowance.within(BUDGET);
         let go_on = |progress: Progress| allowance.go_on(progress);
         let refuse = |unfinished: Unfinished| too_long(&case, BUDGET, unfinished);
-        let assessment = assess(case.structure.clone(), NEIGHBOURS, &go_on).map_err(refuse)?;
+        let assessment =
+            assess(case.structure.clone(), DEFAULT_NEIGHBOURS, &go_on).map_err(refuse)?;
         let name = &case.opened.name;
         if matches!(self, Self::Assessment) {
             let told = assessment.to_json(name);

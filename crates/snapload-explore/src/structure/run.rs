@@ -8,7 +8,7 @@ use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as JsonValue, json};
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::{Assessment, Outline, Snap, Structure, Water, note};
+use snapload_structure::{Assessment, DEFAULT_NEIGHBOURS, Outline, Snap, Structure, Water, note};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -18,8 +18,6 @@ const BUDGET: Duration = Duration::from_secs(2);
 const LONG_BUDGET: Duration = Duration::from_secs(60);
 /// Of a longer record the beginning is shown first \[s\].
 const PREVIEW_S: f64 = 300.0;
-/// Neighbours as `snapload assess` has them.
-const NEIGHBOURS: u32 = 40;
 /// A page can not show more snaps than this.
 const MOST_SHOWN: usize = 20_000;
 
@@ -95,8 +93,10 @@ fn assessed(
         return Ok(alone);
     }
     let alone = Arc::unwrap_or_clone(alone);
-    kept.of(&beside, || alone.with_neighbours(NEIGHBOURS, &go_on))
-        .map_err(refuse)
+    kept.of(&beside, || {
+        alone.with_neighbours(DEFAULT_NEIGHBOURS, &go_on)
+    })
+    .map_err(refuse)
 }
 
 /// The first minutes of a record.

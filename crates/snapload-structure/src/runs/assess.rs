@@ -63,6 +63,9 @@ pub struct ByRestitution {
     pub fastest_snap_m_s: f64,
 }
 
+/// As many neighbours as there are where nothing else is said.
+pub const DEFAULT_NEIGHBOURS: u32 = 40;
+
 /// Runs a structure with its neighbours.
 ///
 /// # Errors
