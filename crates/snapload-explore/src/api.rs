@@ -1,7 +1,7 @@
 //! The paths of the server.
 use crate::guard::{Names, guard};
-use crate::refusal::Refusal;
-use crate::request::{Body, LARGEST_BODY};
+use crate::refusal::{LARGEST_BODY, Refusal};
+use crate::request::Body;
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::compute;

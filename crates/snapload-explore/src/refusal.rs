@@ -1,6 +1,5 @@
 //! Answers that say no: a status, the words that the command line would print, and the key that is
 //! to be changed.
-use crate::request::LARGEST_BODY;
 use axum::Json;
 use axum::extract::rejection::JsonRejection;
 use axum::http::StatusCode;
@@ -8,6 +7,9 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use snapload::CaseError;
 use std::fmt::Display;
+
+/// The largest body of a request, in bytes: a case has some twenty values.
+pub(crate) const LARGEST_BODY: usize = 64 << 10;
 
 /// Why a request gets no answer.
 #[derive(Debug, Serialize)]

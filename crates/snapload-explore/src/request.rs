@@ -8,8 +8,6 @@ use serde_json::Value as JsonValue;
 use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named};
 use std::time::Duration;
 
-/// The largest body of a request, in bytes: a case has some twenty values.
-pub(crate) const LARGEST_BODY: usize = 64 << 10;
 /// How long a body may take to arrive.
 const BODY_WITHIN: Duration = Duration::from_secs(10);
 
