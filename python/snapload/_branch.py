@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -21,8 +22,6 @@ from ._progress import bar
 from ._table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import matplotlib.axes
     import xarray
 else:

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 from . import _engine
 from ._base_orbit import STATE, BaseOrbit, Start, orbit_or_error, start_of, wanted
 from ._check import engine_of, whole
+from ._later import Later
 from ._progress import bar
+from ._run import Run
+from ._system import System, SystemRun
 
 if TYPE_CHECKING:
-    from ._case import Case
-    from ._run import Run
-    from ._system import System, SystemRun
+    from . import _case
+else:
+    _case = Later("snapload._case")
 
 #: Snaps that accumulate are followed down to this velocity, as the orbit itself is.
 _V_STICK = 1e-7
@@ -93,7 +96,7 @@ class Orbit(BaseOrbit):
 
     def __init__(
         self,
-        case: Case,
+        case: _case.Case,
         engine: _engine.Orbit | None,
         start_distance: float | None = None,
         told: dict[str, Any] | None = None,
@@ -347,7 +350,7 @@ class HasOrbits:
 
 
 def find_orbits(
-    case: Case,
+    case: _case.Case,
     starts: int = 2000,
     *,
     seed: int = 0,

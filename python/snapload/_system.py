@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from . import _engine
+from ._base_orbit import Start
 from ._base_run import BaseRun
 from ._check import Uncertainty, number, whole
 from ._geometry import Geometry
@@ -19,14 +20,12 @@ from ._parts import Body, Cable, Forcing, put, several, within
 from ._system_keys import changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import xarray
 
-    from ._base_orbit import Start
-    from ._orbit import SystemOrbit
+    from . import _orbit
 else:
     xarray = Later("xarray")
+    _orbit = Later("snapload._orbit")
 
 #: The start, in the order of the engine.
 START = ("x", "y", "theta", "vx", "vy", "vtheta")
@@ -248,7 +247,7 @@ class System:
         periods: int | None = None,
         symbol: Iterable[int | str] | None = None,
         phase: float = 0.0,
-    ) -> SystemOrbit:
+    ) -> _orbit.SystemOrbit:
         """Find the periodic orbit near a start, closed to rounding.
 
         Parameters
