@@ -229,9 +229,11 @@ fn in_words(args: &Args, found: &Found, start: Option<Point>) -> String {
 fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
     let mut z = start_of(parameters);
     for part in text.split(',') {
-        let (key, value) = part.split_once('=').unwrap_or((part, ""));
-        let (key, value) = (key.trim(), value.trim());
-        let Some(place) = START_KEYS.iter().position(|name| *name == key) else {
+        let named = part.split_once('=').and_then(|(key, value)| {
+            let place = START_KEYS.iter().position(|name| *name == key.trim())?;
+            Some((place, key.trim(), value.trim()))
+        });
+        let Some((place, key, value)) = named else {
             return Err(Failure::BadInput(format!(
                 "--start {part:?}: write KEY=VALUE with one of the keys {}, such as --start x=0.1,y=0.2",
                 START_KEYS.join(", ")

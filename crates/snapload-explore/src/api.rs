@@ -136,7 +136,7 @@ async fn answer_section(
 /// It takes all processors, as a map does.
 async fn answer_basin(
     State(shared): State<Arc<Shared>>,
-    Body(request): Body<basin::Request>,
+    Body(request): Body<map::Request>,
 ) -> Result<impl IntoResponse, Refusal> {
     let answer = compute(&shared.mappers, move |allowance| {
         basin::answer(request, allowance)

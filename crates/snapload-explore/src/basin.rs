@@ -1,25 +1,15 @@
 //! `/api/basin`: how much of the window of a map is safe.
-use crate::map::AxisGiven;
+use crate::map::{Map, Request};
 use crate::refusal::Refusal;
-use crate::request::{Values, entries};
 use crate::section::unfinished;
 use crate::work::Allowance;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use snapload::Parameters;
 use snapload_orbits::{Basin, BasinRow, Window, basin_in_words};
 use std::time::Duration;
 
 /// What it may take.
 const BUDGET: Duration = Duration::from_secs(20);
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Request {
-    #[serde(default)]
-    values: Values,
-    x: AxisGiven,
-    y: AxisGiven,
-}
 
 #[derive(Serialize)]
 struct Answer {
@@ -30,12 +20,9 @@ struct Answer {
 
 /// The answer, as JSON.
 pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>, Refusal> {
-    let base = Parameters::from_entries(entries(request.values)?)?;
-    let (x, y) = (request.x.read(), request.y.read());
-    let x = x.map_err(|no| no.of_field("x"))?;
-    let y = y.map_err(|no| no.of_field("y"))?;
+    let Map { base, x, y } = Map::read(request)?;
     let window = Window {
-        base,
+        base: Parameters::from_entries(base)?,
         keys: [x.key, y.key],
         values: [x.values, y.values],
     };

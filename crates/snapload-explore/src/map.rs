@@ -45,7 +45,7 @@ pub(crate) struct Request {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct AxisGiven {
+struct AxisGiven {
     key: String,
     low: f64,
     high: f64,
@@ -61,7 +61,7 @@ pub(crate) struct Axis {
 impl AxisGiven {
     /// The values are those of `snapload sweep --vary`, each the decimal number that one would
     /// write.
-    pub(crate) fn read(&self) -> Result<Axis, Refusal> {
+    fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
             let message = format!("{} holds no number that can be varied", key.name);
@@ -83,14 +83,14 @@ impl AxisGiven {
 }
 
 /// A map to be computed.
-struct Map {
-    base: Vec<(&'static str, Value)>,
-    x: Axis,
-    y: Axis,
+pub(crate) struct Map {
+    pub(crate) base: Vec<(&'static str, Value)>,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
 }
 
 impl Map {
-    fn read(Request { values, x, y }: Request) -> Result<Self, Refusal> {
+    pub(crate) fn read(Request { values, x, y }: Request) -> Result<Self, Refusal> {
         let base = entries(values)?;
         let axis = |name: &str, given: AxisGiven| given.read().map_err(|no| no.of_field(name));
         let (x, y) = (axis("x", x)?, axis("y", y)?);

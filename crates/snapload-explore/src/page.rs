@@ -1,7 +1,7 @@
 //! The files of the page: part of the program.
 use crate::refusal::Refusal;
-use axum::http::Uri;
-use axum::http::header::CONTENT_TYPE;
+use axum::http::header::{CACHE_CONTROL, CONTENT_TYPE};
+use axum::http::{HeaderValue, Uri};
 use axum::response::{IntoResponse, Response};
 use include_dir::{Dir, include_dir};
 
@@ -16,7 +16,13 @@ pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
 pub(crate) fn named(name: &str) -> Result<Response, Refusal> {
     let kind = kind(name).ok_or_else(Refusal::nothing_there)?;
     let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
-    Ok(([(CONTENT_TYPE, kind)], file.contents()).into_response())
+    let mut answer = ([(CONTENT_TYPE, kind)], file.contents()).into_response();
+    if name == "icon.svg" {
+        // A browser asks for it anew with each change of the address, of which a run makes many.
+        let an_hour = HeaderValue::from_static("max-age=3600");
+        answer.headers_mut().insert(CACHE_CONTROL, an_hour);
+    }
+    Ok(answer)
 }
 
 /// What a browser is told that a file is, by the end of its name.

@@ -194,6 +194,7 @@ fn a_basin_tells_of_its_cells() {
 fn what_can_not_be_is_refused() {
     refused(&["orbit", "--start", "z=1"], "one of the keys x, y");
     refused(&["orbit", "--start", "x=far"], "x must be a number");
+    refused(&["orbit", "--start", "x"], "write KEY=VALUE");
     refused(&["orbit", "--symbol", "3"], "1 or 2");
     refused(&["orbit", "--set", "omega=0"], "omega = 0");
     refused(&["orbit", "--phase", "1.5"], "from 0 to below 1");

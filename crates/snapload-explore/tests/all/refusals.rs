@@ -105,47 +105,49 @@ fn maps_that_ask_for_too_much_are_refused() {
         |key: &str, count: i64| json!({ "key": key, "low": 0.1, "high": 0.2, "count": count });
     let map = |x: Value, y: Value| json!({ "values": {}, "x": x, "y": y });
     let [x, y] = ["x", "y"].map(|key| json!(key));
-    refuse(
-        "/api/map",
-        [
-            (
-                map(axis("f_o", 201), axis("e", 2)),
-                422,
-                x,
-                "x: count = 201 is not allowed",
-            ),
-            (
-                map(axis("f_o", 2), axis("e", 0)),
-                422,
-                y.clone(),
-                "y: count = 0 is not allowed",
-            ),
-            (
-                map(axis("f_o", 2), axis("f_o", 2)),
-                422,
-                Value::Null,
-                "x and y are both f_o",
-            ),
-            (
-                map(axis("f_o", 2), axis("body", 2)),
-                422,
-                y.clone(),
-                "y: body holds no number",
-            ),
-            (
-                map(axis("f_o", 2), axis("fo", 2)),
-                422,
-                y,
-                "did you mean f_o",
-            ),
-            (
-                map(axis("f_o", -1), axis("e", 2)),
-                400,
-                Value::Null,
-                "the request",
-            ),
-        ],
-    );
+    for path in ["/api/map", "/api/basin"] {
+        refuse(
+            path,
+            [
+                (
+                    map(axis("f_o", 201), axis("e", 2)),
+                    422,
+                    x.clone(),
+                    "x: count = 201 is not allowed",
+                ),
+                (
+                    map(axis("f_o", 2), axis("e", 0)),
+                    422,
+                    y.clone(),
+                    "y: count = 0 is not allowed",
+                ),
+                (
+                    map(axis("f_o", 2), axis("f_o", 2)),
+                    422,
+                    Value::Null,
+                    "x and y are both f_o",
+                ),
+                (
+                    map(axis("f_o", 2), axis("body", 2)),
+                    422,
+                    y.clone(),
+                    "y: body holds no number",
+                ),
+                (
+                    map(axis("f_o", 2), axis("fo", 2)),
+                    422,
+                    y.clone(),
+                    "did you mean f_o",
+                ),
+                (
+                    map(axis("f_o", -1), axis("e", 2)),
+                    400,
+                    Value::Null,
+                    "the request",
+                ),
+            ],
+        );
+    }
 }
 
 #[test]

@@ -39,6 +39,13 @@ fn the_page_comes_with_headers_that_keep_it_to_itself() {
             assert!(head.contains(line), "{path}: {head}");
         }
     }
+    // A browser asks for the icon with each change of the address.
+    let icon = server.get("/icon.svg").head;
+    assert!(icon.contains("cache-control: max-age=3600"), "{icon}");
+    assert!(
+        !icon.contains("no-store") && icon.contains("nosniff"),
+        "{icon}"
+    );
 }
 
 #[test]
