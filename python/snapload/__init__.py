@@ -21,9 +21,10 @@ from ._axes import evenly
 from ._base_orbit import Admissible, NoOrbitError
 from ._basin import basins_of_attraction, erosion, safe_basin
 from ._basin_plot import plot_basin, plot_diagram, plot_erosion
-from ._branch import Branch, continuation
+from ._branch import Branch
 from ._case import Case, cases
 from ._certify import Certificate
+from ._continuation import continuation
 from ._critical import CriticalForce, critical_force
 from ._engine import __version__
 from ._hydro import Hydro

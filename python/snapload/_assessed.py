@@ -3,79 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
 from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _engine
 from ._later import Later
+from ._si import about, motion_of, rows_of
 
 if TYPE_CHECKING:
     import xarray
 else:
     xarray = Later("xarray")
-
-#: Units by the endings of names, longest first.
-_UNITS = {
-    "_kg_m2": "kg m2",
-    "_n_s_m": "N s m-1",
-    "_n_s": "N s",
-    "_n_m": "N m-1",
-    "_kg_m": "kg m-1",
-    "_m_s": "m s-1",
-    "_rad": "rad",
-    "_kg": "kg",
-    "_n": "N",
-    "_m": "m",
-    "_s": "s",
-    "_j": "J",
-}
-
-
-def _unit(name: str) -> str:
-    return next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "1")
-
-
-def _about(name: str) -> dict[str, str]:
-    unit = _unit(name)
-    ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
-    return {"long_name": name.removesuffix(ending).replace("_", " "), "units": unit}
-
-
-def _column(values: list[Any]) -> NDArray[Any]:
-    """Numbers with NaN where there is none; anything else as it is."""
-    if all(value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)) for value in values):
-        if any(value is None or isinstance(value, float) for value in values):
-            return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
-        return np.array(values, dtype=np.int64)
-    return np.array(["" if value is None else value for value in values])
-
-
-def _rows(rows: Sequence[Mapping[str, Any]], along: str, index: str | None = None) -> xarray.Dataset:
-    """Rows with the same names as a dataset along one dimension, by one of the columns where it is named."""
-    names = list(rows[0]) if rows else []
-    variables = {
-        name: (along, _column([row[name] for row in rows]), _about(name))
-        for name in names
-        if name != index and not isinstance(rows[0][name], (list, dict))
-    }
-    coords = {along: [row[index] for row in rows]} if index else {}
-    return xarray.Dataset(variables, coords=coords)
-
-
-def _motion(columns: tuple[list[float], list[float], list[float], list[float], list[list[float]]]) -> xarray.Dataset:
-    t, x, z, theta, tension = columns
-    lines = np.arange(1, len(tension[0]) + 1 if tension else 1)
-    along = {"x_m": x, "z_m": z, "theta_rad": theta}
-    variables: dict[str, Any] = {name: ("t_s", np.array(values), _about(name)) for name, values in along.items()}
-    tensions = np.array(tension, dtype=np.float64).reshape(len(t), len(lines))
-    variables["tension_n"] = (("t_s", "line"), tensions, _about("tension_n"))
-    return xarray.Dataset(variables, coords={"t_s": ("t_s", np.array(t), _about("t_s")), "line": lines})
 
 
 class _Answer:
@@ -166,7 +109,7 @@ class Assessment(_Answer):
         >>> lines["held_tension_n"].attrs["units"], lines["line"].values.tolist()
         ('N', [1, 2])
         """
-        return _rows(self.data["lines"], "line", "line")
+        return rows_of(self.data["lines"], "line", "line")
 
     @property
     def snaps(self) -> xarray.Dataset:
@@ -183,7 +126,7 @@ class Assessment(_Answer):
         >>> snaps["impulse_n_s"].attrs["units"]
         'N s'
         """
-        return _rows(self.data["snaps"], "snap")
+        return rows_of(self.data["snaps"], "snap")
 
     @property
     def checks(self) -> xarray.Dataset:
@@ -200,7 +143,7 @@ class Assessment(_Answer):
         >>> structure.assess(neighbours=0).checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return _rows(self.data["checks"], "check")
+        return rows_of(self.data["checks"], "check")
 
     def motion(self, times: ArrayLike) -> xarray.Dataset:
         """Place, rotation and tensions at times.
@@ -230,7 +173,7 @@ class Assessment(_Answer):
         values = np.asarray(times, dtype=np.float64)
         if values.ndim != 1 or not np.isfinite(values).all():
             raise ValueError("times: allowed is one row of finite numbers")
-        return _motion(self._engine.motion(values.tolist()))
+        return motion_of(self._engine.motion(values.tolist()))
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the page for a design note.
@@ -316,7 +259,7 @@ class Seas(_Answer):
         >>> seas.checks["passing"].values.tolist()
         [0, 0]
         """
-        return _rows(self.data["checks"], "check")
+        return rows_of(self.data["checks"], "check")
 
     @property
     def largest_tensions_n(self) -> xarray.DataArray:
@@ -335,7 +278,7 @@ class Seas(_Answer):
         'N'
         """
         values = np.array(self.data["largest_tensions_n"] or [], dtype=np.float64)
-        return xarray.DataArray(values, dims="record", name="largest_tensions_n", attrs=_about("largest_tensions_n"))
+        return xarray.DataArray(values, dims="record", name="largest_tensions_n", attrs=about("largest_tensions_n"))
 
     def to_html(self, path: str | PathLike[str]) -> None:
         """Write the page.
@@ -434,7 +377,7 @@ class Elastic(_Answer):
         >>> structure.elastic().checks["answer"].values.tolist()
         ['fails', 'fails']
         """
-        return _rows(self.data["checks"], "check")
+        return rows_of(self.data["checks"], "check")
 
     @property
     def lines(self) -> xarray.Dataset:
@@ -451,7 +394,7 @@ class Elastic(_Answer):
         >>> both.lines["line"].values.tolist()
         [1, 2]
         """
-        return _rows(self.data["lines"], "line", "line")
+        return rows_of(self.data["lines"], "line", "line")
 
     @property
     def pulls(self) -> xarray.Dataset:
@@ -468,7 +411,7 @@ class Elastic(_Answer):
         >>> both.pulls["peak_n"].dims
         ('pull',)
         """
-        return _rows(self.data["pulls"], "pull")
+        return rows_of(self.data["pulls"], "pull")
 
     @property
     def motion(self) -> xarray.Dataset:
@@ -485,7 +428,7 @@ class Elastic(_Answer):
         >>> sorted(both.motion.data_vars)
         ['tension_n', 'theta_rad', 'x_m', 'z_m']
         """
-        return _motion(self._engine.motion())
+        return motion_of(self._engine.motion())
 
     def __repr__(self) -> str:
         return f"<Elastic: {len(self.data['pulls'])} pulls>"

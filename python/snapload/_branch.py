@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _engine
 from ._axes import side
 from ._base_orbit import STATE, NoOrbitError, complexes
+from ._branch_events import events_table
 from ._check import number as a_number
 from ._check import whole
 from ._later import Later
@@ -175,7 +176,7 @@ class Branch:
         >>> events.to_pandas()[["kind", "value"]].round(6).values.tolist()
         [['fold', 1.304034]]
         """
-        return _table(self._told["events"])
+        return events_table(self._told["events"])
 
     @property
     def origins(self) -> Table:
@@ -192,7 +193,7 @@ class Branch:
         >>> len(snapload.continuation(orbit, "f_o", (1.3, 1.5)).origins)
         0
         """
-        return _table(self._told["from"])
+        return events_table(self._told["from"])
 
     def __len__(self) -> int:
         return len(self._told["points"])
@@ -325,7 +326,7 @@ class Branch:
         if number is not None:
             number = whole("number", number, 1, 10**6)
         known = self._options
-        options = _options(
+        options = options_of(
             self.along,
             known[0] if between is None else between,
             known[1] if step is None else step,
@@ -403,70 +404,7 @@ class Branch:
 _WORDS = {True: "stable", False: "unstable"}
 
 
-def continuation(
-    orbit: Orbit,
-    key: str,
-    between: str | Sequence[float],
-    *,
-    step: float = 0.01,
-    points: int = 2000,
-    progress: bool = True,
-) -> Branch:
-    """Follow an orbit as a key changes, in both directions and round folds, as ``snapload branch`` does.
-
-    Parameters
-    ----------
-    orbit : Orbit
-        Where to begin.
-    key : str
-        The key of the case that changes.
-    between : (float, float) or str
-        The least and the greatest value of the key, or ``"low:high"``. The value of the orbit's case lies between.
-    step : float
-        Length of the first step, in the space of state, times of events, and the key.
-    points : int
-        Points in either direction at most.
-    progress : bool
-        Whether to show a bar if it takes long.
-
-    Returns
-    -------
-    Branch
-        Its points and events, from one end to the other.
-
-    Raises
-    ------
-    ValueError
-        If the key can not be followed, or an option is out of its range.
-
-    See Also
-    --------
-    snapload.Case.orbit : Finds an orbit to begin with.
-    Branch.switch : Goes over to another branch.
-
-    Notes
-    -----
-    By pseudo-arclength, with the sequence of events held. Every point is run for one lap; a sequence that closes need
-    not be a motion, and ``points.admissible`` says where it is. Python's lock is released meanwhile, and Ctrl-C ends
-    it.
-
-    Examples
-    --------
-    >>> import snapload
-    >>> orbit = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1).orbit()
-    >>> snapload.continuation(orbit, "f_o", "1.3:1.5").ends[-1]["because"]
-    'the end of the range'
-    """
-    if not isinstance(orbit, Orbit):
-        allowed = "an orbit of a snapload.Case, such as snapload.Case(...).orbit()"
-        raise TypeError(f"orbit = {orbit!r} is not allowed; allowed: {allowed}")
-    options = _options(key, between, step, points)
-    with bar("points of the branch", 2 * options[2], progress) as tell:
-        engine = _engine.continuation(orbit._engine, key, *options, tell)
-    return Branch(orbit, key, options, engine)
-
-
-def _options(key: str, between: Any, step: float, points: int) -> Options:
+def options_of(key: str, between: Any, step: float, points: int) -> Options:
     return side(key, between), a_number("step", step), whole("points", points, 1, 10**6)
 
 
@@ -487,30 +425,3 @@ def _restore(
     branch = Branch(orbit, along, options, None, path, told)
     branch._options = last
     return branch
-
-
-def _table(rows: list[dict[str, Any]]) -> Table:
-    def column(name: str) -> NDArray[np.float64]:
-        return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
-
-    largest = [np.abs(complexes(row["multipliers"])).max() for row in rows]
-    states = np.array([row["state"] for row in rows], dtype=np.float64).reshape(-1, len(STATE))
-    scales = dict(zip(STATE, ("L", "L", "rad", "L/T", "L/T", "rad/T"), strict=True))
-    whole_numbers = {
-        "cable": np.array([row["cable"] or 0 for row in rows], dtype=np.int64),
-        "admissible": np.array([row["admissible"] for row in rows], dtype=np.int64),
-    }
-    return Table._of(
-        [
-            ("kind", "", "what happens", np.array([row["kind"] for row in rows], dtype=object)),
-            ("value", "1", "value of the key", column("value")),
-            ("arclength", "1", "length along the branch", column("arclength")),
-            *((name, scales[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
-            ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
-            ("t", "T", "time in the lap", column("t")),
-            ("normal_acceleration", "L/T^2", "what bends the gap away at a graze", column("normal_acceleration")),
-            ("sqrt_coefficient", "L^(1/2)/T", "jump of the velocity by root of length", column("sqrt_coefficient")),
-            ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
-            ("admissible", "", "whether a body can have the orbit", whole_numbers["admissible"]),
-        ]
-    )
