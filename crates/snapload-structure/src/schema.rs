@@ -69,6 +69,8 @@ const FLOAT: &[Key] = &[
     Key::new("centre_of_gravity", "m", PLACE, Derived("the file's"), "[x, z] of the centre of gravity; body.moment_of_inertia is about it"),
     Key::new("damping", "N s/m", Kind::PerFreedom(1e18), Derived("none"),
         "[surge, heave, pitch], pitch in N m s: linear damping beside that of waves"),
+    Key::new("constant_moment", "N m", Kind::number(-1e18, 1e18), Number(0.0),
+        "a moment that does not change, counter-clockwise: of wind on the deck, or of a load aside"),
     Key::new("pairs", "1", Kind::Count(1, 20), Derived("as many as 1 % takes"), "pairs of poles of the memory"),
     Key::new("memory", "", Kind::Text, Derived("fitted"), "a memory that snapload hydro --json wrote, in place of a fit"),
     Key::new("reference", "m", PLACE, Derived("the file's"), "[x, z] that the file's pitch is about, where it does not say"),

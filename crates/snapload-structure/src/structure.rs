@@ -354,6 +354,13 @@ impl Structure {
                 "a constant force of {x:.1} kN in x and {z:.1} kN in z"
             ));
         }
+        let moment = self.afloat.iter().map(|afloat| afloat.constant_moment_n_m);
+        for moment in moment.filter(|moment| *moment != 0.0) {
+            let moment = moment / 1e3;
+            parts.push(format!(
+                "a constant moment of {moment:.1} kN m, counter-clockwise"
+            ));
+        }
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 

@@ -62,7 +62,7 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     let water = Floating {
         stiffness: rows(&afloat.body.stiffness, |c| c),
         damping: rows(&afloat.body.damping, |b| b),
-        constant: afloat.body.constant_force.into(),
+        constant: afloat.steady().into(),
         memory: fit.memory.terms.iter().map(term).collect(),
         excitation: excitation(structure, afloat, &waves)?,
     };
@@ -97,6 +97,17 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
 fn nowhere(structure: &Structure, afloat: &Afloat, error: &HydroError) -> CaseError {
     if let Some(error) = pushed_away(structure, |calm| rest_afloat(calm, afloat).is_ok()) {
         return error;
+    }
+    if afloat.constant_moment_n_m != 0.0 {
+        let calm = Afloat {
+            constant_moment_n_m: 0.0,
+            ..afloat.clone()
+        };
+        if rest_afloat(structure, &calm).is_ok() {
+            let allowed = "a moment against which water and lines hold the body";
+            let moment = afloat.constant_moment_n_m;
+            return CaseError::value("float.constant_moment", moment, allowed);
+        }
     }
     let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
     let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
@@ -179,7 +190,8 @@ pub(super) fn rest_afloat(
     let hydro = &afloat.report.reading.hydro;
     let mut body = afloat.body.clone();
     let [pushed, lifted] = structure.body.constant_force_n;
-    body.constant_force += Vector3::new(pushed + structure.drag_of_current_n(), lifted, 0.0);
+    body.constant_force =
+        afloat.steady() + Vector3::new(pushed + structure.drag_of_current_n(), lifted, 0.0);
     let place = match (rest(hydro, &body, &lines), structure.start_m) {
         (Ok(place), _) => place,
         (Err(_), Some(place_m)) => {

@@ -1,6 +1,7 @@
 //! What `[float]` says: the coefficients of a body that floats, with the memory of the waves it makes.
 
 use super::{BodySi, Outline, Site};
+use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
     FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
@@ -22,9 +23,17 @@ pub struct Afloat {
     pub report: Report,
     /// The body's weight, stiffness and damping.
     pub body: snapload_hydro::Body,
+    /// A moment that does not change, counter-clockwise \[N m\].
+    pub constant_moment_n_m: f64,
 }
 
 impl Afloat {
+    /// What acts on the body at its mean place, whatever the water and the lines do: in surge, heave
+    /// and pitch, which counts clockwise \[N, N m\].
+    pub(crate) fn steady(&self) -> Vector3<f64> {
+        self.body.constant_force - Vector3::new(0.0, 0.0, self.constant_moment_n_m)
+    }
+
     /// Reads the coefficients beside a case file and fits their memory.
     ///
     /// # Errors
@@ -80,6 +89,7 @@ impl Afloat {
         Ok(Self {
             body: floating.body,
             report,
+            constant_moment_n_m: fields.need("constant_moment")?,
         })
     }
 }

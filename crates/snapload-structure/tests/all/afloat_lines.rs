@@ -182,6 +182,42 @@ fn a_body_without_a_file_has_the_water_of_its_section() {
     }
 }
 
+/// Where the body floats by itself a moment heels it by M/C₅₅ counter-clockwise; on taut lines it
+/// begins heeled and stays so. A moment that turns it over is refused by its name.
+#[test]
+fn a_constant_moment_heels_the_body() {
+    let with =
+        |moment: f64| format!("pairs = 6\nconstant_moment = {moment}\ndamping = [1e6, 1e6, 3e6]");
+    let run = "duration = 120\ntransient = 0";
+    let free = case(0.0, 2.4, 14.0, "", &format!("{run}\nstart = [0, 0]"));
+    let free = free.replace("mass = 80000", "mass = 98400");
+    let structure_of = |moment| structure(&free.replace("pairs = 6", &with(moment)));
+    let stiffness = structure_of(0.0).afloat.unwrap().body.stiffness;
+    let end = |structure| {
+        let prepared = Prepared::new(structure).unwrap();
+        let mut motion = prepared.begin(1.0).unwrap();
+        while motion.step().is_some() {}
+        // The engine's plane is a reflection of this one.
+        (-motion.state().theta, prepared.rest.theta_rad)
+    };
+    let (heel, _) = end(structure_of(1e5));
+    assert!((heel - 1e5 / stiffness[(2, 2)]).abs() < 1e-6, "{heel}");
+
+    let taut = case(-0.2, 2.0, 9.6, "", run);
+    let structure_of = |moment| structure(&taut.replace("pairs = 6", &with(moment)));
+    let (heel, rest) = end(structure_of(1e5));
+    assert!(rest > 1e-3 && (heel - rest).abs() < 1e-9, "{heel} {rest}");
+    let (_, other) = end(structure_of(-1e5));
+    assert!((other + rest).abs() < 1e-9, "{other} {rest}");
+    let error = Prepared::new(structure_of(1e12))
+        .map(|_| ())
+        .expect_err("it turns over");
+    assert!(
+        error.to_string().contains("float.constant_moment"),
+        "{error}"
+    );
+}
+
 /// A short line holds the body 0.2 m below where its section is that of the textbook's values.
 #[test]
 fn a_place_of_rest_below_the_given_one_is_told_as_below() {
