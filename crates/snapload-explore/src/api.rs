@@ -230,7 +230,7 @@ async fn answer_structure_export(
     let file = structure::File::named(&name).ok_or_else(Refusal::nothing_there)?;
     let writers = Arc::clone(&shared.writers);
     let bytes = compute(&writers, move |allowance| {
-        file.write(&request, shared.opened.as_ref(), allowance)
+        file.write(&request, shared.opened.as_ref(), &shared.latest, allowance)
     })
     .await?;
     Ok(file_named(&name, file.content_type(), bytes))

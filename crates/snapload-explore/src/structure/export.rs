@@ -1,12 +1,12 @@
 //! `/api/structure/export/NAME`: the case, its answer and the page for a design note.
+use super::Latest;
 use super::opened::{Asked, Opened};
-use super::run::too_long;
+use super::run::{Wanted, assessed, too_long};
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::Deserialize;
-use snapload::analysis::{Progress, Unfinished};
+use snapload::analysis::Unfinished;
 use snapload_structure::note::{self, Source};
-use snapload_structure::{DEFAULT_NEIGHBOURS, assess};
 use std::time::Duration;
 
 /// What a run and its neighbours may take.
@@ -51,24 +51,29 @@ impl File {
         self,
         request: &Request,
         start: Option<&Opened>,
+        latest: &Latest,
         allowance: &Allowance,
     ) -> Result<Vec<u8>, Refusal> {
         let case = request.case.read(start)?;
         if matches!(self, Self::Case) {
             return Ok(case.opened.entries.to_toml().into_bytes());
         }
-        let allowance = allowance.within(BUDGET);
-        let go_on = |progress: Progress| allowance.go_on(progress);
-        let refuse = |unfinished: Unfinished| too_long(&case, BUDGET, unfinished);
-        let assessment =
-            assess(case.structure.clone(), DEFAULT_NEIGHBOURS, &go_on).map_err(refuse)?;
+        // What the page has been told already is not run again.
+        let wanted = Wanted {
+            preview: false,
+            neighbours: true,
+            time: BUDGET,
+        };
+        let assessment = assessed(&request.case, &case, wanted, latest, allowance)?;
         let name = &case.opened.name;
         if matches!(self, Self::Assessment) {
             let told = assessment.to_json(name);
             return serde_json::to_vec_pretty(&told).map_err(Refusal::failed);
         }
-        let scan = note::scan(&case.structure, &go_on);
-        let scan = scan.map_err(|cancelled| refuse(Unfinished::Cancelled(cancelled)))?;
+        let allowance = allowance.within(BUDGET);
+        let scan = note::scan(&case.structure, &|progress| allowance.go_on(progress));
+        let scan =
+            scan.map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?;
         let command = case.command("assess");
         let source = Source {
             name,

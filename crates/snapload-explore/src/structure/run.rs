@@ -1,8 +1,8 @@
 //! `/api/structure/run`: a structure as `snapload assess` tells it, and all that the page draws of
 //! it.
+use super::Latest;
 use super::motion::Columns;
 use super::opened::{Asked, Case, Opened};
-use super::{Kept, Latest};
 use crate::refusal::Refusal;
 use crate::work::Allowance;
 use serde::{Deserialize, Serialize};
@@ -56,40 +56,56 @@ pub(crate) fn answer(
     let lasts_s = case.structure.duration_s;
     let preview =
         !request.whole && lasts_s > PREVIEW_S && matches!(case.structure.water, Water::Sea(_));
-    let assessment = assessed(request, &case, preview, &latest.assessment, allowance)?;
+    let wanted = Wanted {
+        preview,
+        neighbours: request.neighbours,
+        time: if request.whole || request.neighbours {
+            LONG_BUDGET
+        } else {
+            BUDGET
+        },
+    };
+    let assessment = assessed(&request.case, &case, wanted, latest, allowance)?;
     let answer = Answer::new(&case, &assessment, request.window, preview, began);
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
+/// Which run of a case is asked for.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    /// The beginning of a long record alone.
+    pub(super) preview: bool,
+    /// Its neighbours, too, and other restitutions.
+    pub(super) neighbours: bool,
+    /// What it may take.
+    pub(super) time: Duration,
+}
+
 /// The run that is asked for, or the same that was asked for before.
-fn assessed(
-    request: &Request,
+pub(super) fn assessed(
+    asked: &Asked,
     case: &Case,
-    preview: bool,
-    kept: &Kept<Assessment>,
+    wanted: Wanted,
+    latest: &Latest,
     allowance: &Allowance,
 ) -> Result<Arc<Assessment>, Refusal> {
-    let time = if request.whole || request.neighbours {
-        LONG_BUDGET
-    } else {
-        BUDGET
-    };
-    let allowance = allowance.within(time);
+    let kept = &latest.assessment;
+    let allowance = allowance.within(wanted.time);
     let go_on = |progress: Progress| allowance.go_on(progress);
-    let refuse = |unfinished| too_long(case, time, unfinished);
-    let fingerprint = format!("{} {preview}", request.case.fingerprint());
+    let refuse = |unfinished| too_long(case, wanted.time, unfinished);
+    let fingerprint = format!("{} {}", asked.fingerprint(), wanted.preview);
     let beside = format!("{fingerprint} beside its neighbours");
-    let structure = match preview {
-        true => beginning(&case.structure),
-        false => case.structure.clone(),
-    };
     if let Some(found) = kept.get(&beside) {
         return Ok(found);
     }
+    let structure = match wanted.preview {
+        true => beginning(&case.structure),
+        false => case.structure.clone(),
+    };
     let alone = kept
         .of(&fingerprint, || Assessment::alone(structure, &go_on))
         .map_err(refuse)?;
-    if !request.neighbours {
+    if !wanted.neighbours {
         return Ok(alone);
     }
     let alone = Arc::unwrap_or_clone(alone);
