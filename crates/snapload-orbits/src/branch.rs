@@ -367,7 +367,7 @@ fn stepped<F: Family>(
     let (next, steps, direction) = tracer.corrected(here, tangent, step)?;
     let moved = here.durations.iter().zip(&next.durations);
     let most = moved.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let off = crate::distance(&here.z, &next.z).max((here.at[0] - next.at[0]).abs());
+    let off = here.distance(&next);
     let turned = direction.dot(tangent);
     (most < TIMES && off <= 2.0 * step && turned > 0.9).then_some((next, steps, direction))
 }

@@ -270,22 +270,17 @@ impl Walk<'_> {
                 side.end.because = because;
                 break;
             }
-            let back = crate::distance(&next.here.z, &start.z)
-                .max((next.here.at[0] - start.at[0]).abs())
-                .max((next.here.at[1] - start.at[1]).abs());
-            if arclength > FAR * self.across.step
-                && next.tracer.sequence == first
-                && back < BACK * self.across.step
-            {
+            let far = arclength > FAR * self.across.step;
+            let back = next.here.distance(&start) < BACK * self.across.step;
+            if far && back && next.tracer.sequence == first {
                 side.end.because = "the curve is closed".to_owned();
                 side.closed = true;
                 break;
             }
             (rail, margins) = (next, reached);
-            let orbit = if rail.counted_anew() {
-                rail.orbit()
-            } else {
-                orbit
+            let orbit = match rail.counted_anew() {
+                true => rail.orbit(),
+                false => orbit,
             };
             side.points.push(point(&rail, orbit, arclength));
             self.done += 1;

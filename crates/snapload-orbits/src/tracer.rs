@@ -51,6 +51,12 @@ const DONE: f64 = 1e-14;
 const LAST: f64 = 1e-8;
 
 impl Unknowns {
+    /// The largest difference of state and parameters from another point.
+    pub(crate) fn distance(&self, other: &Self) -> f64 {
+        let [p, q] = [0, 1].map(|i| (self.at[i] - other.at[i]).abs());
+        crate::distance(&self.z, &other.z).max(p).max(q)
+    }
+
     pub(crate) fn closed(&self) -> Closed {
         Closed {
             z: self.z,

@@ -77,6 +77,28 @@ impl Report {
 }
 
 impl Floating {
+    /// How it answers the waves from either side.
+    fn say_responses(&self, say: &mut impl FnMut(&str, String)) {
+        // A body that is its own mirror image answers alike to waves from either side.
+        let mut told: Vec<(String, Vec<&str>)> = Vec::new();
+        for [response, _] in &self.responses {
+            let to = if response.direction > 0.0 {
+                "+x"
+            } else {
+                "−x"
+            };
+            let words = largest(response);
+            match told.iter_mut().find(|(known, _)| *known == words) {
+                Some((_, directions)) => directions.push(to),
+                None => told.push((words, vec![to])),
+            }
+        }
+        for (words, directions) in told {
+            let to = directions.join(" and ");
+            say("response", format!("waves to {to}, at most: {words}"));
+        }
+    }
+
     fn say(&self, say: &mut impl FnMut(&str, String)) {
         let body = &self.body;
         say(
@@ -107,24 +129,7 @@ impl Floating {
             say("balance", words);
         }
         say("periods", periods_in_words(&self.natural, &self.modes));
-        // A body that is its own mirror image answers alike to waves from either side.
-        let mut told: Vec<(String, Vec<&str>)> = Vec::new();
-        for [response, _] in &self.responses {
-            let to = if response.direction > 0.0 {
-                "+x"
-            } else {
-                "−x"
-            };
-            let words = largest(response);
-            match told.iter_mut().find(|(known, _)| *known == words) {
-                Some((_, directions)) => directions.push(to),
-                None => told.push((words, vec![to])),
-            }
-        }
-        for (words, directions) in told {
-            let to = directions.join(" and ");
-            say("response", format!("waves to {to}, at most: {words}"));
-        }
+        self.say_responses(say);
         if let Some((rest, natural, modes)) = &self.rest {
             let tensions = rest.tension_n.iter().map(|t| format!("{:.2}", t / 1e3));
             let words = format!(
