@@ -56,7 +56,7 @@ pub use model::state::State;
 pub use model::surroundings::Surroundings;
 pub use model::system::{System, anchor_height};
 pub use model::taut_set::{MAX_CABLES, Mode, PerCable, TautSet};
-pub use motion::held::Held;
+pub use motion::held::{Held, Path};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};

@@ -24,6 +24,19 @@ fn the_steps_of_a_run_are_held_motions() {
                     assert!((a - b).abs() < 1e-12, "{a} {b}");
                 }
             }
+            // The same motion, asked for within.
+            for (from, z, s) in [
+                (step.t_start, &step.start, s),
+                (step.t_end, &step.before, -s),
+            ] {
+                let path = held.path(step.taut, from, z, s);
+                for part in [0.0, 0.3, 0.77, 1.0] {
+                    let known = held.carried(step.taut, from, z, part * s).components();
+                    for (a, b) in path.state(part * s).components().into_iter().zip(known) {
+                        assert!((a - b).abs() < 1e-13, "{a} {b}");
+                    }
+                }
+            }
             let impacts: Vec<_> = step.impacts().collect();
             if let [impact] = impacts[..]
                 && step.taut.is_empty()

@@ -11,7 +11,8 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// the saltation matrix (Müller 1995) follows without being written down.
 ///
 /// Comparisons look at the number alone, so a motion over dual numbers takes the same turns, with
-/// the same bits, as the ordinary one.
+/// the same bits, as the ordinary one. Sums and products are inlined everywhere, as they are made
+/// by the instructions of whatever is compiled for a kind of processor (`apart!`).
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<T, const N: usize> {
     /// The number.
@@ -22,6 +23,7 @@ pub struct Dual<T, const N: usize> {
 
 impl<T: Real, const N: usize> Dual<T, N> {
     /// A constant.
+    #[inline(always)]
     pub fn constant(value: T) -> Self {
         Self {
             value,
@@ -37,6 +39,7 @@ impl<T: Real, const N: usize> Dual<T, N> {
     }
 
     /// f(self), of which the value and the derivative are given.
+    #[inline(always)]
     fn chain(self, value: T, derivative: T) -> Self {
         Self {
             value,
@@ -65,7 +68,7 @@ impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
 
 impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(mut self, other: Self) -> Self {
         self.value += other.value;
         for (slope, more) in self.slope.iter_mut().zip(other.slope) {
@@ -77,7 +80,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
 
 impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(mut self, other: Self) -> Self {
         self.value -= other.value;
         for (slope, less) in self.slope.iter_mut().zip(other.slope) {
@@ -89,7 +92,7 @@ impl<T: Real, const N: usize> Sub for Dual<T, N> {
 
 impl<T: Real, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let mut product = Self::constant(self.value * other.value);
         for (i, slope) in product.slope.iter_mut().enumerate() {
@@ -101,6 +104,7 @@ impl<T: Real, const N: usize> Mul for Dual<T, N> {
 
 impl<T: Real, const N: usize> Div for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let mut quotient = Self::constant(self.value / other.value);
         for (i, slope) in quotient.slope.iter_mut().enumerate() {
@@ -112,6 +116,7 @@ impl<T: Real, const N: usize> Div for Dual<T, N> {
 
 impl<T: Real, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         self.chain(-self.value, -T::ONE)
     }
@@ -119,6 +124,7 @@ impl<T: Real, const N: usize> Neg for Dual<T, N> {
 
 impl<T: Real, const N: usize> Add<f64> for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn add(mut self, other: f64) -> Self {
         self.value = self.value + other;
         self
@@ -127,6 +133,7 @@ impl<T: Real, const N: usize> Add<f64> for Dual<T, N> {
 
 impl<T: Real, const N: usize> Sub<f64> for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn sub(mut self, other: f64) -> Self {
         self.value = self.value - other;
         self
@@ -135,6 +142,7 @@ impl<T: Real, const N: usize> Sub<f64> for Dual<T, N> {
 
 impl<T: Real, const N: usize> Mul<f64> for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: f64) -> Self {
         self.chain(self.value * other, T::from_f64(other))
     }
@@ -142,6 +150,7 @@ impl<T: Real, const N: usize> Mul<f64> for Dual<T, N> {
 
 impl<T: Real, const N: usize> Div<f64> for Dual<T, N> {
     type Output = Self;
+    #[inline(always)]
     fn div(self, other: f64) -> Self {
         Self {
             value: self.value / other,
@@ -151,12 +160,14 @@ impl<T: Real, const N: usize> Div<f64> for Dual<T, N> {
 }
 
 impl<T: Real, const N: usize> AddAssign for Dual<T, N> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl<T: Real, const N: usize> SubAssign for Dual<T, N> {
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
@@ -190,7 +201,7 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn to_f64(self) -> f64 {
         self.value.to_f64()
     }
-    #[inline]
+    #[inline(always)]
     fn mul_add(self, by: Self, plus: Self) -> Self {
         let mut all = Self::constant(self.value.mul_add(by.value, plus.value));
         for (i, slope) in all.slope.iter_mut().enumerate() {

@@ -8,7 +8,7 @@
 //! All functions that such work spends its time in are `#[inline(always)]`: one that is only called
 //! would be compiled for every processor, without the instruction. Over numbers that have no
 //! instructions of their own, what is large or called from many places is compiled by itself
-//! (`apart!`).
+//! (`apart!`); numbers with derivatives, which are many doubles side by side, twice there, too.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(
@@ -69,6 +69,11 @@ macro_rules! apart {
     ($number:ty, $work:block) => {
         if <$number as $crate::arithmetic::lane::Lane>::FUSES {
             $work
+        } else if <$number as $crate::arithmetic::lane::Lane>::CARRIES_SLOPES
+            && $crate::arithmetic::processor::has_fma()
+        {
+            // Written twice, so that each closure has one caller, which it is inlined into.
+            $crate::arithmetic::processor::fused_by_itself(|| $work)
         } else {
             $crate::arithmetic::processor::by_itself(|| $work)
         }
@@ -80,6 +85,32 @@ pub(crate) use apart;
 #[inline(never)]
 pub(crate) fn by_itself<R>(work: impl FnOnce() -> R) -> R {
     work()
+}
+
+/// The same by the instructions of a processor that [`has_fma`], which is to be asked before.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn fused_by_itself<R>(work: impl FnOnce() -> R) -> R {
+    #[target_feature(enable = "avx2,fma")]
+    #[inline(never)]
+    fn fused<R>(work: impl FnOnce() -> R) -> R {
+        work()
+    }
+    assert!(has_fma());
+    // SAFETY: the processor has AVX2 and FMA, as was just asked.
+    unsafe { fused(work) }
+}
+
+/// Other processors are not asked for their instructions.
+#[cfg(not(target_arch = "x86_64"))]
+#[inline(always)]
+pub(crate) fn has_fma() -> bool {
+    false
+}
+
+/// Never needed here.
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) fn fused_by_itself<R>(work: impl FnOnce() -> R) -> R {
+    by_itself(work)
 }
 
 /// Other processors need one compilation: 64-bit Arm always fuses, on the rest `mul_add` is a call.

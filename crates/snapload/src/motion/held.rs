@@ -6,6 +6,8 @@
 //! their signs, and time may run backwards. So all of it is smooth in state, time and parameters,
 //! which Newton's method on a sequence of events needs.
 
+use crate::arithmetic::polynomial::Polynomial;
+use crate::arithmetic::processor::{Kernel, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::rules::Rules;
 use crate::model::state::State;
@@ -16,7 +18,7 @@ use crate::motion::attachment::Instant;
 use crate::motion::complementarity::solve;
 use crate::motion::contact::Contact;
 use crate::motion::projection::{project_position, project_velocity};
-use crate::motion::taut_series::Series;
+use crate::motion::taut_series::{Series, state_at};
 use crate::motion::waves::Waves;
 
 /// The motions of a system with given sets of taut cables; the water keeps no memory of them.
@@ -39,14 +41,37 @@ impl<T: Real> Held<T> {
     /// The state a time `s`, of either sign, after `state` at time `t`, the cables of `taut` being
     /// held, none of which may depend on the others.
     pub fn carried(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> State<T> {
-        if self.system.flies_freely(taut) {
-            self.flown(t, state, s)
-        } else {
-            self.driven(taut, t, state, s)
+        dispatch_over::<T, _>(Carrying {
+            held: self,
+            taut,
+            from: (t, state),
+            s,
+            kept: None,
+        })
+    }
+
+    /// The same motion at every time from 0 to `s`: [`Held::carried`] to rounding, without the work
+    /// for each of them.
+    pub fn path(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> Path<'_, T> {
+        let mut pieces = Vec::new();
+        if !self.system.flies_freely(taut) {
+            dispatch_over::<T, _>(Carrying {
+                held: self,
+                taut,
+                from: (t, state),
+                s,
+                kept: Some(&mut pieces),
+            });
+        }
+        Path {
+            held: self,
+            from: (t, *state),
+            pieces,
         }
     }
 
     /// Slack flight in closed form (docs/model.md section 4).
+    #[inline(always)]
     fn flown(&self, t: T, state: &State<T>, s: T) -> State<T> {
         let forcing = &self.system.forcing;
         let mut flight = Instant::at(s, forcing.constant, state.vtheta);
@@ -56,11 +81,18 @@ impl<T: Real> Held<T> {
         flight.state(state, s)
     }
 
-    /// Taylor series after Taylor series.
-    fn driven(&self, taut: TautSet, mut t: T, state: &State<T>, mut s: T) -> State<T> {
+    /// Taylor series after Taylor series, which are kept where that is asked for.
+    #[inline(always)]
+    fn driven(
+        &self,
+        taut: TautSet,
+        (begun, state): (T, &State<T>),
+        s: T,
+        mut kept: Option<&mut Vec<Piece<T>>>,
+    ) -> State<T> {
         let mut series = Box::new(Series::new(&self.system, &Rules::until(T::ZERO)));
         let mut waves = Waves::new(&self.system);
-        let mut state = *state;
+        let (mut t, mut left, mut state) = (begun, s, *state);
         loop {
             let mut contacts = [Contact::RESTING; MAX_CABLES];
             for cable in self.system.all_cables().iter() {
@@ -75,13 +107,19 @@ impl<T: Real> Held<T> {
             waves.cover(t, t);
             let around = waves.expanded(&self.system, t);
             series.begin(&self.system, &around, &state, &[], &contacts, active);
-            let step = T::from_f64(series.step().to_f64());
-            if step <= T::ZERO || !step.is_finite() || s.abs() <= step {
-                return series.state(s);
+            if let Some(kept) = &mut kept {
+                kept.push(Piece {
+                    from: t - begun,
+                    motion: series.motion(),
+                });
             }
-            let step = if s < T::ZERO { -step } else { step };
+            let step = T::from_f64(series.step().to_f64());
+            if step <= T::ZERO || !step.is_finite() || left.abs() <= step {
+                return series.state(left);
+            }
+            let step = if left < T::ZERO { -step } else { step };
             state = series.state(step);
-            (t, s) = (t + step, s - step);
+            (t, left) = (t + step, left - step);
         }
     }
 
@@ -126,5 +164,71 @@ impl<T: Real> Held<T> {
         project_position(&self.system, &mut state, closed);
         project_velocity(&self.system, &mut state, still);
         state
+    }
+}
+
+/// One motion to be carried on, by the best instructions for it.
+struct Carrying<'a, T: Real> {
+    held: &'a Held<T>,
+    taut: TautSet,
+    from: (T, &'a State<T>),
+    s: T,
+    kept: Option<&'a mut Vec<Piece<T>>>,
+}
+
+impl<T: Real> Kernel for Carrying<'_, T> {
+    type Output = State<T>;
+    #[inline(always)]
+    fn run(self) -> State<T> {
+        let (t, state) = self.from;
+        if self.held.system.flies_freely(self.taut) {
+            self.held.flown(t, state, self.s)
+        } else {
+            self.held.driven(self.taut, (t, state), self.s, self.kept)
+        }
+    }
+}
+
+/// A part of a motion: x, y and θ as series about a time after the beginning.
+#[derive(Clone, Copy, Debug)]
+struct Piece<T> {
+    from: T,
+    motion: [Polynomial<T>; 3],
+}
+
+/// A motion with a given set of taut cables, to be asked for at many times.
+#[derive(Clone, Debug)]
+pub struct Path<'a, T: Real = f64> {
+    held: &'a Held<T>,
+    from: (T, State<T>),
+    /// In the order of the motion; none of slack flight.
+    pieces: Vec<Piece<T>>,
+}
+
+impl<T: Real> Path<'_, T> {
+    /// The state a time `s` after the beginning.
+    pub fn state(&self, s: T) -> State<T> {
+        dispatch_over::<T, _>(Asking(self, s))
+    }
+}
+
+/// A state that is asked for, by the best instructions for it.
+struct Asking<'a, T: Real>(&'a Path<'a, T>, T);
+
+impl<T: Real> Kernel for Asking<'_, T> {
+    type Output = State<T>;
+    #[inline(always)]
+    fn run(self) -> State<T> {
+        let Self(path, s) = self;
+        let (t, state) = &path.from;
+        let later = path
+            .pieces
+            .partition_point(|piece| piece.from.abs() <= s.abs());
+        match path.pieces.get(later.saturating_sub(1)) {
+            Some(Piece { from, motion }) => {
+                state_at([&motion[0], &motion[1], &motion[2]], s - *from)
+            }
+            None => path.held.flown(*t, state, s),
+        }
     }
 }

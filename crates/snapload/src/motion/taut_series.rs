@@ -347,21 +347,13 @@ impl<T: Real> Series<T> {
     /// The state a time `s` after the start.
     #[inline(always)]
     pub(crate) fn state(&self, s: T) -> State<T> {
-        apart!(T, {
-            let (x, y, theta) = (
-                self.x.jet(s, ORDER),
-                self.y.jet(s, ORDER),
-                self.theta.jet(s, ORDER),
-            );
-            State {
-                x: x[0],
-                y: y[0],
-                theta: theta[0],
-                vx: x[1],
-                vy: y[1],
-                vtheta: theta[1],
-            }
-        })
+        apart!(T, { state_at([&self.x, &self.y, &self.theta], s) })
+    }
+
+    /// x, y and θ as they are expanded.
+    #[inline(always)]
+    pub(crate) fn motion(&self) -> [Polynomial<T>; 3] {
+        [self.x, self.y, self.theta]
     }
 
     /// The gap of a slack cable a time `s` after the start.
@@ -413,5 +405,19 @@ impl<T: Real> Series<T> {
             self.y.derivative_bound(2, self.step, ORDER),
             self.theta.derivative_bound(2, self.step, ORDER),
         ]
+    }
+}
+
+/// The state a time `s` after the start of series of x, y and θ.
+#[inline(always)]
+pub(crate) fn state_at<T: Real>([x, y, theta]: [&Polynomial<T>; 3], s: T) -> State<T> {
+    let (x, y, theta) = (x.jet(s, ORDER), y.jet(s, ORDER), theta.jet(s, ORDER));
+    State {
+        x: x[0],
+        y: y[0],
+        theta: theta[0],
+        vx: x[1],
+        vy: y[1],
+        vtheta: theta[1],
     }
 }
