@@ -30,6 +30,22 @@ pub trait Hybrid<T: Real> {
     /// The state a time `s`, of either sign, after `z` at time `t`, with `held` surfaces.
     fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
 
+    /// The same motion at any time from 0 to `s`, for whoever asks for many of them: [`Hybrid::flow`]
+    /// to rounding.
+    fn path<'a>(
+        &'a self,
+        held: TautSet,
+        t: T,
+        z: &Point<T>,
+        _s: T,
+    ) -> Box<dyn Fn(T) -> Point<T> + 'a>
+    where
+        T: 'a,
+    {
+        let z = *z;
+        Box::new(move |s| self.flow(held, t, &z, s))
+    }
+
     /// How far the state is beyond a surface, as a length: negative where it is legal.
     fn gap(&self, surface: usize, z: &Point<T>) -> T;
 

@@ -42,6 +42,20 @@ impl<T: Real> Hybrid<T> for Cables<T> {
         self.held.carried(held, t, &state, s).components()
     }
 
+    fn path<'a>(
+        &'a self,
+        held: TautSet,
+        t: T,
+        z: &Point<T>,
+        s: T,
+    ) -> Box<dyn Fn(T) -> Point<T> + 'a>
+    where
+        T: 'a,
+    {
+        let path = self.held.path(held, t, &State::from_components(*z), s);
+        Box::new(move |s| path.state(s).components())
+    }
+
     /// g/2r.
     fn gap(&self, surface: usize, z: &Point<T>) -> T {
         let cable = &self.system().cables[surface];

@@ -6,7 +6,7 @@
 //! there.
 
 use crate::hybrid::{Family, Hybrid, Point, variable};
-use crate::lap::Lap;
+use crate::lap::{Lap, Leg};
 use crate::newton::Closed;
 use crate::sequence::Sequence;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -68,15 +68,20 @@ impl Multipliers {
     }
 }
 
-/// Those of a closed lap.
-pub fn multipliers<F: Family>(lap: &Lap<F>, closed: &Closed) -> Multipliers {
+/// Those of a closed lap, of which the legs are given.
+pub fn multipliers<F: Family>(
+    lap: &Lap<F>,
+    closed: &Closed,
+    system: &F::Plain,
+    legs: &[Leg],
+) -> Multipliers {
     let variables = lap.family.variables();
     let (most, leg) = most_held(lap.sequence, &closed.durations, lap.times().1);
     let reduced = if most.is_empty() {
         let linear = lap.linearise(&closed.z, &closed.durations);
         linear.monodromy(variables)
     } else {
-        let cut = cut_within(lap, closed, leg);
+        let cut = cut_within(lap, system, legs, leg);
         let here = Lap {
             sequence: &cut.sequence,
             phase: cut.phase,
@@ -139,9 +144,7 @@ struct Cut {
 }
 
 /// Cuts a lap in the middle of a leg.
-fn cut_within<F: Family>(lap: &Lap<F>, closed: &Closed, leg: usize) -> Cut {
-    let system = lap.family.plain(lap.at);
-    let legs = lap.legs(&system, &closed.z, &closed.durations);
+fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usize) -> Cut {
     let (begun, length) = lap.times();
     let here = &legs[leg];
     // The first and the last leg are one, cut by the section.

@@ -1,7 +1,7 @@
 //! Periodic orbits: found, closed to rounding, checked.
 
 use crate::hybrid::{Family, Hybrid, Point};
-use crate::lap::Lap;
+use crate::lap::{Lap, Leg};
 use crate::multipliers::{Multipliers, Stability, multipliers};
 use crate::newton::{Closed, close, step_of_map};
 use crate::scan::scan;
@@ -152,14 +152,15 @@ impl Orbit {
     /// Of a lap that is closed.
     pub fn of<F: Family>(lap: &Lap<F>, closed: &Closed) -> Self {
         let family = lap.family;
-        let multipliers = multipliers(lap, closed);
-        let survey = survey(lap, &closed.z, &closed.durations);
+        let system = family.plain(lap.at);
+        let legs = lap.legs(&system, &closed.z, &closed.durations);
+        let multipliers = multipliers(lap, closed, &system, &legs);
+        let survey = survey(lap, &system, &legs);
         let (_, length) = lap.times();
-        let speeds = speeds(lap, closed);
         let timed = Timed {
             sequence: lap.sequence.clone(),
             durations: closed.durations.clone(),
-            speeds,
+            speeds: speeds(lap, &system, &legs),
         };
         let mut why_not = survey.why_not(&closed.durations);
         let return_error = run_once(lap, closed, &timed, multipliers.largest(), &mut why_not);
@@ -171,7 +172,6 @@ impl Orbit {
             .map(|shrinking| {
                 family.snap_contraction(lap.at).powi(snaps) * (-shrinking * length).exp()
             });
-        let system = family.plain(lap.at);
         let gaps = [survey.largest_gap, survey.corner_gap]
             .into_iter()
             .flatten();
@@ -183,7 +183,7 @@ impl Orbit {
             periods: lap.periods,
             length,
             z: closed.z,
-            rows: rows(lap, closed),
+            rows: rows(lap, &system, &legs),
             lap: timed,
             multipliers,
             survey,
@@ -400,11 +400,9 @@ pub fn words(sequence: &Sequence) -> String {
 }
 
 /// The closing velocity of each event.
-fn speeds<F: Family>(lap: &Lap<F>, closed: &Closed) -> Vec<f64> {
-    let system = lap.family.plain(lap.at);
-    let legs = lap.legs(&system, &closed.z, &closed.durations);
-    let events = lap.sequence.events.iter().zip(&legs);
-    let speed = |(event, leg): (&crate::sequence::Event, &crate::lap::Leg)| {
+fn speeds<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Vec<f64> {
+    let events = lap.sequence.events.iter().zip(legs);
+    let speed = |(event, leg): (&crate::sequence::Event, &Leg)| {
         let struck = event.struck().iter().next();
         struck.map_or(0.0, |surface| system.speed(surface, &leg.end))
     };
@@ -412,11 +410,9 @@ fn speeds<F: Family>(lap: &Lap<F>, closed: &Closed) -> Vec<f64> {
 }
 
 /// The events as rows.
-fn rows<F: Family>(lap: &Lap<F>, closed: &Closed) -> Vec<EventRow> {
-    let system = lap.family.plain(lap.at);
-    let legs = lap.legs(&system, &closed.z, &closed.durations);
+fn rows<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Vec<EventRow> {
     let mut rows = Vec::new();
-    for (event, leg) in lap.sequence.events.iter().zip(&legs) {
+    for (event, leg) in lap.sequence.events.iter().zip(legs) {
         let t = leg.t + leg.s;
         let (_, impulse) = system.law(event.struck(), event.pulling(), &leg.end);
         let mut row = |kind, surface, speed, impulse| {

@@ -103,10 +103,8 @@ impl Survey {
     }
 }
 
-/// Looks along a lap.
-pub fn survey<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Survey {
-    let system = lap.family.plain(lap.at);
-    let legs = lap.legs(&system, z, durations);
+/// Looks along the legs of a lap.
+pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Survey {
     let mut found = Survey {
         largest_gap: None,
         corner_gap: None,
@@ -120,7 +118,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, z: &Point, durations: &[f64]) -> Survey {
     let period = lap.family.forcing_period(lap.at).value;
     let watch = Watch {
         family: lap.family,
-        system: &system,
+        system,
         period,
     };
     let mut before = lap.sequence.last();
@@ -186,17 +184,18 @@ impl<F: Family> Watch<'_, F> {
             HELD_SAMPLES
         };
         let count = (density * leg.s / self.period).ceil().max(FEWEST) as usize;
-        let width = leg.s / count as f64;
-        let mut samples = Vec::with_capacity(count + 1);
-        samples.push(leg.start);
-        for i in 0..count {
-            let t = leg.t + width * i as f64;
-            samples.push(self.system.flow(leg.held, t, &samples[i], width));
-        }
-        self.gaps(k, leg, before, (&samples, width), found);
+        let path = self.system.path(leg.held, leg.t, &leg.start, leg.s);
+        let sampled = Sampled {
+            width: leg.s / count as f64,
+            samples: (0..=count)
+                .map(|i| path(leg.s * i as f64 / count as f64))
+                .collect(),
+            path: &path,
+        };
+        self.gaps(k, leg, before, &sampled, found);
         for surface in leg.held.iter() {
             let tension = |s: f64, z: &Point| -self.system.tension(surface, leg.held, leg.t + s, z);
-            let (value, s) = self.highest(leg, &samples, width, &tension);
+            let (value, s) = sampled.highest(&tension);
             let extreme = Extreme {
                 value: -value,
                 surface,
@@ -205,9 +204,9 @@ impl<F: Family> Watch<'_, F> {
             };
             least(&mut found.least_tension, extreme);
         }
-        let height = self.highest(leg, &samples, width, &|_, z| z[1]).0;
+        let height = sampled.highest(&|_, z| z[1]).0;
         let turned = match self.family.variables().contains(&2) {
-            true => self.highest(leg, &samples, width, &|_, z| z[2].abs()).0,
+            true => sampled.highest(&|_, z| z[2].abs()).0,
             false => 0.0,
         };
         found.y_max = found.y_max.max(height);
@@ -215,12 +214,13 @@ impl<F: Family> Watch<'_, F> {
         for limit in 0..2 {
             let beyond = |_: f64, z: &Point| self.family.limits(self.system, z)[limit];
             if beyond(0.0, &leg.start).is_finite() {
-                let rough = samples
+                let rough = sampled
+                    .samples
                     .iter()
                     .map(|z| beyond(0.0, z))
                     .fold(f64::MIN, f64::max);
                 let value = if rough > -FAR {
-                    self.highest(leg, &samples, width, &beyond).0
+                    sampled.highest(&beyond).0
                 } else {
                     rough
                 };
@@ -235,7 +235,11 @@ impl<F: Family> Watch<'_, F> {
         k: usize,
         leg: &Leg,
         before: TautSet,
-        (samples, width): (&[Point], f64),
+        Sampled {
+            samples,
+            width,
+            path,
+        }: &Sampled,
         found: &mut Survey,
     ) {
         for surface in self
@@ -254,29 +258,36 @@ impl<F: Family> Watch<'_, F> {
                 if !(speeds[i] > 0.0 && speeds[i + 1] <= 0.0) {
                     continue;
                 }
-                let t = leg.t + width * i as f64;
-                let at = |s: f64| self.system.flow(leg.held, t, &samples[i], s);
-                let speed = |s: f64| self.system.speed(surface, &at(s));
-                let s = root(&speed, (0.0, speeds[i]), (width, speeds[i + 1]));
+                let speed = |s: f64| self.system.speed(surface, &path(s));
+                let [from, to] = [i, i + 1].map(|i| width * i as f64);
+                let s = root(&speed, (from, speeds[i]), (to, speeds[i + 1]));
                 let extreme = Extreme {
-                    value: self.system.gap(surface, &at(s)),
+                    value: self.system.gap(surface, &path(s)),
                     surface,
                     leg: k,
-                    t: t + s,
+                    t: leg.t + s,
                 };
                 most(&mut found.largest_gap, extreme);
             }
         }
     }
+}
 
-    /// The largest value of a function along a leg, and when.
-    fn highest(
-        &self,
-        leg: &Leg,
-        samples: &[Point],
-        width: f64,
-        of: &dyn Fn(f64, &Point) -> f64,
-    ) -> (f64, f64) {
+/// A leg, and its states at evenly spaced times.
+struct Sampled<'a> {
+    samples: Vec<Point>,
+    width: f64,
+    path: &'a dyn Fn(f64) -> Point,
+}
+
+impl Sampled<'_> {
+    /// The largest value of a function along the leg, and when.
+    fn highest(&self, of: &dyn Fn(f64, &Point) -> f64) -> (f64, f64) {
+        let Self {
+            samples,
+            width,
+            path,
+        } = self;
         let values = samples.iter().enumerate();
         let values = values.map(|(i, z)| of(width * i as f64, z));
         let (place, best) = values
@@ -286,10 +297,7 @@ impl<F: Family> Watch<'_, F> {
             });
         let (low, high) = (place.saturating_sub(1), (place + 1).min(samples.len() - 1));
         let begin = width * low as f64;
-        let at = |s: f64| {
-            let z = self.system.flow(leg.held, leg.t + begin, &samples[low], s);
-            of(begin + s, &z)
-        };
+        let at = |s: f64| of(begin + s, &path(begin + s));
         let (s, value) = golden(&at, width * (high - low) as f64);
         if value > best {
             (value, begin + s)

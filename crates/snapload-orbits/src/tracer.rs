@@ -171,14 +171,16 @@ impl<F: Family> Tracer<'_, F> {
     /// orbit with its events counted anew, and how its tangent's shared parts have moved.
     pub(crate) fn renumbered(&self, u: &Unknowns) -> Option<(Self, Unknowns, isize)> {
         let lap = self.lap(u.at);
-        let system = self.family.plain(u.at);
-        let legs = lap.legs(&system, &u.z, &u.durations);
         let (begun, length) = lap.times();
-        let (first, last) = (legs.first()?, legs.last()?);
         let count = u.durations.len();
-        if count == 0 || (first.s >= 0.0 && last.s >= 0.0) {
+        // The last leg lasts as [`Lap::legs`] has it, to the bit.
+        let reached = u.durations.iter().fold(begun, |t, s| t + s);
+        if *u.durations.first()? >= 0.0 && begun + length - reached >= 0.0 {
             return None;
         }
+        let system = self.family.plain(u.at);
+        let legs = lap.legs(&system, &u.z, &u.durations);
+        let (first, last) = (legs.first()?, legs.last()?);
         let held = self.sequence.held();
         let mut moved = self.clone();
         let mut durations = u.durations.clone();
