@@ -13,9 +13,9 @@ use snapload::analysis::{START_KEYS, Unfinished};
 use snapload::{CaseError, Rules, Value};
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Along, BranchEvent, BranchRow, Family, Hybrid, Jet, Kind, Lap, Moored, OrbitRow, Point, Starts,
-    Wanted, along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words,
-    period_of, prove_all, start_of,
+    Along, BranchEvent, BranchRow, Family, Jet, Kind, Moored, OrbitRow, Point, Starts, Wanted,
+    along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words, period_of,
+    prove_all, start_of,
 };
 use std::sync::Arc;
 
@@ -97,25 +97,11 @@ impl Orbit {
     /// the number of the leg, how many cables it is held by, the time, and the state.
     fn curve<'py>(&self, py: Python<'py>, pieces: f64) -> Bound<'py, PyByteArray> {
         let orbit = &self.orbit;
-        let lap = Lap {
-            family: &self.family,
-            at: orbit.at,
-            sequence: &orbit.lap.sequence,
-            phase: orbit.phase,
-            periods: orbit.periods,
-        };
-        let system = self.family.plain(orbit.at);
         let mut bytes = Vec::new();
-        let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
-        for (number, leg) in legs.iter().enumerate() {
-            let count = (pieces * leg.s.abs() / orbit.length).ceil().max(PIECES) as usize;
-            for k in 0..=count {
-                let s = leg.s * k as f64 / count as f64;
-                let z = system.flow(leg.held, leg.t, &leg.start, s);
-                let head = [number as f64, leg.held.len() as f64, leg.t + s];
-                let row = head.into_iter().chain(z);
-                bytes.extend(row.flat_map(f64::to_ne_bytes));
-            }
+        for on in self.family.along_lap(orbit, pieces, PIECES) {
+            let head = [on.leg as f64, on.held as f64, on.t];
+            let row = head.into_iter().chain(on.z);
+            bytes.extend(row.flat_map(f64::to_ne_bytes));
         }
         PyByteArray::new(py, &bytes)
     }
@@ -182,9 +168,7 @@ pub(crate) fn orbit(
     let orbit = interruptible(py, progress, move |watch| match start {
         Some(start) => {
             let family = Moored::case(parameters, [None; 2]);
-            Ok(snapload_orbits::Orbit::find(
-                &family, [0.0; 2], &start, &wanted,
-            ))
+            Ok(family.orbit([0.0; 2], &start, &wanted))
         }
         None => of_attractor(&parameters, &wanted, &|progress| watch.go_on(progress)),
     })?;
@@ -217,9 +201,7 @@ pub(crate) fn orbit_of_system(
         move |_| (jets.clone(), Rules::until(Jet::constant(rules.t_end))),
     );
     let searched = family.clone();
-    let orbit = interruptible(py, None, move |_| {
-        snapload_orbits::Orbit::find(&searched, [0.0; 2], &start, &wanted)
-    })?;
+    let orbit = interruptible(py, None, move |_| searched.orbit([0.0; 2], &start, &wanted))?;
     Ok(match orbit {
         Ok(orbit) => {
             let case = None;
@@ -354,7 +336,7 @@ impl Branch {
         let from = self.from.iter().cloned().chain([event.clone()]).collect();
         let born = interruptible(py, progress, move |watch| {
             let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
-            snapload_orbits::Branch::of_doubling(&family, &event, &along, &on_progress)
+            family.branch_of_doubling(&event, &along, &on_progress)
         })?;
         let born = born.map_err(|cancelled| of_work(cancelled.into()))?;
         let none = "no direction of a branch of twice the length is found there";
@@ -397,7 +379,7 @@ pub(crate) fn continuation(
     let start = orbit.orbit.clone().with_at([value, 0.0]);
     let branch = interruptible(py, progress, move |watch| {
         let on_progress = |progress: snapload::analysis::Progress| watch.go_on(progress);
-        snapload_orbits::Branch::of(&family, &start, &along, &on_progress)
+        family.branch(&start, &along, &on_progress)
     })?;
     let branch = branch.map_err(|cancelled| of_work(Unfinished::from(cancelled)))?;
     Ok(Branch {

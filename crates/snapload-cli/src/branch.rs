@@ -96,7 +96,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let orbit = args
         .near
         .orbit(&family, [value, 0.0], &parameters, &on_progress)?;
-    let branch = Branch::of(&family, &orbit, &along, &on_progress)?;
+    let branch = family.branch(&orbit, &along, &on_progress)?;
     let (mut branch, from) = switched(&family, branch, &switches, &along, &on_progress)?;
     drop(bar);
     branch
@@ -143,7 +143,7 @@ fn switched(
         let event = branch.event(Kind::PeriodDoubling, *number);
         let event = event.map_err(|why| Failure::Failed(format!("--switch: {why}")))?;
         let event = event.clone();
-        let born = Branch::of_doubling(family, &event, along, on_progress)?;
+        let born = family.branch_of_doubling(&event, along, on_progress)?;
         branch = born.ok_or_else(|| {
             let message = "--switch: no direction of a branch of twice the length is found there";
             Failure::Failed(message.to_owned())

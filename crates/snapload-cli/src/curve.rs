@@ -13,8 +13,7 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload::{Parameters, key_named};
 use snapload_figures::Layer;
 use snapload_orbits::{
-    Across, Along, Branch, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit,
-    curve_in_words,
+    Across, Along, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit, curve_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
@@ -135,7 +134,7 @@ fn found(
                 step: across.step,
                 most: args.points as usize,
             };
-            let branch = Branch::of(&family, &orbit, &along, on_progress)?;
+            let branch = family.branch(&orbit, &along, on_progress)?;
             let event = branch.event(kind, number);
             let event = event.map_err(|why| {
                 Failure::Failed(format!(
@@ -146,7 +145,7 @@ fn found(
             event.clone()
         }
     };
-    let curve = Curve::of(&family, &event, across, on_progress)?;
+    let curve = family.curve(&event, across, on_progress)?;
     let curve = curve.map_err(|why| Failure::Failed(format!("--follow: {why}")))?;
     Ok((event, curve))
 }

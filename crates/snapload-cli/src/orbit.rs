@@ -120,7 +120,7 @@ impl NearArgs {
                 orbit.z
             }),
         };
-        let orbit = start.and_then(|start| Orbit::find(family, at, &start, &wanted));
+        let orbit = start.and_then(|start| family.orbit(at, &start, &wanted));
         orbit.map_err(|why| Failure::Failed(format!("no orbit was found: {why}")))
     }
 }

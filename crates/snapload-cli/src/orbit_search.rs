@@ -98,7 +98,7 @@ impl Search<'_> {
         let orbit = match start {
             Some(start) => {
                 let family = Moored::case(case.parameters, [None; 2]);
-                Orbit::find(&family, [0.0; 2], &start, self.wanted)
+                family.orbit([0.0; 2], &start, self.wanted)
             }
             None => of_attractor(&case.parameters, self.wanted, &on_progress)?,
         };

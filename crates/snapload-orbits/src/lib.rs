@@ -38,6 +38,7 @@ mod impact_map;
 mod in_words;
 mod lap;
 mod moored;
+mod moored_questions;
 mod multipliers;
 mod newton;
 mod normal_form;
@@ -75,6 +76,7 @@ pub use in_words::{
 };
 pub use lap::{Lap, Leg, Linearised};
 pub use moored::{Cables, Moored};
+pub use moored_questions::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
 pub use options::{across, along, checked_phase, followed, stretch};
