@@ -124,6 +124,7 @@ class BaseOrbit:
         self.state: NDArray[np.float64] = np.array(told["section"]["state"])
         self.phase: float = told["section"]["phase"]
         self.periods: int = told["period"]["forcing_periods"]
+        self.smallest_periods: int = told["period"]["smallest"]
         self.period: float = told["period"]["t"]
         self.symbol: tuple[str, ...] = tuple(told["symbol"])
         self.multipliers: NDArray[np.complex128] = complexes(told["multipliers"])

@@ -213,8 +213,9 @@ def erosion(
     xarray.Dataset
         Over the third key: ``gim`` between ``low`` and ``high`` (95 %), ``lim``, ``if`` and ``iim`` as
         :func:`snapload.safe_basin` has them, and the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
-        trust). The attribute ``knee`` is the last value up to which the fraction never falls below nine tenths of what
-        it is at the first one; NaN if it never does.
+        trust). The attribute ``knee`` is the last value up to which the safe part of the decided cells never falls
+        below nine tenths of what it is at the first one; NaN if it never does. ``knee_between`` has the least and the
+        greatest value that it has, however the undecided cells end.
 
     Raises
     ------
@@ -256,7 +257,9 @@ def erosion(
         numbers = np.array([_or_nan(point[name]) for point in points], dtype=np.float64)
         variables[name] = (key, numbers, {"long_name": meaning})
     coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
-    attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, "knee": _or_nan(told["knee"])}
+    between = [_or_nan(knee) for knee in told["knee_between"]]
+    knees = {"knee": _or_nan(told["knee"]), "knee_between": between}
+    attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, **knees}
     return xarray.Dataset(variables, coords, attrs)
 
 

@@ -37,6 +37,8 @@ class Orbit(BaseOrbit):
         Time of the section, in periods of the forcing.
     periods : int
         Its length in periods of the forcing.
+    smallest_periods : int
+        After how many of them it first repeats itself: fewer where it is a shorter orbit several times.
     period : float
         Its length [T].
     symbol : tuple of str

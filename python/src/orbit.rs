@@ -14,8 +14,8 @@ use snapload::{CaseError, Rules, Value};
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
     Along, BranchEvent, BranchRow, Family, Jet, Kind, Moored, OrbitRow, Point, Starts, Wanted,
-    along, branch_in_words, checked_phase, distance, of_attractor, orbit_in_words, period_of,
-    prove_all, start_of,
+    along, branch_in_words, check_start, checked_phase, distance, of_attractor, orbit_in_words,
+    period_of, prove_all, start_of,
 };
 use std::sync::Arc;
 
@@ -129,7 +129,9 @@ fn start_with(case: &Case, start: &Bound<'_, PyDict>) -> PyResult<Point> {
         return Err(of_case(CaseError::value("start", key, allowed)));
     }
     let parameters = case.parameters_with(entries).map_err(of_case)?;
-    Ok(start_of(&parameters))
+    let start = start_of(&parameters);
+    check_start(case.parameters(), &start).map_err(of_case)?;
+    Ok(start)
 }
 
 /// An orbit, or why there is none.

@@ -98,6 +98,7 @@ def test_erosion_is_that_of_the_reference_and_of_the_command(command_json):
         assert eroded[name].values.tolist() == [point[name] for point in told["points"]], name
     assert eroded.low.values.tolist() == [point["interval95"][0] for point in told["points"]]
     assert eroded.f_o.values.tolist() == [0.0, 0.2, 0.4, 0.6] and eroded.attrs["knee"] == told["knee"]
+    assert eroded.attrs["knee_between"] == told["knee_between"]
     assert np.isnan(eroded.iim).all()
 
 

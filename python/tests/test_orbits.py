@@ -120,7 +120,7 @@ def test_an_orbit_runs_and_returns():
     there = case.orbit().run(trust=False).at(0.3 * late.period)
     np.testing.assert_allclose([there[name] for name in STATE], late.state, atol=1e-12)
     double = case.orbit(start=case.orbit().state, periods=2)
-    assert double.periods == 2 and double.symbol == ("2", "1", "2", "1")
+    assert (double.periods, double.smallest_periods) == (2, 1) and double.symbol == ("2", "1", "2", "1")
     np.testing.assert_allclose(double.multipliers[0], case.orbit().multipliers[0] ** 2, rtol=1e-10)
 
 
@@ -197,6 +197,7 @@ def test_orbits_are_proved():
         (dict(start={"e": 0.5}), "start = e is not allowed; allowed: values of the state, x, y, theta"),
         (dict(start={"theta": 0.1}), "theta = 0.1 is not allowed; allowed: 0, as a point mass"),
         (dict(start={"x": 1e4}), "x = 10000 is not allowed"),
+        (dict(start={"x": 9}), "x, y, theta = 9, .* is not allowed; allowed: a start within reach of both cables"),
         (dict(start=[1, 2]), "some of x, y, theta, vx, vy, vtheta by their names"),
         (dict(symbol=[3]), "symbol = 3 is not allowed; allowed: a whole number, 1 <= symbol <= 2"),
         (dict(phase=1.5), "phase = 1.5 is not allowed; allowed: a part of the period, from 0 to below 1"),

@@ -5,6 +5,7 @@ use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::table::{TableFile, axis, names, numbers};
+use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::Progress;
@@ -40,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
     /// Periods of the forcing before attractors are looked at
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 300, allow_negative_numbers = true, value_parser = whole::<u64>(1, 10_000_000))]
     transient: u64,
     /// Write a table with a row a cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

@@ -8,6 +8,7 @@ use crate::orbit_columns::{OF_ORBITS, of_orbit, words_of};
 use crate::orbit_picture::{Drawn, PlotArgs, PlotFile, branch_layers};
 use crate::stage::Stage;
 use crate::table::TableFile;
+use crate::whole::whole;
 use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::{OnProgress, Progress};
@@ -53,7 +54,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
     step: f64,
     /// Points in either direction at most
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 2000, allow_negative_numbers = true, value_parser = whole::<u32>(1, 1_000_000))]
     points: u32,
     /// Kinds of events that are told, with commas between them
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]

@@ -6,6 +6,7 @@ use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::uncertainty::UncertaintyArgs;
+use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress};
 use snapload::{CaseError, Value};
@@ -45,7 +46,7 @@ pub(crate) struct Args {
     max: f64,
     /// Run N neighbours at each amplitude where one run can not tell, and give the probability of
     /// exceeding
-    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole::<u32>(1, u32::MAX))]
     ensemble: Option<u32>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,

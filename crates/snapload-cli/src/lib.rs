@@ -54,6 +54,7 @@ mod sweep;
 mod table;
 mod uncertainty;
 mod verify;
+mod whole;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
@@ -196,9 +197,16 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     failure::exit_status(result)
 }
 
-/// Ends with what is wrong with the command line. Who writes a key as an option is told how keys
+/// Ends with what is wrong with the command line. A value that is not allowed is told as that of a key
+/// is; who writes a key as an option is told how keys
 /// are set.
 fn refuse(mut error: clap::Error) -> ! {
+    if error.kind() == ErrorKind::ValueValidation
+        && let Some(message) = whole::refusal(&error)
+    {
+        let status = failure::exit_status(Err(failure::Failure::BadInput(message)));
+        std::process::exit(i32::from(status));
+    }
     if error.kind() == ErrorKind::UnknownArgument
         && error.get(ContextKind::SuggestedArg).is_none()
         && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)

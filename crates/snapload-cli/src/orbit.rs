@@ -5,12 +5,13 @@ use crate::json::JsonArgs;
 use crate::orbit_search::{Found, Search, columns};
 use crate::stage::Stage;
 use crate::table::{TableFile, axis};
+use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{OnProgress, START_KEYS};
-use snapload::{Parameters, Value, parse_value};
+use snapload::{CaseError, Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Proofs, Wanted, checked_phase, distance, of_attractor,
-    orbit_in_words, start_of,
+    Moored, Orbit, OrbitRow, Point, Proofs, Wanted, check_start, checked_phase, distance,
+    of_attractor, orbit_in_words, start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
@@ -46,10 +47,16 @@ pub(crate) struct Args {
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
     /// Try so many random starts, and tell all orbits found
-    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", conflicts_with = "start", allow_negative_numbers = true, value_parser = whole::<u32>(1, 10_000_000))]
     find: Option<u32>,
     /// Which random starts
-    #[arg(long, value_name = "S", default_value_t = 0, requires = "find")]
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 0,
+        allow_negative_numbers = true,
+        requires = "find"
+    )]
     seed: u64,
     /// Look for them at each of these values of a key: from the random starts, and from the orbits
     /// at the value before
@@ -78,7 +85,7 @@ pub(crate) struct NearArgs {
     #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
     start: Option<String>,
     /// Length in periods of the forcing; 1 near a start, what the motion has otherwise
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1, 1024))]
     periods: Option<u32>,
     /// Time of the section, in periods of the forcing
     #[arg(
@@ -252,6 +259,8 @@ fn start_at(text: &str, parameters: &Parameters) -> Result<Point, Failure> {
         }
         z[place] = number;
     }
+    let illegal = |error: CaseError| Failure::from(error).with_prefix("--start");
+    check_start(parameters, &z).map_err(illegal)?;
     Ok(z)
 }
 

@@ -6,6 +6,7 @@ use crate::json::JsonArgs;
 use crate::orbit_picture::{PlotArgs, PlotFile};
 use crate::stage::Stage;
 use crate::table::{TableFile, numbers};
+use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
@@ -57,10 +58,10 @@ pub(crate) struct Args {
 #[derive(clap::Args)]
 pub(crate) struct StretchArgs {
     /// Periods of the forcing in all
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 400, allow_negative_numbers = true, value_parser = whole::<u64>(1, 100_000_000))]
     periods: u64,
     /// Periods that are kept, the last ones
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 100, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
     keep: u64,
     /// Time of the section, in periods of the forcing
     #[arg(

@@ -5,6 +5,7 @@ use crate::interrupt::{self, Graceful, say};
 use crate::study_input::StudyArgs;
 use crate::study_picture::PictureArgs;
 use crate::study_summary::Summary;
+use crate::whole::whole;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, sweep, threads_for};
@@ -46,7 +47,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "i/n", conflicts_with = "plot")]
     shard: Option<String>,
     /// Threads to use; as many as the machine has if left out, and at the most four times as many
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1, u16::MAX))]
     threads: Option<u16>,
     #[command(flatten)]
     picture: PictureArgs,

@@ -5,6 +5,7 @@ use crate::failure::{Failure, print};
 use crate::json::JsonArgs;
 use crate::stage::Stage;
 use crate::uncertainty::ToleranceArgs;
+use crate::whole::whole;
 use snapload::analysis::Progress;
 use snapload_report::{Verified, case_in_words};
 use snapload_verify::{MOST_DIGITS, verify};
@@ -29,7 +30,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
     /// Decimal digits to compute with, at least
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_DIGITS)))]
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = whole::<u32>(1, MOST_DIGITS))]
     digits: u32,
     #[command(flatten)]
     tolerance: ToleranceArgs,

@@ -1,9 +1,9 @@
 //! Basins of attraction: which attractor each start of a window comes to.
 
 use crate::basin::Window;
-use crate::hybrid::Point;
+use crate::hybrid::{Point, distance};
 use crate::moored::Moored;
-use crate::orbit::{Orbit, Wanted, distance};
+use crate::orbit::{Orbit, Wanted};
 use crate::section::{Section, Stretch, start_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, in_parallel, unwatched};
 use snapload::{Case, Parameters, Stop};

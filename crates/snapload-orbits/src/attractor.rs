@@ -1,11 +1,11 @@
 //! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
 
-use crate::hybrid::{Family, Hybrid, Point};
+use crate::hybrid::{Family, Point, distance};
 use crate::in_words::periods;
-use crate::lap::Lap;
+use crate::lap::{Lap, SAME};
 use crate::moored::Moored;
 use crate::multipliers::Stability;
-use crate::orbit::{NoOrbit, Orbit, Wanted, distance};
+use crate::orbit::{NoOrbit, Orbit, Wanted};
 use crate::section::{LONGEST_PERIOD, Section, Stretch, period_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
 use snapload::{Case, Parameters};
@@ -79,9 +79,6 @@ pub fn of_attractor(
 
 /// Starts for each unit of work.
 const BATCH: usize = 16;
-/// Two orbits whose sections are nearer than this are one.
-const SAME: f64 = 1e-8;
-
 /// Starts from which orbits are looked for.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Starts<'a> {
@@ -136,9 +133,8 @@ pub fn find_orbits(
         if is_in(&met, &orbit.z) {
             continue;
         }
-        let sections = sections(&family, &orbit);
-        if !is_in(&sections[1..], &orbit.z) {
-            met.extend(sections);
+        if orbit.smallest_periods == orbit.periods {
+            met.extend(sections(&family, &orbit));
             orbits.push(orbit);
         }
     }
@@ -146,8 +142,7 @@ pub fn find_orbits(
     Ok(orbits)
 }
 
-/// The states at all sections of a lap, one a period of the forcing, beginning with the orbit's
-/// own.
+/// The states at all sections of an orbit.
 fn sections(family: &Moored, orbit: &Orbit) -> Vec<Point> {
     let lap = Lap {
         family,
@@ -158,14 +153,7 @@ fn sections(family: &Moored, orbit: &Orbit) -> Vec<Point> {
     };
     let system = family.plain(orbit.at);
     let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
-    let (begun, length) = lap.times();
-    let period = length / f64::from(orbit.periods);
-    let later = (1..orbit.periods).filter_map(|k| {
-        let t = begun + period * f64::from(k);
-        let leg = legs.iter().rev().find(|leg| leg.t <= t)?;
-        Some(system.flow(leg.held, leg.t, &leg.start, t - leg.t))
-    });
-    std::iter::once(orbit.z).chain(later).collect()
+    lap.sections(&system, &legs)
 }
 
 /// The k-th random start; none where it is not legal.

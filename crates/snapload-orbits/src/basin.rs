@@ -54,6 +54,8 @@ pub struct Measures {
     pub safe: usize,
     /// Legal cells some neighbours of which end otherwise.
     pub undecided: usize,
+    /// Those of them that reach no limit.
+    pub undecided_safe: usize,
     /// Legal cells whose run has its horizon of trust before its end. Those among them that are
     /// decided are so by more neighbours.
     pub past_horizon: usize,
@@ -321,6 +323,8 @@ impl Measures {
         let legal = cells.iter().filter(|cell| cell.end.is_some()).count();
         let unsafe_cells = cells.iter().filter(|cell| cell.escapes()).count();
         let undecided = cells.iter().filter(|cell| !cell.decided).count();
+        let doubtful = cells.iter().filter(|cell| !cell.decided);
+        let undecided_safe = doubtful.filter(|cell| !cell.escapes()).count();
         let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
         let safe = legal - unsafe_cells;
         let [lim, integrity_factor, iim] = if window.are_starts() {
@@ -341,6 +345,7 @@ impl Measures {
             legal,
             safe,
             undecided,
+            undecided_safe,
             past_horizon,
             gim: share.part(),
             interval: share.interval(),

@@ -1,6 +1,6 @@
 //! Erosion of safe basins: how much of a window is safe as a third key changes.
 
-use crate::basin::{Basin, Window};
+use crate::basin::{Basin, Measures, Window};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, Value};
 
@@ -13,7 +13,7 @@ pub struct Erosion {
     pub points: Vec<(f64, Basin)>,
 }
 
-/// The part of the first value's safe fraction that is left at the knee.
+/// What of the first value's safe part is left at the knee.
 pub const KNEE: f64 = 0.9;
 
 impl Erosion {
@@ -55,16 +55,43 @@ impl Erosion {
         Ok(Self { key, points })
     }
 
-    /// The last value up to which the safe part never falls below nine tenths of what it is at the
-    /// first value; none where it never does fall below.
+    /// The last value up to which the safe part of the decided cells never falls below nine tenths of
+    /// what it is at the first value; none where it never does fall below.
+    ///
+    /// Cells that are not decided are left out, as how they end says nothing: where starts are
+    /// symmetric they are many, and all at one value.
     pub fn knee(&self) -> Option<f64> {
-        let part = |basin: &Basin| basin.measures.gim;
-        let whole = part(&self.points.first()?.1);
-        let fallen = self
-            .points
-            .iter()
-            .position(|(_, basin)| part(basin) < KNEE * whole)?;
-        let before = self.points.get(fallen.checked_sub(1)?)?;
-        Some(before.0)
+        self.knee_of(|m| {
+            let decided = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
+            [decided; 2]
+        })
+    }
+
+    /// The least and the greatest value that the knee has, however the cells that are not decided
+    /// end; none where there is none then.
+    pub fn knee_between(&self) -> [Option<f64>; 2] {
+        let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
+        let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
+        let high = |m: &Measures| part(m.safe + m.undecided - m.undecided_safe, m);
+        [
+            self.knee_of(|m| [high(m), low(m)]),
+            self.knee_of(|m| [low(m), high(m)]),
+        ]
+    }
+
+    /// The knee, with the safe part of a window as the whole and as what is left of it.
+    fn knee_of(&self, parts: impl Fn(&Measures) -> [f64; 2]) -> Option<f64> {
+        let mut points = self.points.iter();
+        let (first, basin) = points.next()?;
+        let [whole, _] = parts(&basin.measures);
+        let mut last = *first;
+        for (value, basin) in points {
+            let [_, left] = parts(&basin.measures);
+            if left < KNEE * whole {
+                return Some(last);
+            }
+            last = *value;
+        }
+        None
     }
 }

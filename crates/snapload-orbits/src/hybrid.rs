@@ -133,3 +133,9 @@ pub fn variable(z: &Point) -> Point<Jet> {
 pub fn values(z: &Point<Jet>) -> Point {
     z.map(|component| component.value)
 }
+
+/// The largest difference of two states.
+pub fn distance(a: &Point, b: &Point) -> f64 {
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}

@@ -18,6 +18,14 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
         orbit.length,
         words(&orbit.lap.sequence)
     );
+    if orbit.smallest_periods < orbit.periods {
+        let _ = writeln!(
+            text,
+            "Repeats   itself after {}: this lap goes round that orbit {} times",
+            periods(orbit.smallest_periods as usize),
+            orbit.periods / orbit.smallest_periods
+        );
+    }
     // Adding 0 makes 0 of -0.
     let state: Vec<String> = orbit.z.iter().map(|c| format!("{:.9}", c + 0.0)).collect();
     let _ = writeln!(text, "Section   {}", state.join(" "));
@@ -170,7 +178,18 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
     }
     if let Some(knee) = erosion.knee() {
-        let _ = writeln!(text, "Knee      at {} = {knee}", erosion.key);
+        let between = erosion.knee_between();
+        let beyond = || "beyond the last value".to_owned();
+        let told = |value: Option<f64>| value.map_or_else(beyond, |value| value.to_string());
+        let doubt = match between {
+            [Some(low), Some(high)] if low == knee && high == knee => String::new(),
+            [low, high] => format!(
+                ", or from {} to {} by how undecided cells end",
+                told(low),
+                told(high)
+            ),
+        };
+        let _ = writeln!(text, "Knee      at {} = {knee}{doubt}", erosion.key);
     }
     text
 }

@@ -11,7 +11,9 @@
 //! Where the times follow from the state, δs_k = −(∂h_k δz + ∂_t h_k δt)/(∂_s h_k), the same
 //! derivatives give the saltation matrices and their product, the monodromy matrix.
 
-use crate::hybrid::{DURATION, Family, Hybrid, Jet, PARAMETER, Point, TIME, values, variable};
+use crate::hybrid::{
+    DURATION, Family, Hybrid, Jet, PARAMETER, Point, TIME, distance, values, variable,
+};
 use crate::sequence::{Event, Happening, Sequence};
 use nalgebra::{DMatrix, DVector};
 use snapload::TautSet;
@@ -44,6 +46,9 @@ pub struct Leg {
     /// The state at its end, before the event there.
     pub end: Point,
 }
+
+/// Two states at sections that are nearer than this are one.
+pub(crate) const SAME: f64 = 1e-8;
 
 /// Up to so many events all unknowns of a lap are solved for together.
 const MANY: usize = 64;
@@ -101,6 +106,34 @@ impl<F: Family> Lap<'_, F> {
             }
         }
         legs
+    }
+
+    /// The states at all of its sections, one a period of the forcing, of its legs.
+    pub fn sections(&self, system: &F::Plain, legs: &[Leg]) -> Vec<Point> {
+        let (begun, length) = self.times();
+        let period = length / f64::from(self.periods);
+        let begins = legs.first().map(|leg| leg.start);
+        let later = (1..self.periods).filter_map(|k| {
+            let t = begun + period * f64::from(k);
+            let leg = legs.iter().rev().find(|leg| leg.t <= t)?;
+            Some(system.flow(leg.held, leg.t, &leg.start, t - leg.t))
+        });
+        begins.into_iter().chain(later).collect()
+    }
+
+    /// After how many periods it first comes back to where it began: fewer than it has where it goes
+    /// round a shorter orbit several times.
+    pub fn smallest_periods(&self, system: &F::Plain, legs: &[Leg]) -> u32 {
+        if self.periods == 1 {
+            return 1;
+        }
+        let sections = self.sections(system, legs);
+        let is_back = |k: &u32| {
+            let there = sections.get(*k as usize).zip(sections.first());
+            self.periods.is_multiple_of(*k)
+                && there.is_some_and(|(z, first)| distance(z, first) < SAME)
+        };
+        (1..self.periods).find(is_back).unwrap_or(self.periods)
     }
 
     /// Its derivatives.

@@ -66,8 +66,8 @@ pub use curve_rows::{CurveRow, curve_in_words};
 pub use diagram::{At, diagram};
 pub use erosion::{Erosion, KNEE};
 pub use hybrid::{
-    DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, values,
-    variable,
+    DURATION, Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated, TIME, constant, distance,
+    values, variable,
 };
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use in_words::{
@@ -79,8 +79,8 @@ pub use moored::{Cables, Moored};
 pub use moored_questions::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
-pub use options::{across, along, checked_phase, followed, stretch};
-pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted, distance, words};
+pub use options::{across, along, check_start, checked_phase, followed, stretch};
+pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted, words};
 pub use orbit_row::OrbitRow;
 pub use proof::{Proofs, prove_all};
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};

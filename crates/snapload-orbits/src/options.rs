@@ -2,9 +2,12 @@
 
 use crate::branch::Along;
 use crate::curve::Across;
+use crate::hybrid::{Family, Hybrid, Point};
+use crate::moored::Moored;
+use crate::orbit::NEAR;
 use crate::section::Stretch;
 use snapload::analysis::UNCERTAIN_KEYS;
-use snapload::{CaseError, Kind, Parameters, Value, check_entry, key_named};
+use snapload::{Case, CaseError, Kind, Parameters, Value, check_entry, key_named};
 
 /// A time of the section, in periods of the forcing.
 ///
@@ -16,6 +19,36 @@ pub fn checked_phase(phase: f64) -> Result<f64, CaseError> {
     }
     let allowed = "a part of the period, from 0 to below 1";
     Err(CaseError::value("phase", phase, allowed))
+}
+
+/// Refuses a start near which no orbit can be: one that is no start of the case, unless it is beyond a
+/// cable by so little that it may have been meant to lie on it.
+///
+/// # Errors
+/// The [`CaseError`] of a case that begins there.
+pub fn check_start(parameters: &Parameters, start: &Point) -> Result<(), CaseError> {
+    let [x, y, theta, vx, vy, vtheta] = *start;
+    let there = Parameters {
+        x,
+        y,
+        theta,
+        vx,
+        vy,
+        vtheta,
+        ..*parameters
+    };
+    let Err(error) = Case::new(there) else {
+        return Ok(());
+    };
+    let family = Moored::case(*parameters, [None; 2]);
+    let system = family.plain([0.0; 2]);
+    let mut surfaces = system.surfaces().iter();
+    let is_near = surfaces.all(|surface| system.gap(surface, start) < NEAR);
+    let mut limits = family.limits(&system, start).into_iter();
+    match is_near && limits.all(|beyond| beyond <= 0.0) {
+        true => Ok(()),
+        false => Err(error),
+    }
 }
 
 /// So many periods in all, of which the last ones are kept.

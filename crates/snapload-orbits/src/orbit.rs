@@ -1,6 +1,6 @@
 //! Periodic orbits: found, closed to rounding, checked.
 
-use crate::hybrid::{Family, Hybrid, Point};
+use crate::hybrid::{Family, Hybrid, Point, distance};
 use crate::lap::{Lap, Leg};
 use crate::multipliers::{Multipliers, Stability, multipliers};
 use crate::newton::{Closed, close, step_of_map};
@@ -20,6 +20,8 @@ pub struct Orbit {
     pub phase: f64,
     /// Its length, in periods of the forcing.
     pub periods: u32,
+    /// After how many of them it first repeats itself; fewer where it is a shorter orbit several times.
+    pub smallest_periods: u32,
     /// Its length in time.
     pub length: f64,
     /// The state at the section.
@@ -89,7 +91,7 @@ impl std::error::Error for NoOrbit {}
 const MOST_LAPS: usize = 40;
 /// A surface nearer than this, closing or opening more slowly than that, may be one that the orbit
 /// is held by.
-const NEAR: f64 = 5e-3;
+pub(crate) const NEAR: f64 = 5e-3;
 const SLOW: f64 = 5e-2;
 /// An orbit within this of where it was looked for is the one that was meant.
 const BESIDE: f64 = 0.02;
@@ -181,6 +183,7 @@ impl Orbit {
             at: lap.at,
             phase: lap.phase,
             periods: lap.periods,
+            smallest_periods: lap.smallest_periods(&system, &legs),
             length,
             z: closed.z,
             rows: rows(lap, &system, &legs),
@@ -381,12 +384,6 @@ fn run_once<F: Family>(
         why_not.push(format!("the motion is off by {error:.1e} after one lap"));
     }
     Some(error)
-}
-
-/// The largest difference of two states.
-pub fn distance(a: &Point, b: &Point) -> f64 {
-    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, f64::max)
 }
 
 /// A symbol in one line.

@@ -78,6 +78,7 @@ impl ProofRow {
 #[derive(Serialize)]
 struct PeriodRow {
     forcing_periods: u32,
+    smallest: u32,
     t: f64,
 }
 
@@ -159,6 +160,7 @@ impl OrbitRow {
         Self {
             period: PeriodRow {
                 forcing_periods: orbit.periods,
+                smallest: orbit.smallest_periods,
                 t: orbit.length,
             },
             section: SectionPoint {

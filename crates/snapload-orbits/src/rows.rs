@@ -183,6 +183,8 @@ impl BasinRow {
 pub struct ErosionRow {
     over: &'static str,
     knee: Option<f64>,
+    /// Where it lies however the cells that are not decided end.
+    knee_between: [Option<f64>; 2],
     points: Vec<ErosionPoint>,
 }
 
@@ -203,6 +205,7 @@ impl ErosionRow {
         Self {
             over: erosion.key,
             knee: erosion.knee(),
+            knee_between: erosion.knee_between(),
             points: erosion.points.iter().map(point).collect(),
         }
     }

@@ -68,6 +68,28 @@ fn the_orbit_of_the_attractor_and_near_a_start_are_one() {
     }
 }
 
+/// Two laps of an orbit of one period are a lap of two periods, and told as what they are.
+#[test]
+fn a_lap_that_goes_round_twice_says_so() {
+    let d = directory();
+    let start = "x=-0.2688,y=0.3830,vx=0.8084,vy=-0.4263";
+    for (periods, told) in [("1", false), ("2", true), ("3", true)] {
+        let near = ["--start", start, "--periods", periods];
+        let orbit = json("orbit", &near);
+        assert_eq!(orbit["period"]["forcing_periods"].to_string(), periods);
+        assert_eq!(orbit["period"]["smallest"], 1);
+        let out = snapload(d.path())
+            .arg("orbit")
+            .args(&VOLLEY[..VOLLEY.len() - 1])
+            .args(near)
+            .assert()
+            .success();
+        let words = String::from_utf8_lossy(&out.get_output().stdout).into_owned();
+        let line = format!("after one period: this lap goes round that orbit {periods} times");
+        assert_eq!(words.contains(&line), told, "{words}");
+    }
+}
+
 #[test]
 fn an_orbit_far_from_its_start_says_so() {
     for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {
@@ -195,6 +217,30 @@ fn what_can_not_be_is_refused() {
     refused(&["orbit", "--start", "z=1"], "one of the keys x, y");
     refused(&["orbit", "--start", "x=far"], "x must be a number");
     refused(&["orbit", "--start", "x"], "write KEY=VALUE");
+    refused(
+        &["orbit", "--start", "x=9"],
+        "error: --start: x, y, theta = 9, 0.1, 0 is not allowed; allowed: a start within reach of both cables",
+    );
+    refused(
+        &["branch", "--along", "f_o=0.2:0.4", "--start", "y=5"],
+        "--start: y = 5 is not allowed",
+    );
+    let whole = "is not allowed; allowed: a whole number from 1 to";
+    for (option, value) in [
+        ("--find", "x"),
+        ("--find", "0"),
+        ("--find", "-3"),
+        ("--periods", "2.5"),
+    ] {
+        refused(
+            &["orbit", option, value],
+            &format!("error: {option} = {value} {whole}"),
+        );
+    }
+    refused(
+        &["branch", "--along", "f_o=0.2:0.4", "--step", "far"],
+        "error: --step = far is not allowed; allowed: a number",
+    );
     refused(&["orbit", "--symbol", "3"], "1 or 2");
     refused(&["orbit", "--set", "omega=0"], "omega = 0");
     refused(&["orbit", "--phase", "1.5"], "from 0 to below 1");

@@ -4,7 +4,7 @@ use crate::common::{number, parameters, reference};
 use serde_json::Value as Json;
 use snapload::analysis::unwatched;
 use snapload::{Parameters, Stop, key_named};
-use snapload_orbits::{Basin, Cell, Window, basin_in_words};
+use snapload_orbits::{Basin, Cell, Erosion, KNEE, Window, basin_in_words, erosion_in_words};
 
 /// Evenly spaced decimals, as a grid of the command has them.
 fn even(axis: &Json) -> (&'static str, Vec<f64>) {
@@ -89,6 +89,26 @@ fn cells_are_those_of_the_reference() {
     agrees("circle_xy_f0.1", true);
     agrees("circle_xy_f0.3", false);
     agrees("circle_f_omega", false);
+}
+
+/// Without waves many cells are not decided, and nearly all of them ended as safe: the knee is that of
+/// the reference all the same, which lies between what these cells may make of it.
+#[test]
+fn the_knee_is_that_of_the_decided_cells() {
+    let curve = &reference()["curves"]["circle_xy"];
+    let points = curve["points"].as_array().unwrap();
+    let chosen: Vec<_> = [0, 1, 9, 10].map(|k| &points[k]).to_vec();
+    let [first, .., before, after] = [0, 1, 2, 3].map(|k| number(&chosen[k]["fraction"]));
+    assert!(before > KNEE * first && after < KNEE * first);
+    let values: Vec<f64> = chosen.iter().map(|point| number(&point["f_o"])).collect();
+    let erosion = Erosion::of(&window(curve), "f_o", &values, true, &unwatched).unwrap();
+    assert_eq!(erosion.knee(), Some(values[2]));
+    // As a part of all cells the first value's safe part is too large, and the knee comes too early.
+    let [low, high] = erosion.knee_between();
+    assert!(low.is_some_and(|low| low < values[2]), "{low:?}");
+    assert!(high.is_none_or(|high| high >= values[2]), "{high:?}");
+    let text = erosion_in_words(&erosion);
+    assert!(text.contains("by how undecided cells end"), "{text}");
 }
 
 #[test]
