@@ -71,9 +71,9 @@ impl Refusal {
 }
 
 impl From<CaseError> for Refusal {
-    fn from(mut error: CaseError) -> Self {
-        // What is changed on the page stands in a field, not on a command line.
-        error.place = error.place.filter(|place| **place != *"--set");
+    fn from(error: CaseError) -> Self {
+        // What is changed on the page stands in a field.
+        let error = error.off_the_command_line();
         Self {
             key: Some(error.key.clone()),
             ..Self::values(error.to_string())

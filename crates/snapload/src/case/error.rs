@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// Where a value stands that a command line sets.
+pub(crate) const SET: &str = "--set";
+
 /// The longest piece of somebody's input that an error repeats, in characters.
 const LONGEST_ECHO: usize = 60;
 
@@ -94,6 +97,13 @@ impl CaseError {
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Box<str>>) -> Self {
         self.hint = Some(hint.into());
+        self
+    }
+
+    /// The same for whoever has no command line: a place on it is left out.
+    #[must_use]
+    pub fn off_the_command_line(mut self) -> Self {
+        self.place = self.place.filter(|place| !place.starts_with(SET));
         self
     }
 

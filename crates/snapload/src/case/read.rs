@@ -2,7 +2,7 @@
 //! files opens them.
 
 use crate::case::entries::Entries;
-use crate::case::error::{CaseError, echo};
+use crate::case::error::{CaseError, SET, echo};
 use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
 use toml::Spanned;
@@ -71,12 +71,12 @@ impl Entries {
             let known = table.key(path, key);
             known.map_err(|error| error.given(&value))?;
             indices.try_for_each(|index| {
-                self.give(table.name, index, key, value.clone(), "--set")?;
+                self.give(table.name, index, key, value.clone(), SET)?;
                 self.keep_written(written.clone());
                 Ok(())
             })
         };
-        change().map_err(|error| error.at("--set"))
+        change().map_err(|error| error.at(SET))
     }
 
     /// Which key of which tables a path means; of all where no number is said.
@@ -117,8 +117,8 @@ impl Entries {
         } = self.schema;
         let headed = tables.iter().all(|table| table.heading != Heading::None);
         let form = if headed { "TABLE.KEY" } else { "KEY" };
-        let said = format!("no value; write --set {form}=VALUE, such as --set {example}");
-        CaseError::syntax(said).at(format!("--set {text:?}"))
+        let said = format!("no value; write {SET} {form}=VALUE, such as {SET} {example}");
+        CaseError::syntax(said).at(format!("{SET} {text:?}"))
     }
 }
 
