@@ -264,3 +264,39 @@ def test_one_row_of_the_events_takes_the_tab_key(open_page):
     page.locator('#events-body .go[tabindex="0"]').focus()
     page.keyboard.press("ArrowDown")
     assert page.evaluate("() => document.activeElement.closest('tr').dataset.event") == "1"
+
+
+def test_a_film_comes_while_another_page_is_in_front(open_page, tmp_path: Path):
+    page = open_page("t=0&speed=5")
+    # A browser lets the timers of a page that nobody looks at ring once a second at the most.
+    page.evaluate(
+        "() => { const real = window.setTimeout; window.setTimeout = (f, ms) => real(f, Math.max(ms ?? 0, 1000)); }"
+    )
+    page.set_default_timeout(30_000)
+    assert len(download(page, "#film", tmp_path / "run.webm")) > 10_000
+
+
+@pytest.mark.parametrize("viewport", [PHONE, SMALLEST], ids=["phone", "smallest"])
+def test_the_tick_of_the_loop_has_its_word_on_a_phone(open_page, viewport):
+    page = open_page("t=0", viewport=viewport)
+    word, speed = (page.locator(one).bounding_box() for one in [".loop span", "#speed"])
+    assert word["width"] > 20 and word["x"] + word["width"] <= speed["x"]
+    assert speed["x"] + speed["width"] <= viewport["width"]
+
+
+def test_a_number_of_cells_stands_beside_its_word(open_page):
+    page = open_page("t=0&map=f_o,0.2,0.4,3,e,0.7,0.95,3,reason")
+    for side in ["x", "y"]:
+        label = page.locator("label", has=page.locator(f"#map-{side}-count")).bounding_box()
+        field = page.locator(f"#map-{side}-count").bounding_box()
+        assert label["height"] < field["height"] * 1.3
+
+
+def test_the_digits_of_the_norms_are_those_of_the_command(open_page, command):
+    page = open_page("f_o=0.31&t=0")
+    said = command("run", "--ensemble", "0", "--set", "f_o=0.31")
+    told = dict(re.findall(r"(rho\d|y_max|theta_max) = [^(]*\((\d+ digits?)\)", said))
+    assert set(told) == {"rho1", "rho2", "rho3", "y_max", "theta_max"}, said
+    for norm, digits in told.items():
+        term = page.locator("#summary div", has=page.locator(f'[data-norm="{norm}"]'))
+        expect(term.locator("small")).to_have_text(digits)

@@ -65,6 +65,8 @@ export class Run {
   end;
   /** @type {any} */
   norms;
+  /** How many digits of each are known, in words. @type {any} */
+  norms_known;
   /** @type {any} */
   horizon;
   /** @type {any} */

@@ -85,12 +85,12 @@ export class Stage {
       ["Hardest impulse", number(this.run.hardest, 5)],
       ["Time taut", `${number(timeTaut, 4)} T`],
     ];
-    // What sums up the whole run is no more certain than its end.
-    const unsure = this.run.horizon.t === null ? "" : " <small>not certain</small>";
+    // What is counted over the whole run is no more certain than its end.
+    const known = { impacts: this.run.horizon.t === null ? "" : "not certain", ...this.run.norms_known };
     $("summary").innerHTML = rows
       .map(([term, value, name = ""]) => {
         const sum = `<span data-norm="${name}">${value}</span>`;
-        return `<div><dt>${term}</dt><dd>${sum}${name ? unsure : ""}</dd></div>`;
+        return `<div><dt>${term}</dt><dd>${sum}${known[name] ? ` <small>${known[name]}</small>` : ""}</dd></div>`;
       })
       .join("");
   }

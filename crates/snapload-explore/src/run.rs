@@ -12,8 +12,8 @@ use snapload::{
 use snapload_report::MOTION;
 use snapload_report::tables::{Cell, IMPACTS, ImpactRow};
 use snapload_report::{
-    CaseEcho, EndRow, Followed, HorizonRow, MotionRow, NormsRow, end_in_words, python_lines,
-    shell_line,
+    CaseEcho, EndRow, Followed, HorizonRow, MotionRow, NormsKnown, NormsRow, end_in_words,
+    python_lines, shell_line,
 };
 use std::time::{Duration, Instant};
 
@@ -81,6 +81,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         geometry: Geometry::of(parameters, run.system()),
         end: EndInWords::of(run, parameters),
         norms: NormsRow::new(run.norms()),
+        norms_known: &followed.norms_known,
         horizon: HorizonInWords::of(&followed),
         modes: Modes::of(&run.modes()[..run.modes().len().min(MOST_SHOWN)]),
         impacts: Impacts {
@@ -124,6 +125,8 @@ struct Answer<'a> {
     geometry: Geometry,
     end: EndInWords,
     norms: NormsRow,
+    /// How many digits of each are known, in words.
+    norms_known: &'a NormsKnown,
     horizon: HorizonInWords,
     modes: Modes,
     impacts: Impacts<'a>,

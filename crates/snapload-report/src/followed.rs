@@ -1,6 +1,9 @@
 //! A run with what rounding leaves of it: what is quick to know.
+use crate::NormsKnown;
 use crate::trusted::horizon_in_words;
-use snapload::analysis::{Cancelled, Horizon, OnProgress, TrustMonitor, Uncertainty, record};
+use snapload::analysis::{
+    Cancelled, Horizon, NormErrors, OnProgress, TrustMonitor, Uncertainty, record,
+};
 use snapload::{Case, Trajectory};
 
 /// A run whose values are exact, and how far it can be trusted.
@@ -11,6 +14,8 @@ pub struct Followed {
     pub horizon: Option<Horizon>,
     /// Decimal digits that are expected to be right, impact by impact as far as the horizon.
     pub digits: Vec<f64>,
+    /// How many digits of each norm are.
+    pub norms_known: NormsKnown,
 }
 
 impl Followed {
@@ -30,6 +35,7 @@ impl Followed {
         let trust = monitor.verdict();
         Ok(Self {
             digits: trust.digits().collect(),
+            norms_known: NormsKnown::of(run.norms(), &NormErrors::of(&run, &trust)),
             horizon: trust.horizon,
             run,
         })

@@ -22,7 +22,7 @@ pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
 pub use motion::{MOTION, MotionRow, Sampling};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
-pub use summary::{case_in_words, end_in_words, summary, summary_lines};
+pub use summary::{NormsKnown, case_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
 pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};
 pub use verified::{Verified, VerifiedRow};

@@ -1,8 +1,9 @@
 //! A run in a few lines, for a person.
 use crate::digits::digits;
 use crate::{Certified, Trusted, outcome_in_words, trust_in_words};
+use serde::Serialize;
 use snapload::analysis::{NormErrors, digits_within};
-use snapload::{Mode, ModeInterval, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
+use snapload::{Mode, ModeInterval, Norms, Parameters, SETTLING_HEIGHT, Stop, Trajectory, Value};
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -51,20 +52,16 @@ pub fn summary_lines(
     lines.extend(certified.map(|certified| ("Proved", certified.in_words())));
     lines.push(("Impacts", impacts(trusted)));
     lines.extend(hardest(trusted).map(|hardest| ("Hardest", hardest)));
-    let (norms, errors) = (run.norms(), NormErrors::of(run, &trusted.trust));
-    let norm = |name: &str, value: f64, error| {
-        let known = known(value, error);
-        format!("{name} = {} ({known})", digits(value))
-    };
-    let rho1 = norm("rho1", norms.rho1, errors.rho1);
-    let rho2 = norm("rho2", norms.rho2, errors.rho2);
-    let rho3 = norm("rho3", norms.rho3, errors.rho3);
+    let norms = run.norms();
+    let known = NormsKnown::of(norms, &NormErrors::of(run, &trusted.trust));
+    let norm =
+        |name: &str, value: f64, known: &str| format!("{name} = {} ({known})", digits(value));
+    let rho1 = norm("rho1", norms.rho1, &known.rho1);
+    let rho2 = norm("rho2", norms.rho2, &known.rho2);
+    let rho3 = norm("rho3", norms.rho3, &known.rho3);
     lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
-    let y_max = norm("y_max", norms.y_max, errors.y_max);
-    let (turned, turned_known) = (
-        digits(norms.theta_max),
-        known(norms.theta_max, errors.theta_max),
-    );
+    let y_max = norm("y_max", norms.y_max, &known.y_max);
+    let (turned, turned_known) = (digits(norms.theta_max), known.theta_max);
     lines.push((
         "",
         format!("{y_max}, theta_max = {turned} rad ({turned_known})"),
@@ -110,6 +107,29 @@ fn rounded(value: &Value) -> String {
     match value {
         Value::Number(number) if text.len() > 12 => digits(*number),
         _ => text,
+    }
+}
+
+/// How many digits of each norm are known, in words.
+#[derive(Serialize)]
+pub struct NormsKnown {
+    rho1: String,
+    rho2: String,
+    rho3: String,
+    y_max: String,
+    theta_max: String,
+}
+
+impl NormsKnown {
+    /// Of norms with these errors.
+    pub fn of(norms: &Norms, errors: &NormErrors) -> Self {
+        Self {
+            rho1: known(norms.rho1, errors.rho1),
+            rho2: known(norms.rho2, errors.rho2),
+            rho3: known(norms.rho3, errors.rho3),
+            y_max: known(norms.y_max, errors.y_max),
+            theta_max: known(norms.theta_max, errors.theta_max),
+        }
     }
 }
 
