@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from explore import PHONE, ROOT, comes_true, count, drawn, exact_time, read, settled
+from explore import PHONE, ROOT, SMALLEST, comes_true, count, download, drawn, exact_time, read, settled
 from playwright.sync_api import expect
 
 SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }"
@@ -260,7 +260,7 @@ def test_a_refused_link_says_what_is_shown(open_page):
 
 def test_one_row_of_the_events_takes_the_tab_key(open_page):
     page = open_page("t=0")
-    assert page.locator('#events-body .go[tabindex="0"]').count() == 1
+    expect(page.locator('#events-body .go[tabindex="0"]')).to_have_count(1)
     page.locator('#events-body .go[tabindex="0"]').focus()
     page.keyboard.press("ArrowDown")
     assert page.evaluate("() => document.activeElement.closest('tr').dataset.event") == "1"

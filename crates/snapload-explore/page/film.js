@@ -19,6 +19,19 @@ const REST_S = 0.7;
 const BITS_A_SECOND = 6e6;
 /** Pictures that wait to be encoded. */
 const MOST_WAITING = 8;
+/** An encoder that gives nothing for so long, as one that the browser has taken away, is not waited for. */
+const STANDS_STILL_MS = 30_000;
+
+/**
+ * A pause in which the page goes on. A page that nobody looks at has a timer once a second at the most, and would need an
+ * hour for a film of two minutes; messages it has as they come.
+ */
+const pause = () =>
+  new Promise((done) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = done;
+    port2.postMessage(null);
+  });
 
 export class Film {
   /** `picture` makes shapes and a caption of a run at a time. */
@@ -69,30 +82,46 @@ export class Film {
   async #encode(codec, moving, count, onProgress) {
     const pictures = [];
     let failure = null;
+    let fail;
+    const failed = new Promise((done) => {
+      fail = (error) => {
+        failure ??= error;
+        done(null);
+      };
+    });
+    let lived = performance.now();
     const encoder = new VideoEncoder({
       output: (chunk) => {
+        lived = performance.now();
         const data = new Uint8Array(chunk.byteLength);
         chunk.copyTo(data);
         pictures.push({ data, time: Math.round(chunk.timestamp / 1000), key: chunk.type === "key" });
       },
-      error: (error) => (failure = error),
+      error: fail,
     });
+    const watch = setInterval(() => {
+      if (performance.now() - lived > STANDS_STILL_MS) fail(new Error("its encoder stands still; try once more"));
+    }, 1000);
+    const dequeued = () => new Promise((done) => encoder.addEventListener("dequeue", done, { once: true }));
     encoder.configure(this.#settings(codec));
     const canvas = document.createElement("canvas");
     Object.assign(canvas, this.size);
     const context = canvas.getContext("2d", { willReadFrequently: true });
-    for (let i = 0; i < count && !this.cancelled && !failure; i += 1) {
-      this.#paint(context, this.from + (this.to - this.from) * Math.min(i / moving, 1));
-      const frame = new VideoFrame(canvas, { timestamp: Math.round((i * 1e6) / FRAMES_A_SECOND) });
-      encoder.encode(frame, { keyFrame: i % KEY_EVERY === 0 });
-      frame.close();
-      // The page goes on, and what is encoded is written, between two pictures.
-      do await new Promise((done) => setTimeout(done, 0));
-      while (encoder.encodeQueueSize > MOST_WAITING && !failure);
-      onProgress((i + 1) / count);
+    try {
+      for (let i = 0; i < count && !this.cancelled && !failure; i += 1) {
+        this.#paint(context, this.from + (this.to - this.from) * Math.min(i / moving, 1));
+        const frame = new VideoFrame(canvas, { timestamp: Math.round((i * 1e6) / FRAMES_A_SECOND) });
+        encoder.encode(frame, { keyFrame: i % KEY_EVERY === 0 });
+        frame.close();
+        await pause();
+        while (encoder.encodeQueueSize > MOST_WAITING && !failure) await Promise.race([failed, dequeued()]);
+        onProgress((i + 1) / count);
+      }
+      if (!this.cancelled && !failure) await Promise.race([failed, encoder.flush().catch(fail)]);
+    } finally {
+      clearInterval(watch);
+      if (encoder.state !== "closed") encoder.close();
     }
-    if (!this.cancelled && !failure) await encoder.flush();
-    if (encoder.state !== "closed") encoder.close();
     if (failure) throw new Error(`The film could not be encoded: ${failure.message}`);
     return this.cancelled ? null : pictures;
   }
