@@ -62,7 +62,7 @@ export function turned([x, y], moment) {
  * flash), and perhaps the camera.
  */
 export function sceneShapes(run, t, options) {
-  const { width, height, colours } = options;
+  const { colours } = options;
   const cam = options.camera ?? camera(run, options);
   const moment = run.at(t);
   const snaps = fresh(run, t, options);
@@ -93,7 +93,7 @@ export function sceneShapes(run, t, options) {
     ...snaps.flatMap((snap) => snapShapes(run, snap, moment, cam, options)),
     ...forces(run, t, moment, cam, options),
     ...labels(run, cam, options),
-    ...scaleBar(cam, width, height, colours),
+    ...scaleBar(run, cam, options),
     ...magnifier(run, t, cam, options, path),
   ];
 }
@@ -160,8 +160,8 @@ function sea(run, t, cam, { width, height, picture, colours }) {
  * η = A sin(Ωt − kx) water at x = 0 accelerates as cos Ωt along x and as −sin Ωt upwards, which is +sin Ωt along y.
  */
 function surfaceLine(run, t, cam, width) {
-  const { f_o, nu, omega } = run.values;
-  const height = 0.045 * cam.scale * Math.tanh(2 * Math.abs(f_o)) * cam.up;
+  const { nu, omega } = run.values;
+  const height = waveHeight(run, cam) * cam.up;
   const level = cam.level(cam.surface);
   const k = Math.sign(nu * omega || 1) * 3.4;
   const points = [];
@@ -173,6 +173,9 @@ function surfaceLine(run, t, cam, width) {
 }
 
 /** The path of the centre up to t: its last stretch in full, what lies longer back paler. */
+/** How far a crest is drawn above the still water [px]. */
+const waveHeight = (run, cam) => 0.045 * cam.scale * Math.tanh(2 * Math.abs(run.values.f_o));
+
 function path(columns, t, cam, style, horizon, past) {
   const { x, y } = columns;
   const end = columns.t.findIndex((time) => time > t);
@@ -372,17 +375,19 @@ function labels(run, cam, { width, height, colours, view }) {
     shapes.push({ ...text, text: "sea floor", at: [width / 2, floor + (below > 0 ? 24 : -16)], align: "center" });
   }
   if (inside(surface)) {
-    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + (below > 0 ? 30 : -22)] });
+    const clear = waveHeight(run, cam) + (below > 0 ? 17 : 7);
+    shapes.push({ ...text, text: "sea surface (a sketch)", at: [12, surface + below * Math.max(clear, below > 0 ? 30 : 22)] });
   }
   return shapes;
 }
 
-function scaleBar(cam, width, height, colours) {
+function scaleBar(run, cam, { width, height, colours }) {
   const nice =
     [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001].find((l) => l * cam.scale < 0.22 * width) ?? 1e-3;
   const length = nice * cam.scale;
-  // Just below the surface where that is in view, else at the edge.
-  const surface = cam.level(cam.surface) + 26 * cam.up;
+  // Just within the water where its surface is in view, clear of the troughs with its number above it; else at the edge.
+  const clear = waveHeight(run, cam) + (cam.up > 0 ? 24 : 8);
+  const surface = cam.level(cam.surface) + Math.max(clear, 26) * cam.up;
   const y = surface > 20 && surface < height - 8 ? surface : 24;
   const x = width - 14 - length;
   const ends = [x, x + length].map((px) => ({

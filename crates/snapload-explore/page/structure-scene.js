@@ -28,7 +28,7 @@ export function structureCamera(run, { width, height, zoom }) {
   const { geometry, waves, reach } = run;
   const size = Math.hypot(geometry.width, geometry.outline === "circle" ? 0 : geometry.height) / 2;
   const anchors = geometry.lines.map(({ anchor }) => anchor);
-  const crest = Math.min(waves.reduce((sum, [amplitude]) => sum + amplitude, 0), 2.2 * rms(waves));
+  const crest = crestOf(waves);
   const xs = [...anchors.map(([x]) => x), reach.x[0] - size, reach.x[1] + size];
   const [low, high] = [-geometry.depth, Math.max(crest, reach.z[1] + size) + 0.05 * geometry.depth];
   const [left, right] = [Math.min(...xs), Math.max(...xs)];
@@ -42,6 +42,9 @@ export function structureCamera(run, { width, height, zoom }) {
   const unplace = ([x, y]) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale];
   return { place, unplace, scale, whole, up: -1, level: (z) => place([0, z])[1] };
 }
+
+/** How high crests are, and deep troughs: those of a sea but for rare ones. */
+const crestOf = (waves) => Math.min(waves.reduce((sum, [amplitude]) => sum + amplitude, 0), 2.2 * rms(waves));
 
 /** The standard deviation of the surface times √2: the amplitude of one wave, and about half of Hs/√2 of a sea. */
 const rms = (waves) => Math.sqrt(waves.reduce((sum, [amplitude]) => sum + amplitude * amplitude, 0)) || 0.01;
@@ -69,7 +72,7 @@ export function structureShapes(run, t, options) {
     ...(elastic ? besideShapes(run, elastic, cam, colours) : []),
     ...snaps.flatMap((snap) => snapShapes(run, snap, moment, cam, options)),
     ...lines.flatMap((line, i) => labelShapes(run, i, moment, cam, options)),
-    ...scaleBar(cam, options),
+    ...scaleBar(run, cam, options),
   ];
 }
 
@@ -238,9 +241,13 @@ function labelShapes(run, i, moment, cam, { colours, height }) {
   ];
 }
 
-function scaleBar(cam, { width, colours }) {
+/** In the water, clear of its troughs, where there is room; else at the upper edge. */
+function scaleBar(run, cam, { width, height, colours }) {
   const nice = [100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find((l) => l * cam.scale < 0.2 * width) ?? 0.1;
-  const [length, y] = [nice * cam.scale, 18];
+  const length = nice * cam.scale;
+  const trough = cam.level(-crestOf(run.waves)) + 14;
+  const floor = Math.min(cam.level(-run.geometry.depth), height);
+  const y = trough > 18 && trough < floor - 30 ? trough : 18;
   const x = width - 14 - length;
   const mark = (px) => [
     [px, y - 4],
