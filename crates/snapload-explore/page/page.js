@@ -1,5 +1,6 @@
 // What every page has around its content: a note, the theme, files that are opened, and how long a picture took.
 
+import { fetchStructureFile } from "./api.js";
 import { $ } from "./dom.js";
 import { chooseTheme, chosenTheme, keep, kept, onSystemScheme, THEMES } from "./theme.js";
 
@@ -54,7 +55,9 @@ export function purposeAndSkip(name) {
 const OPENED = "snapload-structure";
 export const openedStructure = () => JSON.parse(sessionStorage.getItem(OPENED) ?? "null");
 
-export function openStructure(file) {
+/** Goes there with a file; one that can not be a structure is refused here, where it was opened. */
+export async function openStructure(file) {
+  await fetchStructureFile(file);
   sessionStorage.setItem(OPENED, JSON.stringify(file));
   location.href = "structure.html";
 }

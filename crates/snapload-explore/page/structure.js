@@ -309,10 +309,8 @@ class Page {
   /** The case file of a structure is opened; one of the thesis's model has the other page. */
   async open(file) {
     const { structure, values } = await fetchCase(file);
-    if (structure) {
-      await fetchStructureFile(file);
-      openStructure(file);
-    } else location.href = `index.html#${caseFragment(values)}`;
+    if (structure) await openStructure(file);
+    else location.href = `index.html#${caseFragment(values)}`;
   }
 
   tools() {

@@ -29,6 +29,9 @@ pub(crate) enum WaterKind {
 /// Tables that stand for waves, with the water that each is.
 const WATERS: [(&str, WaterKind); 2] = [("wave", WaterKind::Wave), ("sea", WaterKind::Sea)];
 
+/// The keys of `[float]` that name files.
+const FILES: [&str; 2] = ["file", "memory"];
+
 /// A case file that was opened on the page.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -83,16 +86,31 @@ impl Opened {
 
     /// The structure.
     pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
-        match &self.folder {
-            Some(folder) => Structure::from_entries_beside(&self.entries, folder),
-            None if self.entries.count("float") > 0 => Err(CaseError::value(
-                "float.file",
-                "(given)",
-                "nothing in a case that is opened on the page, which finds no files",
-            )
-            .with_hint("begin with it: snapload explore CASE.toml")),
-            None => Structure::from_entries(&self.entries),
+        let Some(folder) = &self.folder else {
+            self.names_no_file()?;
+            return Structure::from_entries(&self.entries);
+        };
+        Structure::from_entries_beside(&self.entries, folder)
+    }
+
+    /// That the case says all by itself: what a browser hands over has no folder, and what lies where
+    /// the program was begun may be another body's.
+    fn names_no_file(&self) -> Result<(), CaseError> {
+        for index in 0..self.entries.count("float") {
+            let fields = self.entries.table("float", index);
+            for key in FILES {
+                if let Some(value) = fields.given(key) {
+                    let allowed = "nothing in a case that is opened on the page, which reads no files; \
+                                   without it a body floats on textbook values of its section";
+                    let begin = format!(
+                        "begin with it where its files are: snapload explore {}",
+                        self.name
+                    );
+                    return Err(fields.refuse(key, value, allowed).with_hint(begin));
+                }
+            }
         }
+        Ok(())
     }
 
     /// The same with no other waves than of this kind.
