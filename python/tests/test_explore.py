@@ -74,6 +74,7 @@ def test_a_field_takes_what_a_slider_does_not(open_page, command_json):
 )
 def test_a_bad_value_is_refused_in_the_words_of_the_command(open_page, field, text, words):
     page = open_page(refused=1)
+    comes_true(page, lambda: times(page) != [])
     kept = times(page)
     page.locator(f"#field-{field}").fill(text)
     page.locator(f"#field-{field}").press("Enter")

@@ -1,6 +1,6 @@
 // θ, v_n, tensions and energy against time.
 
-import { drawColumn, drawMark, label, span } from "./plot.js";
+import { drawColumn, drawMarks, label, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { fixed, number } from "./words.js";
 
@@ -49,12 +49,13 @@ function line(name) {
 }
 
 function drawSnaps(context, frame, run, { colours, pins }) {
-  const marks = ({ impacts }, colour, size) =>
-    impacts.t.forEach((t, i) => {
-      if (t < frame.x0 || t > frame.x1 || !(impacts.v_n[i] > 0)) return;
-      context.strokeStyle = colour(impacts.cable[i]);
-      drawMark(context, impacts.cable[i], frame.x(t), frame.y(impacts.v_n[i]), size);
+  const marks = ({ impacts }, colourOf, size) => {
+    const shown = impacts.t.flatMap((t, i) => {
+      const there = t >= frame.x0 && t <= frame.x1 && impacts.v_n[i] > 0;
+      return there ? [{ cable: impacts.cable[i], x: frame.x(t), y: frame.y(impacts.v_n[i]) }] : [];
     });
+    drawMarks(context, shown, colourOf, size);
+  };
   for (const pin of pins) marks(pin.run, () => pin.colour, 2.2);
   marks(run, (cable) => colours[`cable-${cable}`], 2.8);
 }
@@ -71,15 +72,7 @@ function drawTensions(context, frame, run, { colours }) {
   for (const cable of [1, 2]) {
     const T = run.motion[`T${cable}`];
     context.strokeStyle = colours[`cable-${cable}`];
-    context.beginPath();
-    let drawing = false;
-    for (let i = from; i < to; i += 1) {
-      const taut = T[i] > 0;
-      if (taut && drawing) context.lineTo(frame.x(t[i]), frame.y(T[i]));
-      else if (taut) context.moveTo(frame.x(t[i]), frame.y(T[i]));
-      drawing = taut;
-    }
-    context.stroke();
+    drawColumn(context, frame, t, T, from, to, (i) => T[i] > 0);
   }
 }
 

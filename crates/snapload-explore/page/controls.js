@@ -1,5 +1,6 @@
 // A slider and a field for every key, from the schema.
 
+import { mark, put } from "./dom.js";
 import { plain, prose, symbolHtml, unitText } from "./words.js";
 import { readValue } from "./state.js";
 
@@ -228,19 +229,17 @@ export class Controls {
       const follows = given === undefined && key.default_in_words !== "" && effective[name] !== undefined;
       const value = follows ? effective[name] : this.state.value(name);
       const text = follows ? rounded(value) : plain(value);
-      if (value === null && key.default_in_words) field.placeholder = key.default_in_words;
-      if (key.kind.type === "flag") field.checked = value;
-      else if (this.typing !== name) field.value = text;
-      if (reset) {
-        reset.hidden = !(name in this.state.values);
-      }
-      if (slider && document.activeElement !== slider) slider.value = value ?? slider.min;
-      if (slider) slider.setAttribute("aria-valuetext", `${text} ${unitText(key.unit)}`.trim());
+      if (value === null && key.default_in_words) put(field, { placeholder: key.default_in_words });
+      if (key.kind.type === "flag") put(field, { checked: value });
+      else if (this.typing !== name) put(field, { value: text });
+      if (reset) put(reset, { hidden: !(name in this.state.values) });
+      if (slider && document.activeElement !== slider) put(slider, { value: String(value ?? slider.min) });
+      if (slider) mark(slider, { "aria-valuetext": `${text} ${unitText(key.unit)}`.trim() });
       // What is given all the same is refused by the server, and has to be open to be mended.
       const reason = given === undefined ? this.whyNot(name, this.state) : undefined;
-      field.disabled = reason !== undefined;
-      if (slider) slider.disabled = field.disabled;
-      Object.assign(why, { textContent: reason ?? "", hidden: !reason });
+      put(field, { disabled: reason !== undefined });
+      if (slider) put(slider, { disabled: field.disabled });
+      put(why, { textContent: reason ?? "", hidden: !reason });
     }
   }
 
@@ -258,8 +257,8 @@ export class Controls {
 
   clearError() {
     for (const { error, field } of this.rows.values()) {
-      error.hidden = true;
-      field.removeAttribute("aria-invalid");
+      put(error, { hidden: true });
+      mark(field, { "aria-invalid": null });
     }
   }
 }

@@ -2,7 +2,7 @@
 
 import { Runner, fetchCase, fetchSchema } from "./api.js";
 import { Charts } from "./charts.js";
-import { $ } from "./dom.js";
+import { $, put } from "./dom.js";
 import { EventTable } from "./events.js";
 import { Hands } from "./hands.js";
 import { Keyboard } from "./keyboard.js";
@@ -30,6 +30,8 @@ const SAMPLES = { first: 1200, finer: 3000 };
 const LONG_T = 20;
 const PURPOSE_READ = "snapload-purpose-read";
 const REST_MS = 300;
+/** So long after a picture nobody drags any more. */
+const LOOK_UP_MS = 100;
 
 chooseTheme(chosenTheme());
 
@@ -74,10 +76,7 @@ class Page {
     this.events = new EventTable({ onJump: jump });
     this.map = new SweepMap(this.state, {
       colours,
-      onPick: (values) => {
-        this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
-        this.link.write({ now: true });
-      },
+      onPick: (values) => this.#begin(values),
     });
     this.exports = new Take({
       state: this.state,
@@ -94,10 +93,7 @@ class Page {
     this.proof = new Proof();
     this.longRun = new LongRun({
       values: () => this.state.values,
-      onPick: (start) => {
-        this.state.set({ values: { ...this.state.values, ...start }, t: 0, window: null });
-        this.link.write({ now: true });
-      },
+      onPick: (start) => this.#begin(start),
     });
     this.trajectory = new Trajectory($("trajectory"), { colours, onJump: jump, onHover: hover });
     this.runner = new Runner({
@@ -119,7 +115,13 @@ class Page {
     this.ask();
     // Who opens the page sees at once that it moves; a link is shown at its own time.
     this.playsAtOnce = fresh && !stillness.matches;
-    onResize(() => this.drawAll());
+    onResize(() => this.redraw());
+  }
+
+  /** Some values are others from now on: it begins anew, with a step to go back. */
+  #begin(values) {
+    this.state.set({ values: { ...this.state.values, ...values }, t: 0, window: null });
+    this.link.write({ now: true });
   }
 
   /** Follows a change of a value by hand; settled: not being dragged. */
@@ -136,6 +138,7 @@ class Page {
     if (asked === this.asked) return;
     this.asked = asked;
     clearTimeout(this.refining);
+    clearTimeout(this.later);
     this.runner.ask({ values, ghost, samples: SAMPLES.first }, since);
   }
 
@@ -143,21 +146,29 @@ class Page {
     this.run = new Run(answer);
     const latest = this.asked === keyOf(question);
     if (latest) {
-      $("failed").hidden = true;
+      put($("failed"), { hidden: true });
       this.controls.clearError();
       if (question.ghost === this.state.ghost) this.stage.refuseGhost("");
-      this.controls.show(answer.values);
     }
     this.stage.take(this.run);
     this.transport.take(this.run);
-    this.proof.take(question.values);
-    this.longRun.take(question.values);
     this.#keepTime();
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
+    this.#drawNow();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
     if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
+    else this.tell(this.run, question);
+  }
+
+  /** Says in words what the picture shows. */
+  tell(run, question) {
+    if (this.run !== run) return;
+    this.stage.tell();
+    this.proof.take(question.values);
+    this.longRun.take(question.values);
+    if (this.asked === keyOf(question)) this.controls.show(run.values);
   }
 
   /** A shorter run is shown at its end; a longer one after it, at the time that was looked at before. */
@@ -167,16 +178,23 @@ class Page {
     this.keptTime = kept > this.run.tEnd ? kept : null;
   }
 
-  /** What follows the picture: how long it took, what is read rather than seen, and more rows of a long run. */
+  /** What follows the picture: how long it took, its words, what is looked up in it, and more rows of a long run. */
   afterwards(question, since, latest) {
-    paintedSince(since);
+    const { run } = this;
+    paintedSince(since, () => this.tell(run, question));
+    this.#lookUp();
+    if (latest) this.#refine();
+  }
+
+  /** What is looked up rather than seen follows when the values rest. */
+  #lookUp() {
     clearTimeout(this.later);
     this.later = setTimeout(() => {
+      if (!this.run) return;
       this.events.take(this.run);
       this.events.show(this.state.t, true);
       this.exports.take(this.run);
-    }, 60);
-    if (latest) this.#refine();
+    }, LOOK_UP_MS);
   }
 
   /** More rows of a long run that stays, above all where it is looked at. */
@@ -194,6 +212,7 @@ class Page {
   fail(error, question) {
     if (error.key === "ghost") return this.failGhost(error, question);
     this.controls.showError(error);
+    this.#lookUp();
     // A link may begin with values that can not be run: then there is the case of the start to look at.
     const shown = this.run ? "the last values that could be run" : `the case of the start, ${this.state.schema.start.name}`;
     $("failed").textContent = `Not run: ${error.message}\nThe picture is that of ${shown}.`;
@@ -232,7 +251,7 @@ class Page {
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
     if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
-    $("axes").value = this.state.plane;
+    put($("axes"), { value: this.state.plane });
     this.stage.showChoices();
     this.transport.show();
     this.link.write();
@@ -241,6 +260,12 @@ class Page {
   setHover(hover) {
     this.hover = hover;
     this.drawMoment();
+  }
+
+  /** Everything, as after a change of the theme or of the window's size. */
+  redraw() {
+    this.drawAll();
+    this.map.draw();
   }
 
   drawAll() {
@@ -256,14 +281,18 @@ class Page {
   drawMoment() {
     if (!this.run || this.framed) return;
     // However many events ask for it, a picture is painted once a frame.
-    this.framed = requestAnimationFrame(() => {
-      this.framed = null;
-      this.stage.draw();
-      this.charts.cursor(this.state.t, this.hover);
-      this.trajectory.cursor(this.state.t, this.hover);
-      this.transport.show();
-      this.events.show(this.state.t, !this.playback.playing);
-    });
+    this.framed = requestAnimationFrame(() => this.#drawNow());
+  }
+
+  /** An answer is drawn as it comes: by the next frame it is there. */
+  #drawNow() {
+    cancelAnimationFrame(this.framed);
+    this.framed = null;
+    this.stage.draw();
+    this.charts.cursor(this.state.t, this.hover);
+    this.trajectory.cursor(this.state.t, this.hover);
+    this.transport.show();
+    this.events.show(this.state.t, !this.playback.playing);
   }
 
   cases() {
@@ -287,8 +316,8 @@ class Page {
 
   showCase() {
     const name = this.state.caseName;
-    $("case").value = name ?? "";
-    $("case").lastElementChild.hidden = name !== null;
+    put($("case"), { value: name ?? "" });
+    put($("case").lastElementChild, { hidden: name !== null });
   }
 
   /** A case file is opened here; that of a structure has a page of its own. */
@@ -301,7 +330,7 @@ class Page {
   }
 
   tools() {
-    themeButton(() => this.drawAll());
+    themeButton(() => this.redraw());
     opening((file) => this.open(file));
     purposeAndSkip(PURPOSE_READ);
     for (const [name, { words }] of Object.entries(PLANES)) $("axes").append(new Option(words, name));

@@ -10,13 +10,14 @@ export function note(text) {
   $("note").hidden = !text;
 }
 
-/** Says how long it took from an event to the picture that follows from it. */
-export function paintedSince(since) {
+/** Says how long it took from an event to the picture that follows from it, and goes on with what can wait for that. */
+export function paintedSince(since, then = () => {}) {
   requestAnimationFrame(() => {
     // After the frame's paint, and not before it.
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
       const took = performance.now() - since;
+      then();
       $("took").textContent = `picture in ${Math.round(took)} ms`;
       $("took").dataset.ms = took.toFixed(2);
       $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;

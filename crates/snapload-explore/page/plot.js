@@ -128,13 +128,33 @@ export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.restore();
 }
 
-/** A column against another as one line, from row to row. */
-export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length) {
+/** Of points nearer together than this [px] one is drawn: the others are not seen, and take their time. */
+export const NEAR_PX = 0.4;
+
+/**
+ * A column against another as one line, from row to row, with no line at rows that are not `there`.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Frame} frame
+ * @param {number[]} xs
+ * @param {number[]} ys
+ * @param {number} from
+ * @param {number} to
+ * @param {(row: number) => boolean} there
+ */
+export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length, there = () => true) {
+  let [lastX, lastY, drawing] = [NaN, NaN, false];
   context.beginPath();
   for (let i = from; i < to; i += 1) {
+    if (!there(i)) {
+      drawing = false;
+      continue;
+    }
     const [x, y] = [frame.x(xs[i]), frame.y(ys[i])];
-    if (i === from) context.moveTo(x, y);
-    else context.lineTo(x, y);
+    const near = Math.abs(x - lastX) < NEAR_PX && Math.abs(y - lastY) < NEAR_PX;
+    if (drawing && near && i < to - 1 && there(i + 1)) continue;
+    if (drawing) context.lineTo(x, y);
+    else context.moveTo(x, y);
+    [lastX, lastY, drawing] = [x, y, true];
   }
   context.stroke();
 }
@@ -149,18 +169,31 @@ const MARKS = [
   [[[0, -1.4], [1.4, 0], [0, 1.4], [-1.4, 0], [0, -1.4]]],
 ];
 
-/** The mark of a snap: a cross for cable 1, a ring for cable 2, and other shapes for more. */
-export function drawMark(context, cable, x, y, size) {
+/**
+ * The marks of snaps, each { cable, x, y }: a cross for cable 1, a ring for cable 2, and other shapes for more. Those of
+ * one colour are painted at once, as each painting takes its time.
+ */
+export function drawMarks(context, marks, colourOf, size) {
+  for (const cable of new Set(marks.map((mark) => mark.cable))) {
+    context.strokeStyle = colourOf(cable);
+    context.beginPath();
+    for (const mark of marks) if (mark.cable === cable) addMark(context, cable, mark.x, mark.y, size);
+    context.stroke();
+  }
+}
+
+function addMark(context, cable, x, y, size) {
   const strokes = MARKS[(cable - 1) % MARKS.length];
-  context.beginPath();
-  if (!strokes) context.arc(x, y, size * 1.1, 0, 2 * Math.PI);
+  if (!strokes) {
+    context.moveTo(x + size * 1.1, y);
+    context.arc(x, y, size * 1.1, 0, 2 * Math.PI);
+  }
   for (const points of strokes ?? []) {
     points.forEach(([dx, dy], i) => {
       if (i) context.lineTo(x + dx * size, y + dy * size);
       else context.moveTo(x + dx * size, y + dy * size);
     });
   }
-  context.stroke();
 }
 
 /** Low and high of a column with some air; never empty. */

@@ -3,6 +3,7 @@
 import { eventWords } from "./events.js";
 import { hang } from "./hang.js";
 import { magnifier } from "./magnifier.js";
+import { NEAR_PX } from "./plot.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
@@ -172,10 +173,10 @@ function surfaceLine(run, t, cam, width) {
   return points;
 }
 
-/** The path of the centre up to t: its last stretch in full, what lies longer back paler. */
 /** How far a crest is drawn above the still water [px]. */
 const waveHeight = (run, cam) => 0.045 * cam.scale * Math.tanh(2 * Math.abs(run.values.f_o));
 
+/** The path of the centre up to t: its last stretch in full, what lies longer back paler. */
 function path(columns, t, cam, style, horizon, past) {
   const { x, y } = columns;
   const end = columns.t.findIndex((time) => time > t);
@@ -185,7 +186,12 @@ function path(columns, t, cam, style, horizon, past) {
   const known = lost < 0 ? count : Math.min(lost, count);
   const piece = (from, to, rest) => {
     const points = [];
-    for (let i = Math.max(from, 0); i < to; i += 1) points.push(cam.place([x[i], y[i]]));
+    for (let i = Math.max(from, 0); i < to; i += 1) {
+      const at = cam.place([x[i], y[i]]);
+      const last = points.at(-1);
+      const near = last && Math.abs(at[0] - last[0]) < NEAR_PX && Math.abs(at[1] - last[1]) < NEAR_PX;
+      if (!near || i === to - 1) points.push(at);
+    }
     return points.length > 1 ? [{ points, ...style, ...rest }] : [];
   };
   const old = Math.max(recent, 0);

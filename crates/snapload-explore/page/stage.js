@@ -1,6 +1,6 @@
 // The scene on its canvas, what is said of the run, and how the scene is to be shown.
 
-import { $ } from "./dom.js";
+import { $, mark, put } from "./dom.js";
 import { eventWords } from "./events.js";
 import { prepare } from "./plot.js";
 import { readValue } from "./state.js";
@@ -42,14 +42,17 @@ export class Stage {
 
   /** Shows at its field why the ghost can not be run; with no text, that nothing is wrong with it. */
   refuseGhost(text) {
-    $("error-ghost").textContent = text;
-    $("error-ghost").hidden = !text;
-    if (text) $("ghost-size").setAttribute("aria-invalid", "true");
-    else $("ghost-size").removeAttribute("aria-invalid");
+    put($("error-ghost"), { textContent: text, hidden: !text });
+    mark($("ghost-size"), { "aria-invalid": text ? "true" : null });
   }
 
   take(run) {
     this.run = run;
+  }
+
+  /** Says what comes of the run. */
+  tell() {
+    const { run } = this;
     this.#summarise();
     clearTimeout(this.saying);
     const words = this.#words();
@@ -130,17 +133,17 @@ export class Stage {
       ? `, ${moment.taut.map((cable) => number(moment.tensions[cable - 1], 3)).join(" and ")} F`
       : "";
     const happens = this.playback.playing ? "" : eventWords(this.run, t);
-    $("caption").textContent = `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}`;
-    if (!this.playback.playing) this.canvas.setAttribute("aria-label", sceneWords(this.run, t));
+    put($("caption"), { textContent: `${happens ? `${happens}; ` : ""}${modeName(moment.taut)}${taut}${past}` });
+    if (!this.playback.playing) mark(this.canvas, { "aria-label": sceneWords(this.run, t) });
   }
 
   /** Shows how the scene is chosen to be shown. */
   showChoices() {
     const { picture, view, ghost } = this.state;
     for (const [name, value] of Object.entries({ picture, view })) {
-      for (const radio of radios(name)) radio.checked = radio.value === value;
+      for (const radio of radios(name)) put(radio, { checked: radio.value === value });
     }
-    $("ghost").checked = ghost !== null;
-    if (ghost !== null) $("ghost-size").value = plain(ghost);
+    put($("ghost"), { checked: ghost !== null });
+    if (ghost !== null) put($("ghost-size"), { value: plain(ghost) });
   }
 }

@@ -1,6 +1,6 @@
 // The motion of a structure against time: surface, place, rotation, and the tensions against what breaks the lines.
 
-import { drawColumn, drawMark, span } from "./plot.js";
+import { drawColumn, drawMarks, span } from "./plot.js";
 import { TimeCharts, above, rows } from "./time-charts.js";
 import { lineColour } from "./theme.js";
 import { fixed, number, round } from "./words.js";
@@ -76,16 +76,7 @@ function drawTensions(context, frame, run, { colours }) {
     context.setLineDash([]);
   }
   const draw = ({ t, tensions }, i) => {
-    const [from, to] = rows(t, [frame.x0, frame.x1]);
-    context.beginPath();
-    let drawing = false;
-    for (let k = from; k < to; k += 1) {
-      const taut = tensions[i][k] > 0;
-      if (taut && drawing) context.lineTo(frame.x(t[k]), frame.y(tensions[i][k]));
-      else if (taut) context.moveTo(frame.x(t[k]), frame.y(tensions[i][k]));
-      drawing = taut;
-    }
-    context.stroke();
+    drawColumn(context, frame, t, tensions[i], ...rows(t, [frame.x0, frame.x1]), (k) => tensions[i][k] > 0);
   };
   run.lines.forEach((_, i) => {
     context.strokeStyle = lineColour(colours, i + 1);
@@ -100,11 +91,11 @@ function drawTensions(context, frame, run, { colours }) {
   });
   const { t, peak, line: lines } = run.snaps;
   context.lineWidth = 1.3;
-  t.forEach((time, i) => {
-    if (time < frame.x0 || time > frame.x1 || peak[i] === null) return;
-    context.strokeStyle = lineColour(colours, lines[i]);
-    drawMark(context, lines[i], frame.x(time), frame.y(peak[i]), 2.8);
+  const shown = t.flatMap((time, i) => {
+    const there = time >= frame.x0 && time <= frame.x1 && peak[i] !== null;
+    return there ? [{ cable: lines[i], x: frame.x(time), y: frame.y(peak[i]) }] : [];
   });
+  drawMarks(context, shown, (line) => lineColour(colours, line), 2.8);
 }
 
 /** Everything there is to say of a snap, in a line. */

@@ -183,6 +183,7 @@ export const above = ([, high]) => [0, high];
  * The rows that show a range of time: one more on either side, so that lines leave the frame.
  * @param {number[]} t
  * @param {number[]} range
+ * @returns {[number, number]}
  */
 export function rows(t, [from, to]) {
   const first = t.findIndex((time) => time > from);

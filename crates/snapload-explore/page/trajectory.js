@@ -1,7 +1,7 @@
 // The path of the body's centre, with the boundaries at which a cable is taut; or another plane of the motion.
 
 import { about } from "./charts.js";
-import { FONT, Frame, drawAxes, drawColumn, drawMark, inside, label, prepare, span, stroke, ticks } from "./plot.js";
+import { FONT, Frame, drawAxes, drawColumn, drawMarks, inside, label, prepare, span, stroke, ticks } from "./plot.js";
 import { fixed, number } from "./words.js";
 
 const MARGIN = { left: 50, right: 10, top: 8, bottom: 34 };
@@ -65,7 +65,10 @@ export class Trajectory {
     return best[1];
   }
 
-  /** The columns of a motion that are drawn against each other. */
+  /**
+   * The columns of a motion that are drawn against each other.
+   * @returns {[number[], number[]]}
+   */
   #columns(motion) {
     return [motion[this.plane.x], motion[this.plane.y]];
   }
@@ -206,11 +209,10 @@ export class Trajectory {
     if (t.length > MOST_MARKS) return;
     const [first, last] = [this.run.motion.t[this.rows[0]], this.run.motion.t[this.rows[1] - 1]];
     context.lineWidth = 1.2;
-    t.forEach((time, i) => {
-      if (time < first || time > last) return;
-      context.strokeStyle = colours[`cable-${cable[i]}`];
-      drawMark(context, cable[i], this.frame.x(x[i]), this.frame.y(y[i]), 2.3);
-    });
+    const shown = t.flatMap((time, i) =>
+      time < first || time > last ? [] : [{ cable: cable[i], x: this.frame.x(x[i]), y: this.frame.y(y[i]) }],
+    );
+    drawMarks(context, shown, (one) => colours[`cable-${one}`], 2.3);
   }
 
   #ghost(context, colours) {
@@ -326,6 +328,7 @@ function set(element, attributes) {
  * The first row of a range of time, and the one after its last.
  * @param {number[]} t
  * @param {number[]} range
+ * @returns {[number, number]}
  */
 function rowsWithin(t, [from, to]) {
   let [low, high] = [0, t.length];

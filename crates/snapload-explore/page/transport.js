@@ -1,6 +1,6 @@
 // The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
 
-import { $ } from "./dom.js";
+import { $, mark, put } from "./dom.js";
 import { prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
@@ -59,16 +59,17 @@ export class Transport {
     if (!this.run) return;
     const { t, speed, window } = this.state;
     const [from, to] = window ?? [0, this.run.tEnd];
-    Object.assign($("scrub"), { min: from, max: to, value: t });
+    put($("scrub"), { min: String(from), max: String(to) });
+    put($("scrub"), { value: String(t) });
     const words = this.words(t, this.run);
-    if (!this.playback.playing) $("scrub").setAttribute("aria-valuetext", words.value);
-    $("clock").dataset.t = t;
-    $("clock").value = words.clock;
-    $("counted").textContent = words.counted;
-    $("speed").value = speed;
-    $("loop").checked = this.state.loop;
-    $("window-words").value = window ? `t ${number(from, 4)} to ${number(to, 4)}` : "";
-    $("zoom-all").disabled = window === null;
+    if (!this.playback.playing) mark($("scrub"), { "aria-valuetext": words.value });
+    mark($("clock"), { "data-t": String(t) });
+    put($("clock"), { value: words.clock });
+    put($("counted"), { textContent: words.counted });
+    put($("speed"), { value: String(speed) });
+    put($("loop"), { checked: this.state.loop });
+    put($("window-words"), { value: window ? `t ${number(from, 4)} to ${number(to, 4)}` : "" });
+    put($("zoom-all"), { disabled: window === null });
   }
 
   /** The time as it is read aloud and shown, and what happened before it. */
