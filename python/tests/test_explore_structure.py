@@ -115,6 +115,30 @@ def test_a_sea_takes_the_place_of_the_wave(open_structure, command_json, tmp_pat
     comes_true(page, lambda: page.locator("#said").inner_text() != first)
 
 
+def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
+    page = open_structure(f"{SHORT}&elastic=false&t=0")
+    page.evaluate(
+        """() => {
+            window.told = [];
+            const said = document.getElementById('take-said');
+            new MutationObserver(() => window.told.push(said.textContent)).observe(said, { childList: true });
+        }"""
+    )
+    page.set_default_timeout(60_000)
+    note = download(page, '[data-file="note.html"]', tmp_path / "note.html")
+    assert note.startswith(b"<!") and b"</html>" in note
+    told = [re.search(r"of \S+: [a-z ]+, (\d+) %$", words) for words in page.evaluate("() => window.told")]
+    assert any(told), page.evaluate("() => window.told")
+    expect(page.locator("#take-said")).to_contain_text("is saved")
+    for one in ["#file-progress", "#file-cancel"]:
+        expect(page.locator(one)).to_be_hidden()
+    page.locator('[id="field-wave.height"]').fill("2.4")
+    page.locator('[data-file="note.html"]').click()
+    page.locator("#file-cancel").click()
+    expect(page.locator("#take-said")).to_contain_text("was given up")
+    expect(page.locator('[data-file="note.html"]')).to_be_enabled()
+
+
 def test_an_anchor_is_moved_by_hand(open_structure, assessed):
     page = open_structure(f"{SHORT}&t=0")
     box = page.locator("#scene").bounding_box()
@@ -204,6 +228,56 @@ def test_case_files_find_their_page(open_page, structure_url, open_at, tmp_path:
     thesis.write_text("f_o = 0.42\n", encoding="utf-8")
     page.locator("#open-case").set_input_files(thesis)
     expect(page.locator("#field-f_o")).to_have_value("0.42", timeout=30_000)
+
+
+BARGE = """
+[body]
+shape = "rectangle"
+width = 4
+height = 2
+mass = 70000
+displaced_volume = 80
+position = [0, 0]
+
+[float]
+centre_of_gravity = [0, 0]
+
+[[line]]
+anchor = [6, -10]
+fairlead = [2, -1]
+length = 9.85
+[[line]]
+anchor = [-6, -10]
+fairlead = [-2, -1]
+length = 9.85
+
+[site]
+depth = 10
+
+[wave]
+height = 0.8
+period = 6
+
+[run]
+restitution = 0.3
+duration = 60
+"""
+
+
+def test_a_body_that_floats_is_opened_unless_it_names_a_file(open_at, url, tmp_path: Path, command_json):
+    named = tmp_path / "pontoon.toml"
+    named.write_text(BARGE.replace("[float]\n", '[float]\nfile = "pontoon.nc"\n'), encoding="utf-8")
+    page = open_at(url, "t=0", refused=1)
+    page.locator("#open-case").set_input_files(named)
+    note = page.locator("#note")
+    expect(note).to_contain_text('float.file = "pontoon.nc" is not allowed')
+    expect(note).to_contain_text("snapload explore pontoon.toml")
+    barge = tmp_path / "barge.toml"
+    barge.write_text(BARGE, encoding="utf-8")
+    page.locator("#open-case").set_input_files(barge)
+    expect(page.locator("#file")).to_have_text("barge.toml", timeout=30_000)
+    answer = command_json("assess", str(barge))
+    expect(page.locator("#said")).to_have_text(answer["verdict"]["words"], timeout=30_000)
 
 
 @pytest.mark.parametrize(("viewport", "scheme"), [(DESKTOP, "light"), (PHONE, "dark")], ids=["desktop", "phone"])

@@ -115,7 +115,32 @@ function inWords(error) {
 
 /** A map line by line as it is computed; ends early when the signal aborts. */
 export async function* fetchMap(question, signal) {
-  const response = await post("api/map", question, signal);
+  yield* linesOf(await post("api/map", question, signal));
+}
+
+/**
+ * Work that takes its time and tells how far it has come: `onCome` is told of each line, { doing, percent }. Gives the
+ * text that comes of it.
+ * @param {string} path
+ * @param {object} question
+ * @param {AbortSignal} signal
+ * @param {(come: { doing: string, percent: number }) => void} onCome
+ */
+export async function fetchTold(path, question, signal, onCome) {
+  try {
+    for await (const line of linesOf(await post(path, { ...question, told: true }, signal))) {
+      if (line.error) throw new Refused(line.error.message, line.error.key);
+      if (line.answer !== undefined) return line.answer;
+      onCome(line);
+    }
+  } catch (error) {
+    throw error.name === "AbortError" ? error : inWords(error);
+  }
+  throw new Error("The answer ended early. Is snapload explore still running?");
+}
+
+/** The lines of an answer, each as it comes. */
+async function* linesOf(response) {
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   for (;;) {

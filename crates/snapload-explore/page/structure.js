@@ -1,6 +1,6 @@
 // The page of a structure: wires state, server, scene, charts and tables together.
 
-import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures } from "./api.js";
+import { Runner, fetchCase, fetchLong, fetchStructureFile, fetchStructures, fetchTold } from "./api.js";
 import { Controls } from "./controls.js";
 import { $ } from "./dom.js";
 import { Keyboard, timeKeys } from "./keyboard.js";
@@ -70,6 +70,7 @@ class Page {
       question: () => ({ case: this.state.asked }),
       address: () => this.link.address,
       path: "api/structure/export",
+      takeLong: ["note.html", "assess.json"],
       picture: { shapes: structureShapes, caption: (run, t) => `${this.state.caseName} · t = ${fixed(t, 2)} s` },
     });
     this.pins = new StructurePins(this.state, () => this.run, { onBack: (pin) => this.back(pin) });
@@ -124,6 +125,7 @@ class Page {
     clearTimeout(this.resting);
     this.background?.abort();
     this.background = null;
+    this.#tellComing("");
   }
 
   take(answer, since, question) {
@@ -169,9 +171,11 @@ class Page {
     const abort = (this.background = new AbortController());
     const current = () => this.background === abort;
     const more = async (how) => {
-      const answer = await fetchLong("api/structure/run", { ...question, ...how }, abort.signal);
+      const told = ({ doing, percent }) => current() && this.#tellComing(`${doing}, ${percent} %`);
+      const text = await fetchTold("api/structure/run", { ...question, ...how }, abort.signal, told);
       if (!current()) return;
-      this.run = new StructureRun(answer);
+      this.#tellComing("");
+      this.run = new StructureRun(JSON.parse(text));
       this.show();
     };
     try {
@@ -184,6 +188,11 @@ class Page {
       if (error.name === "AbortError" || !current()) return;
       $("preview").textContent = error.message;
     }
+  }
+
+  /** How far what follows the picture has come. */
+  #tellComing(words) {
+    $("coming").textContent = words;
   }
 
   async #stretchable(question, abort) {

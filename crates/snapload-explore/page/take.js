@@ -1,6 +1,6 @@
 // What can be taken away: files as the command writes them, the scene, the animation, and lines to copy.
 
-import { fetchFile } from "./api.js";
+import { fetchFile, fetchTold } from "./api.js";
 import { $ } from "./dom.js";
 import { Film } from "./film.js";
 import { paint, svg } from "./shapes.js";
@@ -13,9 +13,9 @@ const MAY_MS = 4000;
 export class Take {
   /**
    * `question` gives what is asked of the server now, under `path`; `now` the run that is shown; `picture` makes shapes
-   * and a caption of a run at a time.
+   * and a caption of a run at a time. Files that `take` long tell how far they have come.
    */
-  constructor({ state, stage, now, question, address, picture, path = "api/export" }) {
+  constructor({ state, stage, now, question, address, picture, path = "api/export", takeLong = [] }) {
     this.state = state;
     this.stage = stage;
     this.now = now;
@@ -24,6 +24,7 @@ export class Take {
     this.path = path;
     this.address = address;
     this.film = null;
+    this.writing = null;
     for (const button of document.querySelectorAll("[data-file]")) {
       button.addEventListener("click", () => this.#try(() => this.#file(button)));
     }
@@ -31,6 +32,8 @@ export class Take {
     $("scene-png").addEventListener("click", () => this.#try(() => this.#scenePng()));
     $("film").addEventListener("click", () => this.#try(() => this.#film()));
     $("film-cancel").addEventListener("click", () => this.film?.cancel());
+    this.takeLong = takeLong;
+    if (takeLong.length) $("file-cancel").addEventListener("click", () => this.writing?.abort());
     for (const [id, text] of [
       ["copy-shell", () => this.now().shell],
       ["copy-python", () => this.now().python],
@@ -66,11 +69,38 @@ export class Take {
     button.disabled = true;
     this.say(`${of}: writing`);
     try {
-      save(await fetchFile(`${this.path}/${name}`, this.question()), name);
+      const path = `${this.path}/${name}`;
+      if (this.takeLong.includes(name)) return await this.#long(path, name, of);
+      save(await fetchFile(path, this.question()), name);
     } finally {
       button.disabled = false;
     }
     this.say(`${of} is saved.`);
+  }
+
+  /** A file that takes long; one at a time, as each has all processors. */
+  async #long(path, name, of) {
+    this.writing?.abort();
+    const writing = (this.writing = new AbortController());
+    $("file-cancel").hidden = $("file-progress").hidden = false;
+    $("file-progress").value = 0;
+    try {
+      const text = await fetchTold(path, this.question(), writing.signal, ({ doing, percent }) => {
+        if (this.writing !== writing) return;
+        $("file-progress").value = percent / 100;
+        this.say(`${of}: ${doing}, ${percent} %`);
+      });
+      save(new Blob([text]), name);
+      this.say(`${of} is saved.`);
+    } catch (error) {
+      if (error.name !== "AbortError") throw error;
+      this.say(`${of} was given up.`);
+    } finally {
+      if (this.writing === writing) {
+        this.writing = null;
+        $("file-cancel").hidden = $("file-progress").hidden = true;
+      }
+    }
   }
 
   #shapes(scheme) {

@@ -4,7 +4,7 @@ use crate::refusal::{LARGEST_BODY, Refusal};
 use crate::request::Body;
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
-use crate::work::compute;
+use crate::work::{self, Allowance, compute};
 use crate::{basin, case_file, export, map, page, proof, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
@@ -13,8 +13,10 @@ use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router, body};
+use std::convert::Infallible;
 use std::sync::Arc;
 use tokio::sync::Semaphore;
+use tokio_stream::Stream;
 
 /// Runs at one time; others wait.
 const WORKERS: usize = 4;
@@ -150,8 +152,23 @@ async fn answer_map(
     Body(request): Body<map::Request>,
 ) -> Result<impl IntoResponse, Refusal> {
     let lines = map::lines(request, Arc::clone(&shared.mappers))?;
+    Ok(line_by_line(lines))
+}
+
+/// An answer that comes in lines, each an object of JSON.
+fn line_by_line(
+    lines: impl Stream<Item = Result<body::Bytes, Infallible>> + Send + 'static,
+) -> Response {
     let body = body::Body::from_stream(lines);
-    Ok(([(CONTENT_TYPE, "application/x-ndjson")], body))
+    ([(CONTENT_TYPE, "application/x-ndjson")], body).into_response()
+}
+
+/// Work that tells how far it has come, and at last what comes of it.
+fn told(
+    workers: &Arc<Semaphore>,
+    work: impl FnOnce(&Allowance) -> Result<Vec<u8>, Refusal> + Send + 'static,
+) -> Response {
+    line_by_line(work::told(workers, work))
 }
 
 async fn answer_export(
@@ -189,13 +206,17 @@ async fn answer_structure_file(
 async fn answer_structure_run(
     State(shared): State<Arc<Shared>>,
     Body(request): Body<structure::RunRequest>,
-) -> Result<impl IntoResponse, Refusal> {
+) -> Result<Response, Refusal> {
     let workers = Arc::clone(&shared.workers);
-    let answer = compute(&workers, move |allowance| {
+    let tells = request.told;
+    let work = move |allowance: &Allowance| {
         structure::run(&request, shared.opened.as_ref(), &shared.latest, allowance)
-    })
-    .await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer))
+    };
+    if tells {
+        return Ok(told(&workers, work));
+    }
+    let answer = compute(&workers, work).await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer).into_response())
 }
 
 async fn answer_structure_elastic(
@@ -229,9 +250,13 @@ async fn answer_structure_export(
 ) -> Result<Response, Refusal> {
     let file = structure::File::named(&name).ok_or_else(Refusal::nothing_there)?;
     let writers = Arc::clone(&shared.writers);
-    let bytes = compute(&writers, move |allowance| {
+    let tells = request.told;
+    let work = move |allowance: &Allowance| {
         file.write(&request, shared.opened.as_ref(), &shared.latest, allowance)
-    })
-    .await?;
+    };
+    if tells {
+        return Ok(told(&writers, work));
+    }
+    let bytes = compute(&writers, work).await?;
     Ok(file_named(&name, file.content_type(), bytes))
 }

@@ -37,6 +37,11 @@ impl Refusal {
         &self.message
     }
 
+    /// As the last line of an answer that was begun already.
+    pub(crate) fn in_a_line(&self) -> serde_json::Value {
+        serde_json::json!({ "key": self.key, "message": self.message })
+    }
+
     /// The same about a field of the request, whose name stands before the message.
     pub(crate) fn of_field(self, field: &str) -> Self {
         Self {

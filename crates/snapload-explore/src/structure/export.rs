@@ -24,6 +24,9 @@ pub(crate) enum File {
 #[serde(deny_unknown_fields)]
 pub(crate) struct Request {
     case: Asked,
+    /// Whether to tell how far it has come, line by line.
+    #[serde(default)]
+    pub(crate) told: bool,
 }
 
 impl File {

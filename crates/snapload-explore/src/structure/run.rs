@@ -34,6 +34,9 @@ pub(crate) struct Request {
     /// The stretch of time that is looked at \[s\]; by default that about the hardest snap.
     #[serde(default)]
     window: Option<[f64; 2]>,
+    /// Whether to tell how far it has come, line by line.
+    #[serde(default)]
+    pub(crate) told: bool,
 }
 
 /// The answer, as JSON.

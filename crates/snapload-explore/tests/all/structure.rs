@@ -212,10 +212,16 @@ fn refusals_are_those_of_the_command() {
     );
     let (key, _) = refused(json!({ "set": ["line.1.length=3"] }));
     assert!(key.contains("line") || key.contains("body"), "{key}");
-    let float = format!("{CYLINDER}[float]\nfile = \"/etc/passwd\"\n");
-    let (key, message) = refused(json!({ "file": { "name": "f.toml", "text": float } }));
-    assert_eq!(key, "float.file");
-    assert!(message.contains("snapload explore CASE.toml"), "{message}");
+    for key in ["file", "memory"] {
+        let float = format!("{CYLINDER}[float]\n{key} = \"/etc/passwd\"\n");
+        let (named, message) = refused(json!({ "file": { "name": "f.toml", "text": float } }));
+        assert_eq!(named, format!("float.{key}"));
+        let begin = "begin with it where its files are: snapload explore f.toml";
+        assert!(
+            message.contains("/etc/passwd") && message.contains(begin),
+            "{message}"
+        );
+    }
     let none = crate::common::serve();
     let answer = none.post("/api/structure/run", &json!({ "case": {} }));
     assert_eq!(answer.status, 422);
@@ -284,4 +290,91 @@ fn other_waves_are_those_of_the_note() {
     assert_eq!(cells[i * heights.len() + j].as_f64(), Some(largest));
     let sea = json!({ "case": { "water": "still" } });
     assert_eq!(serve().post("/api/structure/waves", &sea).status, 422);
+}
+
+/// A body half under water that floats on textbook values of its section.
+const BARGE: &str = r#"
+[body]
+shape = "rectangle"
+width = 4
+height = 2
+mass = 70000
+displaced_volume = 80
+position = [0, 0]
+
+[float]
+centre_of_gravity = [0, 0]
+
+[[line]]
+anchor = [6, -10]
+fairlead = [2, -1]
+length = 9.85
+[[line]]
+anchor = [-6, -10]
+fairlead = [-2, -1]
+length = 9.85
+
+[site]
+depth = 10
+
+[wave]
+height = 0.8
+period = 6
+
+[run]
+restitution = 0.3
+duration = 60
+"#;
+
+#[test]
+fn a_body_that_floats_on_textbook_values_can_be_opened() {
+    let server = crate::common::serve();
+    let file = json!({ "name": "barge.toml", "text": BARGE });
+    let told = ask(&server, "/api/structure", file.clone());
+    assert_eq!(told["floats"], true);
+    let run = ask(
+        &server,
+        "/api/structure/run",
+        json!({ "case": { "file": file } }),
+    );
+    let direct = assess(
+        Structure::parse("barge.toml", BARGE).unwrap(),
+        0,
+        &unwatched,
+    );
+    assert_eq!(
+        run["assessment"]["verdict"],
+        json!(direct.unwrap().verdict())
+    );
+}
+
+#[test]
+fn long_work_tells_how_far_it_has_come() {
+    let lines = |server: &Running, path: &str, question: Value| -> Vec<Value> {
+        let answer = server.post(path, &question);
+        assert!(answer.head.contains("application/x-ndjson"));
+        let text = String::from_utf8(answer.body).unwrap();
+        let read = |line: &str| serde_json::from_str(line).unwrap();
+        text.lines().map(read).collect()
+    };
+    let server = serve();
+    let case = json!({ "set": ["wave.height=2.3", "run.duration=60"] });
+    let path = "/api/structure/export/note.html";
+    let told = lines(&server, path, json!({ "case": case, "told": true }));
+    let (last, coming) = told.split_last().unwrap();
+    let plain = server.post(path, &json!({ "case": case }));
+    assert_eq!(
+        last["answer"].as_str().unwrap(),
+        std::str::from_utf8(&plain.body).unwrap()
+    );
+    assert!(!coming.is_empty());
+    for line in coming {
+        let percent = line["percent"].as_u64().unwrap();
+        assert!(percent <= 100 && line["doing"].is_string(), "{line}");
+    }
+    let bad = json!({ "case": { "set": ["wave.height=60"] }, "told": true });
+    let refused = lines(&server, path, bad.clone());
+    assert_eq!(refused[0]["error"]["key"], "wave.height");
+    let refused = lines(&server, "/api/structure/run", bad);
+    assert_eq!(refused[0]["error"]["key"], "wave.height");
 }
