@@ -1,4 +1,4 @@
-"""The long run on the page of `snapload explore`: sections, and the safe part of the map's window."""
+"""The long run on the page of `snapload explore`: sections, safe basins and their erosion."""
 
 from __future__ import annotations
 
@@ -27,16 +27,64 @@ def test_a_section_is_drawn_and_a_point_of_it_is_a_start(open_page):
     expect(page.locator("#section-said")).to_have_text("")
 
 
-def test_the_safe_part_of_the_window_of_the_map_is_told(open_page):
-    page = open_page("f_o=0.3&t_end=60&t=0")
-    page.locator("#long-box summary").click()
-    page.locator("#map-box summary").click()
-    for axis, key, low, high in [("x", "x", "-0.4", "0.4"), ("y", "y", "0.02", "0.72")]:
-        page.locator(f"#map-{axis}-key").select_option(key)
-        for end, value in [("low", low), ("high", high), ("count", "21")]:
-            page.locator(f"#map-{axis}-{end}").fill(value)
-            page.locator(f"#map-{axis}-{end}").press("Enter")
+WINDOW = "x,-0.4,0.4,21,y,0.02,0.72,18,f_o,0,0.6,5"
+
+
+def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, command_json):
+    page = open_page(f"f_o=0.29&t_end=60&t=0&basin={WINDOW}")
     page.locator("#basin-run").click()
-    said = page.locator("#basin-said")
-    expect(said).to_contain_text("legal cells", timeout=20_000)
-    expect(said).to_contain_text("(LIM)")
+    expect(page.locator("#basin-said")).to_contain_text("(LIM)", timeout=30_000)
+    page.locator("#basin-copy").click()
+    line = page.evaluate("() => navigator.clipboard.readText()")
+    assert line == (
+        "snapload basin --set f_o=0.29 --set t_end=60 --vary x=-0.4:0.4:21 --vary y=0.02:0.72:18 --out basin.parquet"
+    )
+    told = command_json(*line.removesuffix(" --out basin.parquet").split()[1:])
+    legend = page.locator("#basin-legend")
+    expect(legend).to_contain_text(f"safe ({told['safe']})")
+    expect(legend).to_contain_text(f"reaches a limit ({told['legal'] - told['safe']})")
+    expect(legend).to_contain_text(f"no start ({21 * 18 - told['legal']})")
+    assert told["undecided"] > 0
+    expect(legend).to_contain_text(f"neighbours end otherwise ({told['undecided']})")
+    low, high = told["interval95"]
+    expect(page.locator("#basin-said")).to_contain_text(f"{told['fraction']:.4f} ({low:.4f} to {high:.4f})")
+    # What is not certain, not safe and no start differs from cell to cell; the words are those of the run.
+    page.locator("#basin").focus()
+    for _ in range(9):
+        page.keyboard.press("ArrowUp")
+    for _ in range(10):
+        page.keyboard.press("ArrowRight")
+    words = page.locator("#basin-pointed").inner_text()
+    before = count(page)
+    page.keyboard.press("Enter")
+    settled(page, before)
+    x, y = (page.locator(f"#field-{key}").input_value() for key in ["x", "y"])
+    assert words.startswith(f"x = {x}, y = {float(y):.6g}: ")
+    run = command_json("run", "--ensemble", "0", *line.split()[2:6], "--set", f"x={x}", "--set", f"y={y}")
+    assert run["end"]["reason"].replace("_", " ") in words
+    # Along its own keys a window stays what it is; of another force it is not.
+    expect(page.locator("#basin")).not_to_have_class("cells stale")
+    page.locator("#field-f_o").fill("0.2")
+    expect(page.locator("#basin")).to_have_class("cells stale")
+
+
+def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command_json):
+    page = open_page(f"t_end=60&t=0&basin={WINDOW}")
+    page.locator("#erosion-run").click()
+    expect(page.locator("#erosion-said")).to_contain_text("Nine tenths", timeout=60_000)
+    page.locator("#erosion-copy").click()
+    line = page.evaluate("() => navigator.clipboard.readText()")
+    told = command_json(*line.split()[1:])
+    first, last = told["points"][0], told["points"][-1]
+    said = page.locator("#erosion-said").inner_text()
+    assert f"{100 * first['fraction']:.3g} % at f_o = 0" in said and f"f_o = {told['knee']:g}." in said
+    assert f"{100 * last['fraction']:.3g} % at 0.6" in said
+    expect(page.locator("#erosion")).to_be_visible()
+
+
+def test_work_on_a_basin_can_be_stopped(open_page):
+    page = open_page("t_end=200&t=0&basin=x,-0.4,0.4,200,y,0.02,0.72,200,f_o,0,0.6,200")
+    page.locator("#erosion-run").click()
+    page.locator("#basin-stop").click()
+    expect(page.locator("#basin-progress")).to_have_text("stopped")
+    expect(page.locator("#basin-stop")).to_be_hidden()

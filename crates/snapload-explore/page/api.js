@@ -103,9 +103,6 @@ export const fetchProof = (question, signal) => fetchLong("api/proof", question,
 /** Where a motion stands once a period, in the long run. */
 export const fetchSection = (question, signal) => fetchLong("api/section", question, signal);
 
-/** How much of a window is safe. */
-export const fetchBasin = (question, signal) => fetchLong("api/basin", question, signal);
-
 /** A refusal says why; whatever else goes wrong on the way means that nobody answers. */
 function inWords(error) {
   return error instanceof Refused

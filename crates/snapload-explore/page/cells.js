@@ -1,6 +1,12 @@
 // What a map's cells are painted with.
 
+import { Frame, drawAxes, fontOf, inside, label, ticks } from "./plot.js";
 import { mix } from "./theme.js";
+import { prose, unitText } from "./words.js";
+
+const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
+/** Larger than beside the small charts. */
+const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 
 /** Cividis, which is read alike with and without red and green (Nuñez, Anderton & Renslow 2018). */
 export const CIVIDIS = [
@@ -26,7 +32,7 @@ export function cividis(part) {
 let pattern = null;
 
 /** Lines across a cell, dark beside light so that they are seen on every colour. */
-export function hatch(context) {
+function hatch(context) {
   if (!pattern) {
     const tile = Object.assign(document.createElement("canvas"), { width: 6, height: 6 });
     const pen = tile.getContext("2d");
@@ -76,4 +82,89 @@ export function outline(context, frame, { x, y }, [i, j], colours) {
   context.strokeStyle = colours.ink;
   context.lineWidth = 2;
   context.strokeRect(frame.left + i * w - 1, frame.top + (y.count - 1 - j) * h - 1, w + 2, h + 2);
+}
+
+/** The frame of cells about their values, on a canvas of this size. */
+export function frameOf(width, height, { x, y }) {
+  const around = ({ low, high, count }) => {
+    const half = (0.5 * (high - low)) / (count - 1);
+    return [low - half, high + half];
+  };
+  return new Frame(inside(width, height, MARGIN), around(x), around(y));
+}
+
+/** Which cell an event is over, if over any. */
+export function cellOf({ offsetX, offsetY }, frame, { x, y }) {
+  const i = Math.floor(((offsetX - frame.left) / frame.width) * x.count);
+  const j = Math.floor(((frame.top + frame.height - offsetY) / frame.height) * y.count);
+  return i >= 0 && i < x.count && j >= 0 && j < y.count ? [i, j] : null;
+}
+
+/** Paints each cell with what `fillOf(k)` says, if anything, and hatches those of which `isUncertain(k)`; x fastest. */
+export function paintCells(context, frame, { x, y }, fillOf, isUncertain) {
+  const [w, h] = [frame.width / x.count, frame.height / y.count];
+  const edge = (k, size) => Math.round(k * size);
+  for (let j = 0; j < y.count; j += 1) {
+    for (let i = 0; i < x.count; i += 1) {
+      const k = j * x.count + i;
+      const fill = fillOf(k);
+      if (!fill) continue;
+      const [left, top] = [edge(i, w), edge(y.count - 1 - j, h)];
+      /** @type {[number, number, number, number]} */
+      const cell = [frame.left + left, frame.top + top, edge(i + 1, w) - left, edge(y.count - j, h) - top];
+      context.fillStyle = fill;
+      context.fillRect(...cell);
+      if (!isUncertain(k)) continue;
+      context.fillStyle = hatch(context);
+      context.fillRect(...cell);
+    }
+  }
+}
+
+/**
+ * The axes of a map of cells, and their words.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Frame} frame
+ * @param {any} axes
+ * @param {any} colours
+ * @param {string[]} words
+ */
+export function drawCellAxes(context, frame, { x, y }, colours, words) {
+  const [across, up] = words;
+  const bare = { ...colours, rule: "transparent" };
+  drawAxes(context, frame, bare, {
+    font: NUMBERS,
+    xTicks: ticks(x.low, x.high, frame.width / 70),
+    yTicks: ticks(y.low, y.high, frame.height / 40),
+  });
+  const foot = frame.top + frame.height + MARGIN.bottom - 8;
+  label(context, colours, across, frame.left + frame.width / 2, foot, 0, LETTERS);
+  label(context, colours, up, 14, frame.top + frame.height / 2, -Math.PI / 2, LETTERS);
+}
+
+/** A key at its axis: its symbol with its unit. */
+export function axisWords(keys, name) {
+  const { symbol, unit } = keys.find((key) => key.name === name);
+  return unitText(unit) ? `${prose(symbol)}  [${unitText(unit)}]` : symbol;
+}
+
+/**
+ * Where the run that is shown lies.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Frame} frame
+ * @param {number[]} at
+ */
+export function crosshair(context, frame, [vx, vy]) {
+  const within = vx >= frame.x0 && vx <= frame.x1 && vy >= frame.y0 && vy <= frame.y1;
+  if (!within) return;
+  const [x, y] = [frame.x(vx), frame.y(vy)];
+  for (const [colour, lineWidth] of [
+    ["#fff", 4.5],
+    ["#000", 2],
+  ]) {
+    Object.assign(context, { strokeStyle: colour, lineWidth });
+    context.beginPath();
+    context.arc(x, y, 6, 0, 2 * Math.PI);
+    context.stroke();
+  }
 }

@@ -1,7 +1,6 @@
-// What the motion does in the long run: its section once a period of the forcing, and how much of the map's
-// window is safe.
+// What the motion does in the long run: its section once a period of the forcing.
 
-import { fetchBasin, fetchSection } from "./api.js";
+import { fetchSection } from "./api.js";
 import { $ } from "./dom.js";
 import { number, prose } from "./words.js";
 
@@ -48,7 +47,7 @@ class Asking {
 }
 
 /** The words of the command, line by line, with single spaces. */
-const lines = (words) => prose(words.trim().replaceAll(/ {2,}/g, " "));
+export const lines = (words) => prose(words.trim().replaceAll(/ {2,}/g, " "));
 
 export class LongRun {
   /** @param {{ values: () => object, onPick: (start: object) => void }} page */
@@ -69,17 +68,6 @@ export class LongRun {
       this.#draw();
       return lines(answer.words);
     });
-    this.basin = new Asking("basin-run", "basin-said", async (signal) => {
-      if (!$("map-x-count").value) return "Open the map first: it is its window that is measured.";
-      const axis = (name) => ({
-        key: $(`map-${name}-key`).value,
-        low: Number($(`map-${name}-low`).value),
-        high: Number($(`map-${name}-high`).value),
-        count: Number($(`map-${name}-count`).value),
-      });
-      const answer = await fetchBasin({ values: page.values(), x: axis("x"), y: axis("y") }, signal);
-      return lines(answer.words);
-    });
   }
 
   /** The values are others now: what is shown is not theirs. */
@@ -88,7 +76,6 @@ export class LongRun {
     if (key === this.key) return;
     this.key = key;
     this.section.stop();
-    this.basin.stop();
     this.points = [];
     this.#draw();
   }

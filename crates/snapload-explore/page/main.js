@@ -6,6 +6,7 @@ import { $, put } from "./dom.js";
 import { EventTable } from "./events.js";
 import { Hands } from "./hands.js";
 import { Keyboard } from "./keyboard.js";
+import { SafeBasin } from "./basin.js";
 import { SweepMap } from "./map.js";
 import { Take } from "./take.js";
 import { Controls, caseGroups, notOfAPoint } from "./controls.js";
@@ -78,6 +79,7 @@ class Page {
       colours,
       onPick: (values) => this.#begin(values),
     });
+    this.basin = new SafeBasin(this.state, { colours, onPick: (values) => this.#begin(values) });
     this.exports = new Take({
       state: this.state,
       stage: this.stage,
@@ -251,6 +253,7 @@ class Page {
     else if (changed.has("t") || changed.has("speed")) this.drawMoment();
     if (this.run && (changed.has("window") || (changed.has("t") && this.run.at(this.state.t).rough))) this.#refine();
     if (changed.has("values") || changed.has("map")) this.map.follow();
+    if (changed.has("values") || changed.has("basin")) this.basin.follow();
     put($("axes"), { value: this.state.plane });
     this.stage.showChoices();
     this.transport.show();
@@ -266,6 +269,7 @@ class Page {
   redraw() {
     this.drawAll();
     this.map.draw();
+    this.basin.draw();
   }
 
   drawAll() {

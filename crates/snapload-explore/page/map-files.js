@@ -13,10 +13,15 @@ export function mapCsv({ x, y, xs, ys, ...cells }, columns) {
 }
 
 /** The command that computes the map, with all columns of a study. */
-export function sweepLine({ map, values }) {
-  const { x, y } = map;
-  const held = Object.entries(values).filter(([name]) => name !== x.key && name !== y.key);
+export const sweepLine = ({ map, values }) => studyLine("sweep", values, [map.x, map.y], "--out map.parquet");
+
+/** The command of a study over some axes, with the values that they leave, and more options. */
+export function studyLine(verb, values, axes, more) {
+  const held = Object.entries(values).filter(([name]) => !axes.some(({ key }) => key === name));
   const set = held.map(([name, value]) => `--set ${name}=${plain(value)}`);
-  const vary = [x, y].map(({ key, low, high, count }) => `--vary ${key}=${plain(low)}:${plain(high)}:${count}`);
-  return ["snapload sweep", ...set, ...vary, "--out map.parquet"].join(" ");
+  const vary = axes.map((axis) => `--vary ${rangeText(axis)}`);
+  return [`snapload ${verb}`, ...set, ...vary, more].join(" ");
 }
+
+/** The values of an axis as the command takes them. */
+export const rangeText = ({ key, low, high, count }) => `${key}=${plain(low)}:${plain(high)}:${count}`;

@@ -1,17 +1,26 @@
 // How runs end over two keys: filled in while it is computed; each cell leads to its run.
 
 import { Refused, fetchMap } from "./api.js";
-import { CIVIDIS, cividis, hatch, outline, outlineBox, rangeOf } from "./cells.js";
-import { $ } from "./dom.js";
+import { AxisFields, usualAxis } from "./axis-fields.js";
+import {
+  CIVIDIS,
+  axisWords,
+  cellOf,
+  cividis,
+  crosshair,
+  drawCellAxes,
+  frameOf,
+  outline,
+  outlineBox,
+  paintCells,
+  rangeOf,
+} from "./cells.js";
+import { $, put } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
-import { Frame, drawAxes, fontOf, inside, label, prepare, ticks } from "./plot.js";
-import { MOST_CELLS, readValue } from "./state.js";
+import { prepare } from "./plot.js";
 import { copy, save } from "./take.js";
-import { number, plain, prose, reasonText, unitText } from "./words.js";
+import { number, prose, reasonText } from "./words.js";
 
-const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
-/** Larger than beside the small charts. */
-const [NUMBERS, LETTERS] = [fontOf(13), fontOf(14)];
 /** Values that change while the map is open set it going again after so long a rest. */
 const REST_MS = 500;
 /** Values that span this are coloured by their logarithms. */
@@ -30,7 +39,15 @@ export class SweepMap {
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
-    for (const side of ["x", "y"]) this.#axisFields(side);
+    this.axes = ["x", "y"].map(
+      (side) =>
+        new AxisFields(`map-${side}`, this.numeric, {
+          value: (name) => state.value(name),
+          now: () => state.map[side],
+          onChange: (axis) => state.set({ map: withAxis(state.map, side, axis) }),
+          onWrong: (words) => ($("map-said").textContent = words),
+        }),
+    );
     for (const column of state.schema.map.filter(({ name, kind }) => name === "reason" || kind === "number")) {
       const unit = column.unit ? ` [${column.unit}]` : "";
       $("map-colour").append(new Option(prose(column.meaning) + unit, column.name));
@@ -53,43 +70,7 @@ export class SweepMap {
   }
 
   #usualMap() {
-    const axis = (name, count) => {
-      const { usual } = this.numeric.find((key) => key.name === name);
-      return { key: name, low: usual.low, high: usual.high, count };
-    };
-    return { x: axis("f_o", 51), y: axis("e", 41), colour: "reason" };
-  }
-
-  #axisFields(side) {
-    const key = $(`map-${side}-key`);
-    for (const one of this.numeric) key.append(new Option(one.name, one.name));
-    key.addEventListener("change", () => {
-      const { usual } = this.numeric.find((one) => one.name === key.value);
-      const value = this.state.value(key.value) ?? 1;
-      const range = usual ?? { low: value * 0.5, high: value * 2 || 1 };
-      const axis = { ...this.state.map[side], key: key.value, ...range };
-      const other = side === "x" ? "y" : "x";
-      const swapped = this.state.map[other].key === key.value ? { [other]: this.state.map[side] } : {};
-      this.state.set({ map: { ...this.state.map, [side]: axis, ...swapped } });
-    });
-    for (const name of ["low", "high", "count"]) {
-      const field = $(`map-${side}-${name}`);
-      field.addEventListener("change", () => this.#takeAxis(side, name, field));
-    }
-  }
-
-  #takeAxis(side, name, field) {
-    const value = readValue({ kind: { type: "number" } }, field.value);
-    const axis = { ...this.state.map[side], [name]: value };
-    const legal =
-      value !== undefined &&
-      axis.high > axis.low &&
-      Number.isInteger(axis.count) &&
-      axis.count >= 2 &&
-      axis.count <= MOST_CELLS;
-    field.setAttribute("aria-invalid", String(!legal));
-    $("map-said").textContent = legal ? "" : `${side}: from a lower to a higher value, in 2 to ${MOST_CELLS} cells`;
-    if (legal) this.state.set({ map: { ...this.state.map, [side]: axis } });
+    return { x: usualAxis(this.numeric, "f_o", 51), y: usualAxis(this.numeric, "e", 41), colour: "reason" };
   }
 
   toggle() {
@@ -103,12 +84,7 @@ export class SweepMap {
     this.box.open = map !== null;
     if (!map) return this.stop("");
     $("map-colour").value = map.colour;
-    for (const side of ["x", "y"]) {
-      for (const name of ["key", "low", "high", "count"]) {
-        const field = $(`map-${side}-${name}`);
-        if (document.activeElement !== field || name === "key") field.value = plain(map[side][name]);
-      }
-    }
+    for (const axis of this.axes) axis.show();
     const question = this.#ask();
     if (JSON.stringify(question) !== this.question) {
       clearTimeout(this.timer);
@@ -170,7 +146,7 @@ export class SweepMap {
   }
 
   #running(running) {
-    $("map-stop").hidden = $("map-bar").hidden = !running;
+    for (const id of ["map-stop", "map-bar"]) put($(id), { hidden: !running });
   }
 
   #own(name) {
@@ -196,13 +172,7 @@ export class SweepMap {
   }
 
   #listen() {
-    const cellAt = (event) => {
-      if (!this.cells || !this.frame) return null;
-      const { x, y } = this.cells;
-      const i = Math.floor(((event.offsetX - this.frame.left) / this.frame.width) * x.count);
-      const j = Math.floor(((this.frame.top + this.frame.height - event.offsetY) / this.frame.height) * y.count);
-      return i >= 0 && i < x.count && j >= 0 && j < y.count ? [i, j] : null;
-    };
+    const cellAt = (event) => (this.cells && this.frame ? cellOf(event, this.frame, this.cells) : null);
     this.canvas.addEventListener("pointermove", (event) => this.#point(cellAt(event)));
     const focused = () => document.activeElement === this.canvas;
     this.canvas.addEventListener("pointerleave", () => this.#point(focused() ? this.cursor : null));
@@ -318,40 +288,11 @@ export class SweepMap {
     const colours = this.colours();
     const { context, width, height } = prepare(this.canvas);
     const { x, y } = cells;
-    const half = (axis) => (0.5 * (axis.high - axis.low)) / (axis.count - 1);
-    const frame = new Frame(
-      inside(width, height, MARGIN),
-      [x.low - half(x), x.high + half(x)],
-      [y.low - half(y), y.high + half(y)],
-    );
+    const frame = frameOf(width, height, cells);
     this.frame = frame;
-    const paint = this.#paintOf(colours);
-    const [w, h] = [frame.width / x.count, frame.height / y.count];
-    const edge = (k, size) => Math.round(k * size);
-    for (let j = 0; j < y.count; j += 1) {
-      for (let i = 0; i < x.count; i += 1) {
-        const k = j * x.count + i;
-        const fill = paint(k);
-        if (!fill) continue;
-        const [left, top] = [edge(i, w), edge(y.count - 1 - j, h)];
-        /** @type {[number, number, number, number]} */
-        const cell = [frame.left + left, frame.top + top, edge(i + 1, w) - left, edge(y.count - j, h) - top];
-        context.fillStyle = fill;
-        context.fillRect(...cell);
-        if (!this.#uncertain(k)) continue;
-        context.fillStyle = hatch(context);
-        context.fillRect(...cell);
-      }
-    }
-    const bare = { ...colours, rule: "transparent" };
-    drawAxes(context, frame, bare, {
-      font: NUMBERS,
-      xTicks: ticks(x.low, x.high, frame.width / 70),
-      yTicks: ticks(y.low, y.high, frame.height / 40),
-    });
-    label(context, colours, this.#axisWords(x), frame.left + frame.width / 2, height - 8, 0, LETTERS);
-    label(context, colours, this.#axisWords(y), 14, frame.top + frame.height / 2, -Math.PI / 2, LETTERS);
-    this.#crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
+    paintCells(context, frame, cells, this.#paintOf(colours), (k) => this.#uncertain(k));
+    drawCellAxes(context, frame, cells, colours, [this.#axisWords(x), this.#axisWords(y)]);
+    crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
     if (this.drawn) outlineBox(context, frame, cells, this.drawn, colours);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);
@@ -367,8 +308,7 @@ export class SweepMap {
   }
 
   #axisWords({ key }) {
-    const { symbol, unit } = this.numeric.find((one) => one.name === key);
-    return unitText(unit) ? `${prose(symbol)}  [${unitText(unit)}]` : symbol;
+    return axisWords(this.numeric, key);
   }
 
   /** What a cell is painted with, by its index; nothing where there is nothing yet. */
@@ -422,22 +362,13 @@ export class SweepMap {
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
   }
+}
 
-  /** Where the run that is shown lies. */
-  #crosshair(context, frame, [vx, vy]) {
-    const inside = vx >= frame.x0 && vx <= frame.x1 && vy >= frame.y0 && vy <= frame.y1;
-    if (!inside) return;
-    const [x, y] = [frame.x(vx), frame.y(vy)];
-    for (const [colour, lineWidth] of [
-      ["#fff", 4.5],
-      ["#000", 2],
-    ]) {
-      Object.assign(context, { strokeStyle: colour, lineWidth });
-      context.beginPath();
-      context.arc(x, y, 6, 0, 2 * Math.PI);
-      context.stroke();
-    }
-  }
+/** The same map over another axis; a key that the other one had changes places with it. */
+function withAxis(map, side, axis) {
+  const other = side === "x" ? "y" : "x";
+  const swapped = map[other].key === axis.key ? { [other]: map[side] } : {};
+  return { ...map, [side]: axis, ...swapped };
 }
 
 /** The values of an axis as decimals that one would write. */

@@ -19,6 +19,7 @@ const BEGINNING = {
   ghost: null,
   window: null,
   map: null,
+  basin: null,
 };
 
 /** Fields that are set together, with whoever listens to them. */
@@ -53,6 +54,7 @@ export class State extends Watched {
   ghost = BEGINNING.ghost;
   window = BEGINNING.window;
   map = BEGINNING.map;
+  basin = BEGINNING.basin;
 
   constructor(schema) {
     super();
@@ -99,6 +101,7 @@ export class State extends Watched {
     if (this.zoom) parts.push(["zoom", this.zoom.join(",")]);
     if (this.window) parts.push(["window", this.window.join(",")]);
     if (this.map) parts.push(["map", mapToText(this.map)]);
+    if (this.basin) parts.push(["basin", basinToText(this.basin)]);
     return parts.map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&");
   }
 
@@ -193,6 +196,8 @@ function readView(name, text, schema) {
     }
     case "map":
       return mapFromText(text, schema);
+    case "basin":
+      return basinFromText(text, schema);
     default:
       return undefined;
   }
@@ -215,15 +220,25 @@ function pinFromText(text, schema) {
 const axisToText = ({ key, low, high, count }) => [key, low, high, count].join(",");
 const mapToText = ({ x, y, colour }) => [axisToText(x), axisToText(y), colour].join(",");
 
+const basinToText = ({ x, y, over }) => [x, y, over].map(axisToText).join(",");
+
+function axisFromParts([key, ...rest], schema) {
+  const [low, high, count] = rest.map(finite);
+  const numeric = schema.keys.some((one) => one.name === key && one.kind.type === "number");
+  const legal = numeric && high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
+  return legal ? { key, low, high, count } : undefined;
+}
+
+function basinFromText(text, schema) {
+  const parts = text.split(",");
+  const [x, y, over] = [0, 4, 8].map((from) => axisFromParts(parts.slice(from, from + 4), schema));
+  return parts.length === 12 && x && y && over ? { x, y, over } : undefined;
+}
+
 function mapFromText(text, schema) {
   const parts = text.split(",");
-  const axis = ([key, ...rest]) => {
-    const [low, high, count] = rest.map(finite);
-    const numeric = schema.keys.some((one) => one.name === key && one.kind.type === "number");
-    const legal = numeric && high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
-    return legal ? { key, low, high, count } : undefined;
-  };
-  const [x, y, colour] = [axis(parts.slice(0, 4)), axis(parts.slice(4, 8)), parts[8]];
+  const [x, y] = [0, 4].map((from) => axisFromParts(parts.slice(from, from + 4), schema));
+  const colour = parts[8];
   const known = schema.map.some(({ name }) => name === colour);
   return parts.length === 9 && x && y && x.key !== y.key && known ? { x, y, colour } : undefined;
 }

@@ -138,13 +138,15 @@ async fn answer_section(
 /// It takes all processors, as a map does.
 async fn answer_basin(
     State(shared): State<Arc<Shared>>,
-    Body(request): Body<map::Request>,
-) -> Result<impl IntoResponse, Refusal> {
-    let answer = compute(&shared.mappers, move |allowance| {
-        basin::answer(request, allowance)
-    })
-    .await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer))
+    Body(request): Body<basin::Request>,
+) -> Result<Response, Refusal> {
+    let tells = request.told;
+    let work = move |allowance: &Allowance| basin::answer(request, allowance);
+    if tells {
+        return Ok(told(&shared.mappers, work));
+    }
+    let answer = compute(&shared.mappers, work).await?;
+    Ok(([(CONTENT_TYPE, "application/json")], answer).into_response())
 }
 
 async fn answer_map(

@@ -45,7 +45,7 @@ pub(crate) struct Request {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct AxisGiven {
+pub(crate) struct AxisGiven {
     key: String,
     low: f64,
     high: f64,
@@ -61,7 +61,7 @@ pub(crate) struct Axis {
 impl AxisGiven {
     /// The values are those of `snapload sweep --vary`, each the decimal number that one would
     /// write.
-    fn read(&self) -> Result<Axis, Refusal> {
+    pub(crate) fn read(&self) -> Result<Axis, Refusal> {
         let key = key_named(&self.key)?;
         if !matches!(key.kind, Kind::Number { .. }) {
             let message = format!("{} holds no number that can be varied", key.name);
@@ -90,7 +90,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    pub(crate) fn read(Request { values, x, y }: Request) -> Result<Self, Refusal> {
+    pub(crate) fn of(values: Values, x: AxisGiven, y: AxisGiven) -> Result<Self, Refusal> {
         let base = entries(values)?;
         let axis = |name: &str, given: AxisGiven| given.read().map_err(|no| no.of_field(name));
         let (x, y) = (axis("x", x)?, axis("y", y)?);
@@ -116,7 +116,7 @@ pub(crate) fn lines(
     request: Request,
     mappers: Arc<Semaphore>,
 ) -> Result<impl Stream<Item = Result<Bytes, Infallible>> + use<>, Refusal> {
-    let map = Arc::new(Map::read(request)?);
+    let map = Arc::new(Map::of(request.values, request.x, request.y)?);
     let (send, receive) = channel(4);
     let (waiting, allowance) = Allowance::new();
     tokio::spawn(async move {

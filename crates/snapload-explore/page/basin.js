@@ -1,0 +1,206 @@
+// Safe basins: which cells of a window of two keys stay below the limits, how much of it that is, and how that part
+// shrinks along a third key.
+
+import { fetchTold } from "./api.js";
+import { AxisFields } from "./axis-fields.js";
+import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
+import { $, put } from "./dom.js";
+import { drawErosion } from "./erosion.js";
+import { lines } from "./long-run.js";
+import { rangeText, studyLine } from "./map-files.js";
+import { prepare } from "./plot.js";
+import { copy } from "./take.js";
+import { number, reasonText } from "./words.js";
+
+/** Starts at rest of the thesis's bodies, and the force that erodes them. */
+const USUAL = {
+  x: { key: "x", low: -0.4, high: 0.4, count: 41 },
+  y: { key: "y", low: 0.02, high: 0.72, count: 36 },
+  over: { key: "f_o", low: 0, high: 0.6, count: 21 },
+};
+const SIDES = ["x", "y", "over"];
+const PATH = "api/basin";
+
+export class SafeBasin {
+  constructor(state, { colours, onPick }) {
+    this.state = state;
+    this.colours = colours;
+    this.onPick = onPick;
+    this.answer = null;
+    this.eroded = null;
+    this.asking = null;
+    this.cursor = [0, 0];
+    this.pointed = null;
+    this.box = $("basin-box");
+    this.canvas = $("basin");
+    this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
+    this.axes = SIDES.map(
+      (side) =>
+        new AxisFields(`basin-${side}`, this.numeric, {
+          value: (name) => state.value(name),
+          now: () => state.basin[side],
+          onChange: (axis) => state.set({ basin: { ...state.basin, [side]: axis } }),
+          onWrong: (words) => ($("basin-pointed").textContent = words),
+        }),
+    );
+    this.box.addEventListener("toggle", () => {
+      if (this.box.open === (state.basin !== null)) return;
+      state.set({ basin: this.box.open ? USUAL : null });
+    });
+    $("basin-run").addEventListener("click", () => this.#compute(false));
+    $("erosion-run").addEventListener("click", () => this.#compute(true));
+    $("basin-stop").addEventListener("click", () => this.asking?.abort());
+    $("basin-copy").addEventListener("click", () => copy($("basin-copy"), this.#line("basin")));
+    $("erosion-copy").addEventListener("click", () => copy($("erosion-copy"), this.#line("erosion")));
+    this.#listen();
+  }
+
+  /** What is asked: values other than those of the axes do not matter along them. */
+  #question(erodes) {
+    const { x, y, over } = this.state.basin;
+    const values = { ...this.state.values };
+    for (const { key } of [x, y, ...(erodes ? [over] : [])]) delete values[key];
+    return { values, x, y, ...(erodes ? { over } : {}) };
+  }
+
+  /** The command with the same answer. */
+  #line(verb) {
+    const { x, y, over } = this.state.basin;
+    const { values } = this.#question(verb === "erosion");
+    const more = verb === "erosion" ? `--over ${rangeText(over)} --no-trust` : "--out basin.parquet";
+    return studyLine(verb, values, [x, y], more);
+  }
+
+  /** Follows the state: opens and closes; what is shown of other values is pale until it is computed again. */
+  follow() {
+    const { basin } = this.state;
+    this.box.open = basin !== null;
+    if (!basin) return this.asking?.abort();
+    for (const axis of this.axes) axis.show();
+    const other = (answer, erodes) => answer !== null && answer.asked !== JSON.stringify(this.#question(erodes));
+    for (const [shown, words, answer, erodes] of [
+      ["basin", "basin-run", this.answer, false],
+      ["erosion", "erosion-run", this.eroded, true],
+    ]) {
+      $(shown).classList.toggle("stale", other(answer, erodes));
+      put($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
+    }
+    this.draw();
+  }
+
+  async #compute(erodes) {
+    this.asking?.abort();
+    const asking = (this.asking = new AbortController());
+    const question = this.#question(erodes);
+    this.#running(true);
+    $("basin-bar").value = 0;
+    $("basin-progress").textContent = "";
+    try {
+      const text = await fetchTold(PATH, question, asking.signal, ({ doing, percent }) => {
+        $("basin-bar").value = percent / 100;
+        $("basin-progress").textContent = `${doing}, ${percent} %`;
+      });
+      const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
+      if (erodes) this.eroded = answer;
+      else this.answer = answer;
+      $(erodes ? "erosion-said" : "basin-said").textContent = erodes ? knee(answer) : lines(answer.words);
+      if (this.asking === asking) $("basin-progress").textContent = "";
+    } catch (error) {
+      if (this.asking === asking) $("basin-progress").textContent = error.name === "AbortError" ? "stopped" : error.message;
+    }
+    if (this.asking !== asking) return;
+    this.asking = null;
+    this.#running(false);
+    if (this.state.basin) this.follow();
+  }
+
+  #running(running) {
+    for (const id of ["basin-stop", "basin-bar"]) $(id).hidden = !running;
+  }
+
+  #listen() {
+    const at = (event) => (this.answer && this.frame ? cellOf(event, this.frame, this.answer.question) : null);
+    this.canvas.addEventListener("pointermove", (event) => this.#point(at(event)));
+    this.canvas.addEventListener("pointerleave", () => this.#point(null));
+    this.canvas.addEventListener("click", (event) => this.#pick(at(event)));
+    this.canvas.addEventListener("focus", () => this.#point(this.cursor));
+    this.canvas.addEventListener("blur", () => this.#point(null));
+    this.canvas.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  #key(event) {
+    if (!this.answer) return;
+    const [i, j] = this.cursor;
+    const { x, y } = this.answer.question;
+    const [across, up] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [];
+    if (event.key === "Enter") this.#pick(this.cursor);
+    else if (across === undefined) return;
+    else this.#point([Math.min(Math.max(i + across, 0), x.count - 1), Math.min(Math.max(j + up, 0), y.count - 1)]);
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  #point(cell) {
+    if (!this.answer) return;
+    this.pointed = cell;
+    if (cell) this.cursor = cell;
+    $("basin-pointed").textContent = cell ? this.#words(cell) : "";
+    this.draw();
+  }
+
+  #pick(cell) {
+    if (!cell || !this.answer) return;
+    this.#point(cell);
+    const { x, y, question } = this.answer;
+    this.onPick({ [question.x.key]: x[cell[0]], [question.y.key]: y[cell[1]] });
+  }
+
+  #words([i, j]) {
+    const { x, y, ends, escapes, decided, question } = this.answer;
+    const k = j * x.length + i;
+    const place = `${question.x.key} = ${number(x[i], 6)}, ${question.y.key} = ${number(y[j], 6)}: `;
+    if (ends[k] === null) return `${place}no start, as it is beyond a cable or a limit`;
+    const sure = decided[k] ? "" : ", not certain: neighbours end otherwise";
+    return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
+  }
+
+  draw() {
+    if (!this.box.open || this.framed) return;
+    this.framed = requestAnimationFrame(() => {
+      this.framed = null;
+      if (this.answer) this.#paint();
+      if (this.eroded) drawErosion($("erosion"), this.eroded, this.colours(), axisWords(this.numeric, this.eroded.over));
+    });
+  }
+
+  #paint() {
+    const { ends, escapes, decided, question, legal, safe, undecided } = this.answer;
+    const colours = this.colours();
+    put(this.canvas, { hidden: false });
+    const { context, width, height } = prepare(this.canvas);
+    const frame = (this.frame = frameOf(width, height, question));
+    const fill = (k) => (ends[k] === null ? colours.faint : escapes[k] ? colours.escaped : colours.safe);
+    paintCells(context, frame, question, fill, (k) => !decided[k]);
+    const words = [question.x, question.y].map(({ key }) => axisWords(this.numeric, key));
+    drawCellAxes(context, frame, question, colours, words);
+    const own = [question.x, question.y].map(({ key }) => this.state.value(key) ?? 0);
+    crosshair(context, frame, own);
+    if (this.pointed) outline(context, frame, question, this.pointed, colours);
+    const swatch = (paint, text) => `<span><i class="swatch" style="background:${paint}"></i>${text}</span>`;
+    const parts = [swatch(colours.safe, `safe (${safe})`), swatch(colours.escaped, `reaches a limit (${legal - safe})`)];
+    if (ends.length > legal) parts.push(swatch(colours.faint, `no start (${ends.length - legal})`));
+    if (undecided) parts.push(`<span><i class="swatch hatched"></i>not certain, as neighbours end otherwise (${undecided})</span>`);
+    const html = parts.join("");
+    if ($("basin-legend").innerHTML !== html) $("basin-legend").innerHTML = html;
+    const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} cells are safe`;
+    this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter begins there.`);
+  }
+}
+
+/** What an erosion comes to, in words. */
+function knee({ knee: at, over, points }) {
+  const part = (point) => (point.legal ? `${number(100 * point.fraction, 3)} %` : "nothing");
+  const ends = `Safe: ${part(points[0])} at ${over} = ${number(points[0].value)}, ${part(points.at(-1))} at ${number(points.at(-1).value)}.`;
+  const falls = at === null ? "It does not fall below nine tenths of the first." : `Nine tenths of the first are left up to ${over} = ${number(at)}.`;
+  return `${ends} ${falls}`;
+}

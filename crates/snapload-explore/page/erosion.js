@@ -1,0 +1,36 @@
+// How the safe part of a window shrinks along a key: a line through the parts, each with its interval.
+
+import { Frame, drawAxes, drawColumn, inside, label, prepare, stroke, ticks } from "./plot.js";
+import { number } from "./words.js";
+
+const MARGIN = { left: 56, right: 12, top: 10, bottom: 36 };
+
+/** Draws an erosion on its canvas, which is shown with it. */
+export function drawErosion(canvas, { points, knee, over }, colours, across) {
+  canvas.hidden = false;
+  const { context, width, height } = prepare(canvas);
+  const there = points.filter(({ legal }) => legal > 0);
+  const values = there.map(({ value }) => value);
+  const frame = new Frame(inside(width, height, MARGIN), [points[0].value, points.at(-1).value], [0, 1]);
+  drawAxes(context, frame, colours, {
+    xTicks: ticks(frame.x0, frame.x1, frame.width / 70),
+    yTicks: ticks(0, 1, frame.height / 40),
+  });
+  label(context, colours, across, frame.left + frame.width / 2, height - 6);
+  label(context, colours, "safe part", 12, frame.top + frame.height / 2, -Math.PI / 2);
+  context.strokeStyle = colours.safe;
+  context.lineWidth = 1.2;
+  for (const { value, interval95 } of there) stroke(context, interval95.map((part) => [frame.x(value), frame.y(part)]));
+  context.lineWidth = 2;
+  const parts = there.map(({ fraction }) => fraction);
+  drawColumn(context, frame, values, parts);
+  if (knee !== null) {
+    context.strokeStyle = colours.muted;
+    context.lineWidth = 1;
+    context.setLineDash([4, 3]);
+    stroke(context, [frame.top, frame.top + frame.height].map((y) => [frame.x(knee), y]));
+    context.setLineDash([]);
+  }
+  const told = there.map(({ value, fraction }) => `${number(value, 3)}: ${number(fraction, 3)}`).join(", ");
+  canvas.setAttribute("aria-label", `The safe part over ${over}: ${told}`);
+}
