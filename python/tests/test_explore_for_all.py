@@ -115,6 +115,44 @@ def test_a_slack_line_is_as_long_as_its_cable(open_page, floor):
         assert max(y for _, y in points) <= (1e-9 if floor == "0" else 1), "it hangs through the floor"
 
 
+def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(open_page):
+    told = open_page("t=0").evaluate(
+        """async () => {
+            const { Pen } = await import('./pen.js');
+            const wave = i => [i / 3, 60 * Math.sin(i / 25) * Math.cos(i / 190)];
+            const turns = i => [50 * Math.cos(i * i / 9e4), 80 * Math.sin(i / 40)];
+            const jagged = i => [i / 2, i % 2 ? 5 : -5];
+            const back = i => [Math.abs(50 - i), 0.01 * i];
+            return [wave, turns, jagged, back].map(curve => {
+                const points = Array.from({ length: 1200 }, (_, i) => curve(i));
+                const drawn = [];
+                const add = (x, y) => drawn.push([x, y]);
+                const pen = new Pen({ moveTo: add, lineTo: add });
+                points.forEach(([x, y], i) => (i ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+                pen.lift();
+                const apart = ([x, y], [ax, ay], [bx, by]) => {
+                    const [dx, dy] = [bx - ax, by - ay];
+                    const square = dx * dx + dy * dy || 1;
+                    const u = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / square, 0), 1);
+                    return Math.hypot(x - ax - u * dx, y - ay - u * dy);
+                };
+                // Each point that is left out is near the piece that was drawn in its place.
+                const kept = drawn.map(point => points.findIndex(other => other[0] === point[0] && other[1] === point[1]));
+                let [most, piece] = [0, 0];
+                points.forEach((point, i) => {
+                    while (piece < kept.length - 2 && kept[piece + 1] <= i) piece += 1;
+                    most = Math.max(most, apart(point, drawn[piece], drawn[piece + 1]));
+                });
+                const ends = kept[0] === 0 && kept.at(-1) === points.length - 1;
+                return { count: drawn.length, most, ends };
+            });
+        }"""
+    )
+    assert all(line["ends"] and line["most"] < 0.3 for line in told), told
+    counts = [line["count"] for line in told]
+    assert counts[0] < 400 and counts[2] == 1200 and counts[3] < 60, counts
+
+
 def test_between_rows_the_motion_is_the_engines(open_page, command_json):
     page = open_page()
     exact = command_json("run", "--ensemble", "0", "--sample", "0.0317")["motion"]

@@ -1,5 +1,6 @@
 // Axes on a canvas: what the charts, the trajectory and the map have in common.
 
+import { Pen } from "./pen.js";
 import { fixed, number } from "./words.js";
 
 /** Round values across a range, about so many, but two at the least: one alone gives no scale. */
@@ -128,7 +129,7 @@ export function label(context, colours, text, x, y, angle = 0, font = FONT) {
   context.restore();
 }
 
-/** Of points nearer together than this [px] one is drawn: the others are not seen, and take their time. */
+/** Of marks nearer together than this [px] one is drawn: the others are not seen, and take their time. */
 export const NEAR_PX = 0.4;
 
 /**
@@ -142,20 +143,16 @@ export const NEAR_PX = 0.4;
  * @param {(row: number) => boolean} there
  */
 export function drawColumn(context, frame, xs, ys, from = 0, to = xs.length, there = () => true) {
-  let [lastX, lastY, drawing] = [NaN, NaN, false];
+  const pen = new Pen(context);
+  let drawing = false;
   context.beginPath();
   for (let i = from; i < to; i += 1) {
-    if (!there(i)) {
-      drawing = false;
-      continue;
-    }
-    const [x, y] = [frame.x(xs[i]), frame.y(ys[i])];
-    const near = Math.abs(x - lastX) < NEAR_PX && Math.abs(y - lastY) < NEAR_PX;
-    if (drawing && near && i < to - 1 && there(i + 1)) continue;
-    if (drawing) context.lineTo(x, y);
-    else context.moveTo(x, y);
-    [lastX, lastY, drawing] = [x, y, true];
+    const drawn = there(i);
+    if (drawn && drawing) pen.lineTo(frame.x(xs[i]), frame.y(ys[i]));
+    else if (drawn) pen.moveTo(frame.x(xs[i]), frame.y(ys[i]));
+    drawing = drawn;
   }
+  pen.lift();
   context.stroke();
 }
 
@@ -171,13 +168,19 @@ const MARKS = [
 
 /**
  * The marks of snaps, each { cable, x, y }: a cross for cable 1, a ring for cable 2, and other shapes for more. Those of
- * one colour are painted at once, as each painting takes its time.
+ * one colour are painted at once, as each painting takes its time; of the thousands that snaps come to as they
+ * accumulate, all in one place, one.
  */
 export function drawMarks(context, marks, colourOf, size) {
   for (const cable of new Set(marks.map((mark) => mark.cable))) {
+    const places = new Set();
     context.strokeStyle = colourOf(cable);
     context.beginPath();
-    for (const mark of marks) if (mark.cable === cable) addMark(context, cable, mark.x, mark.y, size);
+    for (const { x, y } of marks.filter((mark) => mark.cable === cable)) {
+      const place = `${Math.round(x / NEAR_PX)} ${Math.round(y / NEAR_PX)}`;
+      if (!places.has(place)) addMark(context, cable, x, y, size);
+      places.add(place);
+    }
     context.stroke();
   }
 }

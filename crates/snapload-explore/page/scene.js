@@ -3,7 +3,7 @@
 import { eventWords } from "./events.js";
 import { hang } from "./hang.js";
 import { magnifier } from "./magnifier.js";
-import { NEAR_PX } from "./plot.js";
+import { Pen } from "./pen.js";
 import { arrow } from "./shapes.js";
 import { mix } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
@@ -186,12 +186,14 @@ function path(columns, t, cam, style, horizon, past) {
   const known = lost < 0 ? count : Math.min(lost, count);
   const piece = (from, to, rest) => {
     const points = [];
+    const add = (px, py) => points.push([px, py]);
+    const pen = new Pen({ moveTo: add, lineTo: add });
     for (let i = Math.max(from, 0); i < to; i += 1) {
-      const at = cam.place([x[i], y[i]]);
-      const last = points.at(-1);
-      const near = last && Math.abs(at[0] - last[0]) < NEAR_PX && Math.abs(at[1] - last[1]) < NEAR_PX;
-      if (!near || i === to - 1) points.push(at);
+      const [px, py] = cam.place([x[i], y[i]]);
+      if (i > from && points.length) pen.lineTo(px, py);
+      else pen.moveTo(px, py);
     }
+    pen.lift();
     return points.length > 1 ? [{ points, ...style, ...rest }] : [];
   };
   const old = Math.max(recent, 0);

@@ -1,7 +1,7 @@
 // The buttons of playback, the strip of events, the clock, and the part of time that the charts show.
 
 import { $, mark, put } from "./dom.js";
-import { prepare } from "./plot.js";
+import { NEAR_PX, prepare } from "./plot.js";
 import { SPEEDS } from "./state.js";
 import { colours } from "./theme.js";
 import { fixed, modeName, number } from "./words.js";
@@ -103,9 +103,14 @@ export class Transport {
       const high = 2.5 * Math.min(taut.length, 2);
       if (high) band(modes.t_start[i], modes.t_end[i], paints.strained, height - high, high);
     });
+    // As snaps accumulate there are thousands in one place: the highest so far hides the others.
+    const highest = new Map();
     impacts.t.forEach((t, i) => {
       if (t < from || t > to) return;
       const part = Math.sqrt(impacts.impulse[i] / (this.run.hardest || 1));
+      const place = `${impacts.cable[i]} ${Math.round(x(t) / NEAR_PX)}`;
+      if (part <= (highest.get(place) ?? -1)) return;
+      highest.set(place, part);
       context.fillStyle = paints[`cable-${impacts.cable[i]}`];
       context.fillRect(x(t) - 0.6, height - 5 - (height - 6) * part, 1.2, (height - 6) * part);
     });

@@ -1,0 +1,58 @@
+// Lines of many points, in as few of them as are seen: each one more takes its time to paint.
+
+/** A line that is no further off than this [px] is drawn as the straight one that it looks like. */
+const SEEN_PX = 0.25;
+
+/** Draws lines as the context of a canvas does, but leaves out points that lie on the way. */
+export class Pen {
+  /** @param {{ moveTo: (x: number, y: number) => void, lineTo: (x: number, y: number) => void }} paper */
+  constructor(paper) {
+    this.paper = paper;
+    /** The point that was drawn last, and the latest one. @type {number[]} */
+    this.from = [0, 0];
+    /** @type {number[] | null} */
+    this.latest = null;
+    /** The way from the one to the other, how far it is, and between which angles about it the line passes all since. */
+    this.way = [0, 0];
+    this.far = 0;
+    this.angles = [0, 0];
+  }
+
+  moveTo(x, y) {
+    this.lift();
+    this.paper.moveTo(x, y);
+    this.from = [x, y];
+  }
+
+  lineTo(x, y) {
+    const [dx, dy] = [x - this.from[0], y - this.from[1]];
+    const far = Math.hypot(dx, dy);
+    const wide = Math.asin(Math.min(SEEN_PX / far, 1));
+    if (this.far === 0) {
+      // Whatever is nearer than can be seen has no way yet.
+      if (far > SEEN_PX) Object.assign(this, { way: [dx / far, dy / far], far, angles: [-wide, wide] });
+      this.latest = [x, y];
+      return;
+    }
+    const [wx, wy] = this.way;
+    const angle = Math.atan2(wx * dy - wy * dx, wx * dx + wy * dy);
+    const [low, high] = this.angles;
+    if (far < this.far || angle < low || angle > high) {
+      const from = this.latest;
+      this.lift();
+      this.from = from;
+      this.lineTo(x, y);
+      return;
+    }
+    this.far = far;
+    this.angles = [Math.max(low, angle - wide), Math.min(high, angle + wide)];
+    this.latest = [x, y];
+  }
+
+  /** Draws what is left of the line. */
+  lift() {
+    if (this.latest) this.paper.lineTo(this.latest[0], this.latest[1]);
+    this.latest = null;
+    this.far = 0;
+  }
+}
