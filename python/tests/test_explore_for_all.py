@@ -137,7 +137,8 @@ def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(open_page):
                     return Math.hypot(x - ax - u * dx, y - ay - u * dy);
                 };
                 // Each point that is left out is near the piece that was drawn in its place.
-                const kept = drawn.map(point => points.findIndex(other => other[0] === point[0] && other[1] === point[1]));
+                const same = (one, other) => one[0] === other[0] && one[1] === other[1];
+                const kept = drawn.map(point => points.findIndex(other => same(point, other)));
                 let [most, piece] = [0, 0];
                 points.forEach((point, i) => {
                     while (piece < kept.length - 2 && kept[piece + 1] <= i) piece += 1;
