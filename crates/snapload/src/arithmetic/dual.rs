@@ -40,11 +40,12 @@ impl<T: Real, const N: usize> Dual<T, N> {
 
     /// f(self), of which the value and the derivative are given.
     #[inline(always)]
-    fn chain(self, value: T, derivative: T) -> Self {
-        Self {
-            value,
-            slope: self.slope.map(|slope| slope * derivative),
+    fn chain(mut self, value: T, derivative: T) -> Self {
+        self.value = value;
+        for slope in &mut self.slope {
+            *slope = *slope * derivative;
         }
+        self
     }
 }
 
@@ -151,11 +152,12 @@ impl<T: Real, const N: usize> Mul<f64> for Dual<T, N> {
 impl<T: Real, const N: usize> Div<f64> for Dual<T, N> {
     type Output = Self;
     #[inline(always)]
-    fn div(self, other: f64) -> Self {
-        Self {
-            value: self.value / other,
-            slope: self.slope.map(|slope| slope / other),
+    fn div(mut self, other: f64) -> Self {
+        self.value = self.value / other;
+        for slope in &mut self.slope {
+            *slope = *slope / other;
         }
+        self
     }
 }
 

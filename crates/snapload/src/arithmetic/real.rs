@@ -66,18 +66,22 @@ pub trait Real:
     fn versines(self) -> (Self, Self);
 
     /// Absolute value.
+    #[inline(always)]
     fn abs(self) -> Self {
         if self < Self::ZERO { -self } else { self }
     }
     /// The larger of two.
+    #[inline(always)]
     fn max(self, other: Self) -> Self {
         if self < other { other } else { self }
     }
     /// The smaller of two.
+    #[inline(always)]
     fn min(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
     /// Square.
+    #[inline(always)]
     fn squared(self) -> Self {
         self * self
     }
