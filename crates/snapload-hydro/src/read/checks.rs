@@ -44,6 +44,7 @@ fn symmetry(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hy
 }
 
 fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), HydroError> {
+    let mut high = Vec::new();
     for (i, freedom) in FREEDOMS.iter().enumerate() {
         let values = hydro.damping_entry(i, i);
         let largest = values.iter().fold(0.0, |most: f64, b| most.max(b.abs()));
@@ -70,13 +71,16 @@ fn damping(hydro: &Hydrodynamics, warnings: &mut Vec<Warning>) -> Result<(), Hyd
         }
         let last = values.last().copied().unwrap_or(0.0);
         if last.abs() > 0.05 * largest {
-            let words = format!(
-                "the damping of {freedom} at the last frequency is {:.0} % of its largest; the \
-                 memory's first moments rest on a power law beyond. Compute higher frequencies",
-                100.0 * last.abs() / largest
-            );
-            warnings.push(Warning::new("high frequencies", words));
+            high.push(format!("{:.0} % ({freedom})", 100.0 * last.abs() / largest));
         }
+    }
+    if !high.is_empty() {
+        let words = format!(
+            "at the last frequency the damping still is {} of its largest; the memory's first moments \
+             rest on a power law beyond. Compute higher frequencies",
+            high.join(", ")
+        );
+        warnings.push(Warning::new("high frequencies", words));
     }
     Ok(())
 }
