@@ -85,24 +85,7 @@ impl Tangent {
     #[inline(always)]
     pub(crate) fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
-        let afloat = system.floating.as_ref();
-        #[expect(
-            clippy::manual_map,
-            reason = "a closure would be compiled for every processor"
-        )]
-        let water = match afloat {
-            Some(water) => Some(Box::new(self.water_flow(simulation, step, water))),
-            None => None,
-        };
-        let flow = Flow {
-            s: step.t_end - step.t_start,
-            driven: if system.flies_freely(step.taut) || afloat.is_some() {
-                None
-            } else {
-                Some(self.driven_flow(simulation, step))
-            },
-            water,
-        };
+        let flow = self.flow(simulation, step);
         let pull = simulation.memory_force_within(step, 0.0);
         let around = simulation.surroundings(step.t_start);
         let first = rate(system, &around, &step.start, pull, step.taut);
@@ -118,7 +101,7 @@ impl Tangent {
             rate(system, &around, &step.after, pull, step.taut_after)
         };
         let mut begun = join(&first, 0.0).map(|component| [component]);
-        let memory = if let Some(water) = afloat {
+        let memory = if let Some(water) = &system.floating {
             let start = simulation.memory_at_start();
             let carried = memory_rates(water, &start, &step.start).into_iter();
             let mut carried: Vec<[f64; 1]> = carried.map(|rate| [rate]).collect();
@@ -150,6 +133,30 @@ impl Tangent {
                 Some(self.law(system, step))
             },
             rate_after,
+        }
+    }
+
+    /// Φ along the stretch of a step.
+    #[inline(always)]
+    fn flow(&self, simulation: &Simulation, step: &Step) -> Flow {
+        let system = simulation.system();
+        let afloat = system.floating.as_ref();
+        #[expect(
+            clippy::manual_map,
+            reason = "a closure would be compiled for every processor"
+        )]
+        let water = match afloat {
+            Some(water) => Some(Box::new(self.water_flow(simulation, step, water))),
+            None => None,
+        };
+        Flow {
+            s: step.t_end - step.t_start,
+            driven: if system.flies_freely(step.taut) || afloat.is_some() {
+                None
+            } else {
+                Some(self.driven_flow(simulation, step))
+            },
+            water,
         }
     }
 
