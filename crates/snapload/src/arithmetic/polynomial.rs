@@ -74,6 +74,18 @@ impl<T: Real> Polynomial<T> {
         ([value, rate, half_accel * 2.0], size)
     }
 
+    /// Values at some places, of the powers up to `order`.
+    #[inline(always)]
+    pub(crate) fn values<const N: usize>(&self, places: &[T; N], order: usize) -> [T; N] {
+        let mut values = [T::ZERO; N];
+        for coefficient in self.0[..=order].iter().rev() {
+            for (value, place) in values.iter_mut().zip(places) {
+                *value = value.mul_add(*place, *coefficient);
+            }
+        }
+        values
+    }
+
     /// Value and first two derivatives at s, and the rounding error of the value.
     #[inline(always)]
     pub(crate) fn jet_and_noise(&self, s: T, order: usize) -> ([T; 3], T) {
@@ -175,33 +187,6 @@ fn largest<T: Real>(coefficients: &[T], x: T, least: T) -> T {
     most
 }
 
-/// Σ a_j b_{k−j}, the k-th coefficient of a product.
-#[inline(always)]
-pub(crate) fn convolve<T: Real>(a: &Polynomial<T>, b: &Polynomial<T>, k: usize) -> T {
-    sum_of_products(&a.0[..=k], &b.0[..=k])
-}
-
-/// The first list's entries times the second's in reverse: four sums that take turns and are added
-/// at the end, as a processor can do several at once.
-#[inline(always)]
-fn sum_of_products<T: Real>(a: &[T], b: &[T]) -> T {
-    let mut sums = [T::ZERO; 4];
-    let (fours, reversed) = (a.chunks_exact(4), b.rchunks_exact(4));
-    let rest = fours
-        .remainder()
-        .iter()
-        .zip(reversed.remainder().iter().rev());
-    for (x, y) in fours.zip(reversed) {
-        for k in 0..4 {
-            sums[k] += x[k] * y[3 - k];
-        }
-    }
-    for (sum, (x, y)) in sums.iter_mut().zip(rest) {
-        *sum += *x * *y;
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,5 +199,6 @@ mod tests {
         assert_eq!(p.derivative_bound(3, 7.0, ORDER), 24.0);
         assert_eq!(p.derivative_bound(2, 0.5, ORDER), 6.0 + 12.0);
         assert_eq!(p.negated().jet(0.5, 1)[0], 0.0);
+        assert_eq!(p.values(&[0.0, 0.5, -1.0], ORDER), [1.0, 0.25, 10.0]);
     }
 }

@@ -1,8 +1,9 @@
 //! The resistance of water to a body that moves through it.
 
 use crate::arithmetic::plane::Vector2;
-use crate::arithmetic::polynomial::{Polynomial, convolve};
+use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
+use crate::arithmetic::vector_series::{VectorSeries, convolve};
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 
@@ -60,41 +61,48 @@ impl<T: Real> Drag<T> {
 /// The Taylor series of D along a motion, whose coefficients follow from those of the velocity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DragSeries<T: Real> {
-    /// u.
-    relative: [Polynomial<T>; 2],
-    /// |u|² + δ².
-    square: Polynomial<T>,
-    /// |u|.
-    speed: Polynomial<T>,
+    /// u, its speed |u|, and nothing.
+    relative: VectorSeries<T, 4>,
+    /// |u|, once for each component of u.
+    speed: VectorSeries<T, 4>,
+    /// 1/2s₀.
+    half_per_speed: T,
 }
 
 impl<T: Real> DragSeries<T> {
     /// Of a body that does not move, in water of the velocity w.
     #[inline(always)]
-    pub(crate) fn begin(&mut self, water: &[Polynomial<T>; 2]) {
-        self.relative = *water;
+    pub(crate) fn begin(&mut self, [along, up]: &[Polynomial<T>; 2]) {
+        for k in 0..=ORDER {
+            self.relative[k] = [along[k], up[k], T::ZERO, T::ZERO];
+            self.speed[k] = [T::ZERO; 4];
+        }
     }
 
-    /// The k-th coefficient of D, from that of the body's velocity; S = |u|² gives |u| by
-    /// 2 s₀ s_k = S_k − Σ s_j s_{k−j}, 0 < j < k.
+    /// The k-th coefficient of D, from that of the body's velocity; S = |u|² + δ² gives s = |u| by
+    /// 2 s₀ s_k = S_k − Σ s_j s_{k−j}, 0 < j < k. While s_k is not known it is zero, so that this sum
+    /// is that of the square, and the product of s and u lacks s_k u₀.
     #[inline(always)]
-    pub(crate) fn extend(&mut self, drag: &Drag<T>, velocity: [T; 2], k: usize) -> [T; 2] {
-        for (relative, velocity) in self.relative.iter_mut().zip(velocity) {
-            relative[k] -= velocity;
-        }
-        let [u, v] = &self.relative;
-        self.square[k] = convolve(u, u, k) + convolve(v, v, k);
-        if k == 0 {
-            self.square[0] += T::from_f64(STANDSTILL).squared();
-            self.speed[0] = self.square[0].sqrt();
+    pub(crate) fn extend(&mut self, drag: &Drag<T>, [vx, vy]: [T; 2], k: usize) -> [T; 2] {
+        let [u, v, ..] = self.relative[k];
+        let [u, v] = [u - vx, v - vy];
+        self.relative[k] = [u, v, T::ZERO, T::ZERO];
+        let relative = &self.relative;
+        let [[uu, vv, known, _], [su, sv, ..]] =
+            convolve([(relative, relative), (&self.speed, relative)], k);
+        let speed = if k == 0 {
+            let speed = (uu + vv + T::from_f64(STANDSTILL).squared()).sqrt();
+            self.half_per_speed = T::from_f64(0.5) / speed;
+            speed
         } else {
-            let known = (1..k).fold(self.square[k], |sum, j| {
-                sum - self.speed[j] * self.speed[k - j]
-            });
-            self.speed[k] = known / (self.speed[0] * 2.0);
-        }
-        [u, v].map(|component| {
-            drag.linear * component[k] + drag.quadratic * convolve(&self.speed, component, k)
-        })
+            (uu + vv - known) * self.half_per_speed
+        };
+        self.relative[k][2] = speed;
+        self.speed[k] = [speed, speed, T::ZERO, T::ZERO];
+        let [first, other, ..] = self.relative[0];
+        [
+            drag.linear * u + drag.quadratic * speed.mul_add(first, su),
+            drag.linear * v + drag.quadratic * speed.mul_add(other, sv),
+        ]
     }
 }

@@ -12,6 +12,9 @@ use crate::model::state::State;
 use crate::model::surroundings::Surroundings;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 
+/// So many sinusoids or fewer are summed up anew for each instant.
+pub(crate) const FEW_SINUSOIDS: usize = 8;
+
 /// A body on inextensible cables, under forces that depend on time alone, in water that may resist or
 /// carry it.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,8 +87,15 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Whether motion with these taut cables has a closed form: slack, of unit mass, and in water
-    /// that neither resists nor carries.
+    /// Whether motion with these taut cables is computed in closed form. Of many sinusoids that takes
+    /// longer than a series: each has to be evaluated at every look, and their series is summed up once
+    /// for many steps ([`crate::motion::waves`]).
+    pub(crate) fn has_closed_form(&self, taut: TautSet) -> bool {
+        self.flies_freely(taut) && self.forcing.harmonics.len() <= FEW_SINUSOIDS
+    }
+
+    /// Whether motion with these taut cables is by the force alone, which depends on no state: slack,
+    /// of unit mass, and in water that neither resists nor carries.
     pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
         taut.is_empty()
             && self.drag.is_none()

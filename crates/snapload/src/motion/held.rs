@@ -54,7 +54,7 @@ impl<T: Real> Held<T> {
     /// for each of them.
     pub fn path(&self, taut: TautSet, t: T, state: &State<T>, s: T) -> Path<'_, T> {
         let mut pieces = Vec::new();
-        if !self.system.flies_freely(taut) {
+        if !self.system.has_closed_form(taut) {
             dispatch_over::<T, _>(Carrying {
                 held: self,
                 taut,
@@ -181,7 +181,7 @@ impl<T: Real> Kernel for Carrying<'_, T> {
     #[inline(always)]
     fn run(self) -> State<T> {
         let (t, state) = self.from;
-        if self.held.system.flies_freely(self.taut) {
+        if self.held.system.has_closed_form(self.taut) {
             self.held.flown(t, state, self.s)
         } else {
             self.held.driven(self.taut, (t, state), self.s, self.kept)

@@ -51,7 +51,7 @@ impl Kernel for Reaching<'_, '_> {
     fn run(self) -> (f64, f64) {
         let Self(playback, index, t) = self;
         let segment = playback.come_to(index, t);
-        let free = playback.run.system().flies_freely(segment.active.taut);
+        let free = playback.run.system().has_closed_form(segment.active.taut);
         let used = if free {
             f64::INFINITY
         } else {
@@ -71,7 +71,7 @@ impl Piece<'_, '_> {
             ..
         } = self.playback;
         let taut = reached.as_ref().map(|(_, segment)| segment.active.taut);
-        if taut.is_some_and(|taut| run.system().flies_freely(taut)) {
+        if taut.is_some_and(|taut| run.system().has_closed_form(taut)) {
             Stretch::Closed(Cow::Borrowed(flight))
         } else {
             Stretch::Expanded(series)
@@ -189,7 +189,7 @@ impl<'a> Playback<'a> {
         let taut = segment.active.taut;
         let state = if s <= 0.0 {
             segment.start
-        } else if self.run.system().flies_freely(taut) {
+        } else if self.run.system().has_closed_form(taut) {
             self.flight.state(s)
         } else {
             self.series.state(s)
@@ -226,7 +226,7 @@ impl<'a> Playback<'a> {
                 kept[index].clone()
             }
         };
-        if !system.flies_freely(segment.active.taut) {
+        if !system.has_closed_form(segment.active.taut) {
             let mut later = segment.t + self.series.step();
             while segment.t < later && later <= t && later < next {
                 segment = segment.following(system, &self.series);
@@ -241,7 +241,7 @@ impl<'a> Playback<'a> {
     #[inline(always)]
     fn begin(&mut self, segment: &Segment) {
         let (system, t, start) = (self.run.system(), segment.t, &segment.start);
-        if system.flies_freely(segment.active.taut) {
+        if system.has_closed_form(segment.active.taut) {
             // Gaps are not looked at here, so nothing need be known of them.
             let contacts = [Contact::RESTING; MAX_CABLES];
             self.flight.begin(system, t, start, start, &contacts);

@@ -119,7 +119,7 @@ impl Segments {
         };
         if let Some(before) = &self.unbroken
             && (before.active, before.closed) == (segment.active, segment.closed)
-            && !system.flies_freely(step.taut)
+            && !system.has_closed_form(step.taut)
         {
             segment.link = before.link + 1;
         }

@@ -346,7 +346,7 @@ impl<T: Real> Simulation<T> {
         apart!(T, {
             self.begun = self.t;
             let mut horizon = self.rules.t_end - self.t;
-            let crossing = if self.system.flies_freely(self.active.taut) {
+            let crossing = if self.system.has_closed_form(self.active.taut) {
                 self.flight.begin(
                     &self.system,
                     self.t,

@@ -374,6 +374,12 @@ impl<T: Real> Series<T> {
         tension
     }
 
+    /// The tension of a taut cable at some times after the start.
+    #[inline(always)]
+    pub(crate) fn tensions<const N: usize>(&self, cable: usize, times: &[T; N]) -> [T; N] {
+        self.lines[cable].tension.values(times, ORDER - 2)
+    }
+
     /// g and ġ of a slack cable a time `s` after the start.
     #[inline(always)]
     pub(crate) fn gap_and_rate(&self, cable: usize, s: T) -> (T, T) {

@@ -167,6 +167,15 @@ mod tests {
         }
     }
 
+    /// The same sea on a body that floats and on one below the surface, which has half of the sums.
+    fn bodies() -> [System; 2] {
+        let submerged = System {
+            floating: None,
+            ..sea()
+        };
+        [sea(), submerged]
+    }
+
     fn numbers(around: &Surroundings) -> [f64; 7] {
         let Surroundings {
             force,
@@ -180,8 +189,11 @@ mod tests {
     /// where nothing is covered.
     #[test]
     fn many_waves_are_what_they_are_one_by_one() {
-        let system = sea();
-        let mut waves = Waves::new(&system);
+        bodies().iter().for_each(sums_are_right);
+    }
+
+    fn sums_are_right(system: &System) {
+        let mut waves = Waves::new(system);
         assert!(waves.stretches.is_some());
         let quickest = 0.07 * 70.0;
         for k in 0..4000_u32 {
@@ -195,7 +207,7 @@ mod tests {
                 assert!(waves.stretch(t).is_some());
             }
             let known = numbers(&system.surroundings(t));
-            let found = numbers(&waves.at(&system, t));
+            let found = numbers(&waves.at(system, t));
             for (found, known) in found.into_iter().zip(known) {
                 assert!((found - known).abs() < 2e-13, "{t}: {found} {known}");
             }
@@ -220,14 +232,17 @@ mod tests {
     /// the sums, as far as a step reaches.
     #[test]
     fn series_are_those_of_the_sinusoids() {
-        let system = sea();
-        let mut waves = Waves::new(&system);
+        bodies().iter().for_each(series_are_right);
+    }
+
+    fn series_are_right(system: &System) {
+        let mut waves = Waves::new(system);
         let quickest = 0.07 * 70.0_f64;
         for k in 0..400_u32 {
             let t = f64::from(k * 131 % 400) * 0.613 - 20.0;
             waves.cover(t, t);
-            let found = all(&waves.expanded(&system, t));
-            let known = all(&Expanded::of(&system, t));
+            let found = all(&waves.expanded(system, t));
+            let known = all(&Expanded::of(system, t));
             let s = 2.4 / quickest;
             let mut power = 1.0;
             for order in 0..=ORDER {

@@ -19,6 +19,8 @@ use std::borrow::Cow;
 /// Where the bound on the highest point has to be close, a stretch is looked at in this many equal
 /// parts.
 const LOOKS: usize = 64;
+/// Instants along a step at which tensions are looked at.
+const INSTANTS: usize = 17;
 
 /// The motion along a stretch.
 pub(in crate::motion) enum Stretch<'a, T: Real> {
@@ -47,6 +49,17 @@ impl<T: Real> Kernel for TensionsWithin<'_, T> {
     #[inline(always)]
     fn run(self) -> Self::Output {
         self.0.tensions_here(self.1, self.2)
+    }
+}
+
+/// The ranges of tensions to be found, likewise.
+struct TensionRanges<'a, T: Real>(&'a Simulation<T>, &'a Step<T>);
+
+impl<T: Real> Kernel for TensionRanges<'_, T> {
+    type Output = [[T; 2]; MAX_CABLES];
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        self.0.tension_ranges_here(self.1)
     }
 }
 
@@ -155,7 +168,7 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
         let series = self.series.as_deref();
-        series.filter(|_| !self.system.flies_freely(taut))
+        series.filter(|_| !self.system.has_closed_form(taut))
     }
 
     /// The flight of the latest step.
@@ -312,19 +325,37 @@ impl<T: Real> Simulation<T> {
     /// The least and the largest tension of each cable along the latest step, as they are at
     /// seventeen instants evenly spaced; 0 of a cable that is slack \[F\].
     pub fn tension_ranges(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
+        if step.taut.is_empty() {
+            return [[T::ZERO; 2]; MAX_CABLES];
+        }
+        dispatch_over::<T, _>(TensionRanges(self, step))
+    }
+
+    #[inline(always)]
+    fn tension_ranges_here(&self, step: &Step<T>) -> [[T; 2]; MAX_CABLES] {
         let s = step.t_end - step.t_start;
+        let mut instants = [T::ZERO; INSTANTS];
+        for (k, instant) in instants.iter_mut().enumerate() {
+            *instant = s * (k as f64 / (INSTANTS - 1) as f64);
+        }
         let mut ranges = [[T::ZERO; 2]; MAX_CABLES];
-        for k in 0..=16 {
-            if step.taut.is_empty() {
-                break;
-            }
-            let now = self.tensions_within(step, s * (f64::from(k) / 16.0));
+        if let (Some(series), true) = (self.expanded(step.taut), step.taut == step.carrying) {
             for cable in step.taut.iter() {
-                let [least, largest] = ranges[cable];
-                ranges[cable] = match k {
-                    0 => [now[cable]; 2],
-                    _ => [least.min(now[cable]), largest.max(now[cable])],
-                };
+                let tensions = series.tensions(cable, &instants);
+                ranges[cable] = [tensions[0]; 2];
+                for tension in tensions {
+                    widen(&mut ranges[cable], tension);
+                }
+            }
+            return ranges;
+        }
+        for (k, instant) in instants.into_iter().enumerate() {
+            let now = self.tensions_here(step, instant);
+            for cable in step.taut.iter() {
+                if k == 0 {
+                    ranges[cable] = [now[cable]; 2];
+                }
+                widen(&mut ranges[cable], now[cable]);
             }
         }
         ranges
@@ -332,10 +363,7 @@ impl<T: Real> Simulation<T> {
 
     /// The tension of each cable at the end of the latest step, before the event there \[F\].
     pub fn tensions_at_end(&self, step: &Step<T>) -> [T; MAX_CABLES] {
-        self.tensions_within(step, step.t_end - step.t_start)
-    }
-
-    fn tensions_within(&self, step: &Step<T>, s: T) -> [T; MAX_CABLES] {
+        let s = step.t_end - step.t_start;
         dispatch_over::<T, _>(TensionsWithin(self, step, s))
     }
 
@@ -361,4 +389,11 @@ impl<T: Real> Simulation<T> {
     pub(crate) fn expansion(&self) -> T {
         self.series.as_ref().map_or(T::ZERO, |series| series.step())
     }
+}
+
+/// Makes a range hold a value.
+#[inline(always)]
+fn widen<T: Real>([least, largest]: &mut [T; 2], value: T) {
+    *least = least.min(value);
+    *largest = largest.max(value);
 }

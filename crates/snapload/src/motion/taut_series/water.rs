@@ -82,11 +82,12 @@ impl<T: Real> Series<T> {
     }
 
     /// Where the motion has singularities its products have the same ones, and their last terms are
-    /// about as small as its own. The flight of a floating body, or of one with any mass, is a sum of
-    /// exponentials: its squares grow twice as fast, and what a series of them leaves out is 2^28 times
-    /// as much.
+    /// about as small as its own. The flight of a floating body, of one with any mass, or in the waves
+    /// alone is a sum of exponentials: its squares grow twice as fast, and what a series of them leaves
+    /// out is 2^28 times as much.
     fn is_followed_by_its_terms(&self, system: &System<T>) -> bool {
-        self.water.is_none() && system.body.mass.is_unit()
+        let flies = system.flies_freely(self.active.taut);
+        self.water.is_none() && system.body.mass.is_unit() && !flies
     }
 
     /// What the series of place, velocity and memory leave out up to a time `s`.

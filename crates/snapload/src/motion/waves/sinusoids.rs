@@ -4,16 +4,22 @@ use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::processor::Kernel;
 use crate::arithmetic::real::Real;
 use crate::model::surroundings::Surroundings;
-use crate::model::system::System;
+use crate::model::system::{FEW_SINUSOIDS, System};
 
 /// Coefficients of a polynomial.
 const TERMS: usize = 36;
 /// h Ω.
 pub(super) const RADIANS: f64 = 2.0;
-/// So many frequencies or fewer are summed up each time.
-const FEW: usize = 8;
-/// Force (2), velocity of the water (2), excitation (3), and nothing.
-type Parts<T> = [T; 8];
+/// Numbers that a processor works on at once.
+type Quad<T> = [T; 4];
+/// Force (2) and velocity of the water (2); excitation (3), and nothing.
+type Parts<T> = [Quad<T>; 2];
+/// So many sinusoids are summed up at once.
+const TOGETHER: usize = 32;
+/// So many orders are summed up at once, an even number: as many sums as a processor has room for.
+const BLOCK: usize = 12;
+/// So many coefficients about another time are found at once.
+const CHAINS: usize = 6;
 
 /// All of one frequency.
 #[derive(Clone, Debug)]
@@ -21,6 +27,8 @@ struct Sinusoid<T> {
     omega: T,
     cosine: Parts<T>,
     sine: Parts<T>,
+    /// ± (ωh)^k/k!.
+    factors: [T; TERMS],
 }
 
 /// All frequencies, and what does not change.
@@ -28,6 +36,8 @@ struct Sinusoid<T> {
 pub(super) struct Sinusoids<T> {
     each: Vec<Sinusoid<T>>,
     constant: Parts<T>,
+    /// How many of the quads are not zero: the second is a floating body's.
+    quads: usize,
     /// h.
     pub(super) half: T,
 }
@@ -39,7 +49,8 @@ pub(super) struct Stretch<T> {
     pub(super) index: Option<i64>,
     /// t_m.
     middle: T,
-    terms: [Parts<T>; TERMS],
+    quads: usize,
+    terms: [[Quad<T>; TERMS]; 2],
 }
 
 /// The series of what acts from outside about a time.
@@ -57,13 +68,16 @@ impl<T: Real> Sinusoids<T> {
         }
         let mut each = Vec::new();
         let mut add = |omega: T, place: usize, cosine: &[T], sine: &[T]| {
+            let nothing = [[T::ZERO; 4]; 2];
             let mut wave = Sinusoid {
                 omega,
-                cosine: [T::ZERO; 8],
-                sine: [T::ZERO; 8],
+                cosine: nothing,
+                sine: nothing,
+                factors: [T::ZERO; TERMS],
             };
-            wave.cosine[place..place + cosine.len()].copy_from_slice(cosine);
-            wave.sine[place..place + sine.len()].copy_from_slice(sine);
+            let places = place..place + cosine.len();
+            wave.cosine.as_flattened_mut()[places.clone()].copy_from_slice(cosine);
+            wave.sine.as_flattened_mut()[places].copy_from_slice(sine);
             each.push(wave);
         };
         let water = system.drag.iter().flat_map(|drag| &drag.water);
@@ -77,18 +91,36 @@ impl<T: Real> Sinusoids<T> {
         }
         let quickest = |most: T, wave: &Sinusoid<T>| most.max(wave.omega.abs());
         let quickest = each.iter().fold(T::ZERO, quickest);
-        let each = merged(each);
-        let mut constant = [T::ZERO; 8];
-        constant[..2].copy_from_slice(&system.forcing.constant.components());
+        let mut each = merged(each);
+        let mut constant = [[T::ZERO; 4]; 2];
+        constant[0][..2].copy_from_slice(&system.forcing.constant.components());
         if let Some(water) = &system.floating {
-            constant[4..7].copy_from_slice(&water.constant);
+            constant[1][..3].copy_from_slice(&water.constant);
         }
-        (each.len() > FEW && quickest > T::ZERO && quickest.is_finite()).then(|| Self {
+        if each.len() <= FEW_SINUSOIDS || quickest <= T::ZERO || !quickest.is_finite() {
+            return None;
+        }
+        let half = T::from_f64(RADIANS) / quickest;
+        for wave in &mut each {
+            wave.factors = factors(wave.omega * half);
+        }
+        Some(Self {
             each,
             constant,
-            half: T::from_f64(RADIANS) / quickest,
+            quads: if system.floating.is_some() { 2 } else { 1 },
+            half,
         })
     }
+}
+
+/// ± (ωh)^k/k!.
+fn factors<T: Real>(radians: T) -> [T; TERMS] {
+    let (mut factors, mut factor) = ([T::ZERO; TERMS], T::ONE);
+    for (k, signed) in factors.iter_mut().enumerate() {
+        *signed = if k % 4 < 2 { factor } else { -factor };
+        factor = factor * radians * SHARES[k];
+    }
+    factors
 }
 
 /// Those of one frequency as one, in order of their frequencies.
@@ -97,9 +129,13 @@ fn merged<T: Real>(mut each: Vec<Sinusoid<T>>) -> Vec<Sinusoid<T>> {
     each.dedup_by(|next, kept| {
         let same = next.omega == kept.omega;
         if same {
-            for i in 0..8 {
-                kept.cosine[i] += next.cosine[i];
-                kept.sine[i] += next.sine[i];
+            let cosines = kept.cosine.as_flattened_mut().iter_mut();
+            for (sum, more) in cosines.zip(next.cosine.as_flattened()) {
+                *sum += *more;
+            }
+            let sines = kept.sine.as_flattened_mut().iter_mut();
+            for (sum, more) in sines.zip(next.sine.as_flattened()) {
+                *sum += *more;
             }
         }
         same
@@ -115,33 +151,60 @@ impl<T: Real> Kernel for Summing<'_, T> {
     #[inline(always)]
     fn run(self) -> Stretch<T> {
         let Self(sinusoids, index) = self;
-        let half = sinusoids.half;
-        let middle = half * ((index as f64 + 0.5) * 2.0);
-        let mut terms = [[T::ZERO; 8]; TERMS];
-        terms[0] = sinusoids.constant;
-        for wave in &sinusoids.each {
-            let (s, c) = (wave.omega * middle).sin_cos();
-            let mut parts = [[T::ZERO; 8]; 2];
-            for (i, (cosine, sine)) in wave.cosine.iter().zip(&wave.sine).enumerate() {
-                parts[0][i] = s.mul_add(*sine, c * *cosine);
-                parts[1][i] = c.mul_add(*sine, -(s * *cosine));
+        let middle = sinusoids.half * ((index as f64 + 0.5) * 2.0);
+        let mut terms = [[[T::ZERO; 4]; TERMS]; 2];
+        for (terms, constant) in terms.iter_mut().zip(&sinusoids.constant) {
+            terms[0] = *constant;
+        }
+        for waves in sinusoids.each.chunks(TOGETHER) {
+            let mut turned = [[T::ZERO; 2]; TOGETHER];
+            for (turned, wave) in turned.iter_mut().zip(waves) {
+                let (s, c) = (wave.omega * middle).sin_cos();
+                *turned = [s, c];
             }
-            let radians = wave.omega * half;
-            let mut factor = T::ONE;
-            for k in 0..TERMS {
-                let sign = if k % 4 < 2 { factor } else { -factor };
-                let part = &parts[k % 2];
-                for (term, part) in terms[k].iter_mut().zip(part) {
-                    *term = sign.mul_add(*part, *term);
-                }
-                factor = factor * radians * SHARES[k];
+            for (quad, terms) in terms.iter_mut().enumerate().take(sinusoids.quads) {
+                add(waves, quad, &turned, terms);
             }
         }
         Stretch {
             index: Some(index),
             middle,
+            quads: sinusoids.quads,
             terms,
         }
+    }
+}
+
+/// Adds one quad of some sinusoids, of which the sine and the cosine at the middle are given. A block
+/// of orders at a time, so that a sum stays where it is while one sinusoid after the other is added.
+#[inline(always)]
+fn add<T: Real>(
+    waves: &[Sinusoid<T>],
+    quad: usize,
+    turned: &[[T; 2]; TOGETHER],
+    terms: &mut [Quad<T>; TERMS],
+) {
+    let mut parts = [[[T::ZERO; 4]; 2]; TOGETHER];
+    for ((parts, wave), [s, c]) in parts.iter_mut().zip(waves).zip(turned) {
+        let (cosine, sine) = (&wave.cosine[quad], &wave.sine[quad]);
+        for w in 0..4 {
+            parts[0][w] = s.mul_add(sine[w], *c * cosine[w]);
+            parts[1][w] = c.mul_add(sine[w], -(*s * cosine[w]));
+        }
+    }
+    let (blocks, _) = terms.as_chunks_mut::<BLOCK>();
+    for (block, sums) in blocks.iter_mut().enumerate() {
+        let mut kept = *sums;
+        for (wave, parts) in waves.iter().zip(&parts) {
+            let (factors, _) = wave.factors.as_chunks::<BLOCK>();
+            let factors = &factors[block];
+            for k in 0..BLOCK {
+                for w in 0..4 {
+                    kept[k][w] = factors[k].mul_add(parts[k % 2][w], kept[k][w]);
+                }
+            }
+        }
+        *sums = kept;
     }
 }
 
@@ -162,55 +225,88 @@ impl<T: Real> Stretch<T> {
         Self {
             index: None,
             middle: T::ZERO,
-            terms: [[T::ZERO; 8]; TERMS],
+            quads: 0,
+            terms: [[[T::ZERO; 4]; TERMS]; 2],
         }
     }
 
     #[inline(always)]
     pub(super) fn at(&self, half: T, t: T) -> Surroundings<T> {
         let u = (t - self.middle) / half;
-        let mut sum = [T::ZERO; 8];
-        for k in (0..TERMS).rev() {
-            for (sum, term) in sum.iter_mut().zip(&self.terms[k]) {
-                *sum = sum.mul_add(u, *term);
+        let mut sums = [[T::ZERO; 4]; 2];
+        for (sum, terms) in sums.iter_mut().zip(&self.terms).take(self.quads) {
+            for term in terms.iter().rev() {
+                horner(sum, u, term);
             }
         }
+        let [[x, y, u, v], [surge, heave, pitch, _]] = sums;
         Surroundings {
-            force: [sum[0], sum[1]].into(),
-            water: [sum[2], sum[3]].into(),
-            excitation: [sum[4], sum[5], sum[6]],
+            force: [x, y].into(),
+            water: [u, v].into(),
+            excitation: [surge, heave, pitch],
         }
     }
 
-    /// The same polynomial about another time, by repeated division, as far as a series goes.
+    /// The same polynomial about another time, as far as a series goes.
     #[inline(always)]
     pub(super) fn expanded(&self, half: T, t: T) -> Expanded<T> {
         let u = (t - self.middle) / half;
-        let mut terms = self.terms;
+        let mut about = [[[T::ZERO; 4]; ORDER + 1]; 2];
+        for (about, terms) in about.iter_mut().zip(&self.terms).take(self.quads) {
+            *about = shifted(terms, u);
+        }
         let mut expanded = Expanded {
             force: [Polynomial::default(); 2],
             water: [Polynomial::default(); 2],
             excitation: [Polynomial::default(); 3],
         };
         let (mut scale, share) = (T::ONE, T::ONE / half);
-        for order in 0..=ORDER {
-            for k in (order..TERMS - 1).rev() {
-                let (known, next) = terms.split_at_mut(k + 1);
-                for (term, next) in known[k].iter_mut().zip(&next[0]) {
-                    *term = next.mul_add(u, *term);
-                }
-            }
-            let found = terms[order];
+        let [of_all, afloat] = &about;
+        for (order, (of_all, afloat)) in of_all.iter().zip(afloat).enumerate() {
             for i in 0..2 {
-                expanded.force[i][order] = found[i] * scale;
-                expanded.water[i][order] = found[2 + i] * scale;
+                expanded.force[i][order] = of_all[i] * scale;
+                expanded.water[i][order] = of_all[2 + i] * scale;
             }
-            for i in 0..3 {
-                expanded.excitation[i][order] = found[4 + i] * scale;
+            for (series, term) in expanded.excitation.iter_mut().zip(afloat) {
+                series[order] = *term * scale;
             }
             scale = scale * share;
         }
         expanded
+    }
+}
+
+/// The first coefficients about `u`, by repeated division by a linear factor: each is the last number
+/// of a chain of sums from the highest power down, and the next chain runs over the numbers of the
+/// one before. Some chains run at once, each one number behind the one before it, as a single one
+/// would wait for each of its sums.
+#[inline(always)]
+fn shifted<T: Real>(terms: &[Quad<T>; TERMS], u: T) -> [Quad<T>; ORDER + 1] {
+    let mut terms = *terms;
+    let mut found = [[T::ZERO; 4]; ORDER + 1];
+    for (chunk, found) in found.chunks_mut(CHAINS).enumerate() {
+        let first = chunk * CHAINS;
+        let mut chains = [[T::ZERO; 4]; CHAINS];
+        for k in (first..TERMS).rev() {
+            for chain in (1..CHAINS).rev() {
+                let ahead = chains[chain - 1];
+                horner(&mut chains[chain], u, &ahead);
+            }
+            horner(&mut chains[0], u, &terms[k]);
+            if let Some(passed) = terms.get_mut(k + CHAINS - 1) {
+                *passed = chains[CHAINS - 1];
+            }
+        }
+        found.copy_from_slice(&chains[..found.len()]);
+    }
+    found
+}
+
+/// One step of the rule of Horner: the sum times `u`, plus the next term.
+#[inline(always)]
+fn horner<T: Real>(sum: &mut Quad<T>, u: T, term: &Quad<T>) {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        *sum = sum.mul_add(u, *term);
     }
 }
 
