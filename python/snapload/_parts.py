@@ -53,8 +53,9 @@ class Body:
     Parameters
     ----------
     mass : float
-        Its mass, what moves along of the water included. With a mass of 1 slack flight is computed in closed form,
-        which is several times as fast.
+        Its mass, what moves along of the water included. With a mass of 1 slack flight under up to eight
+        sinusoids is computed in closed form, else as a Taylor series. With few sinusoids the closed form is up to
+        several times as fast.
     inertia : float, optional
         Moment of inertia about the centre. A point mass, which does not turn, if left out.
     radius : float, optional

@@ -72,8 +72,8 @@ impl Body {
         }
     }
 
-    /// A body of unit mass flies in closed form. What is told as the inertia of a point of another
-    /// mass does nothing, as its cables have no lever arm.
+    /// A body of unit mass flies in closed form under up to eight sinusoids. What is told as the
+    /// inertia of a point of another mass does nothing, as its cables have no lever arm.
     fn in_engine(&self) -> PyResult<snapload::Body> {
         match (self.mass == 1.0, self.inertia) {
             (true, Some(inertia)) => Ok(snapload::Body::rigid(self.shape(), inertia)),

@@ -197,9 +197,8 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     failure::exit_status(result)
 }
 
-/// Ends with what is wrong with the command line. A value that is not allowed is told as that of a key
-/// is; who writes a key as an option is told how keys
-/// are set.
+/// Ends with what is wrong with the command line. A value that is not allowed is told as that of a
+/// key is; who writes a key as an option is told how keys are set.
 fn refuse(mut error: clap::Error) -> ! {
     if error.kind() == ErrorKind::ValueValidation
         && let Some(message) = whole::refusal(&error)

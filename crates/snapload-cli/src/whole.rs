@@ -18,8 +18,8 @@ where
     })
 }
 
-/// What is wrong with the value of an option, with its name, the value, and what is allowed; none where
-/// the parser does not say what is.
+/// What is wrong with the value of an option, with its name, the value, and what is allowed; none
+/// where the parser does not say what is.
 pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     let text = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text.as_str()),

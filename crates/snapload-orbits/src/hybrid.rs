@@ -30,8 +30,8 @@ pub trait Hybrid<T: Real> {
     /// The state a time `s`, of either sign, after `z` at time `t`, with `held` surfaces.
     fn flow(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> Point<T>;
 
-    /// The same motion at any time from 0 to `s`, for whoever asks for many of them: [`Hybrid::flow`]
-    /// to rounding.
+    /// The same motion at any time from 0 to `s`, for whoever asks for many of them:
+    /// [`Hybrid::flow`] to rounding.
     fn path<'a>(
         &'a self,
         held: TautSet,

@@ -121,8 +121,8 @@ impl<F: Family> Lap<'_, F> {
         begins.into_iter().chain(later).collect()
     }
 
-    /// After how many periods it first comes back to where it began: fewer than it has where it goes
-    /// round a shorter orbit several times.
+    /// After how many periods it first comes back to where it began: fewer than it has where it
+    /// goes round a shorter orbit several times.
     pub fn smallest_periods(&self, system: &F::Plain, legs: &[Leg]) -> u32 {
         if self.periods == 1 {
             return 1;

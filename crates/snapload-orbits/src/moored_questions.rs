@@ -1,8 +1,8 @@
 //! Orbits, branches and curves of bodies on cables, compiled here.
 //!
-//! What is generic over a [`crate::Family`] is compiled in the crate that asks for it, as that crate
-//! is: a program that leaves its own code unoptimised would have these computations unoptimised,
-//! too, down to each sum.
+//! What is generic over a [`crate::Family`] is compiled in the crate that asks for it, as that
+//! crate is: a program that leaves its own code unoptimised would have these computations
+//! unoptimised, too, down to each sum.
 
 use crate::branch::{Along, Branch};
 use crate::branch_events::BranchEvent;

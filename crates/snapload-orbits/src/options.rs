@@ -21,8 +21,8 @@ pub fn checked_phase(phase: f64) -> Result<f64, CaseError> {
     Err(CaseError::value("phase", phase, allowed))
 }
 
-/// Refuses a start near which no orbit can be: one that is no start of the case, unless it is beyond a
-/// cable by so little that it may have been meant to lie on it.
+/// Refuses a start near which no orbit can be: one that is no start of the case, unless it is
+/// beyond a cable by so little that it may have been meant to lie on it.
 ///
 /// # Errors
 /// The [`CaseError`] of a case that begins there.

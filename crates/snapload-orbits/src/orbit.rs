@@ -20,7 +20,8 @@ pub struct Orbit {
     pub phase: f64,
     /// Its length, in periods of the forcing.
     pub periods: u32,
-    /// After how many of them it first repeats itself; fewer where it is a shorter orbit several times.
+    /// After how many of them it first repeats itself; fewer where it is a shorter orbit several
+    /// times.
     pub smallest_periods: u32,
     /// Its length in time.
     pub length: f64,

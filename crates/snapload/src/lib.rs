@@ -1,10 +1,11 @@
 //! Dynamics of bodies on cables that go slack and snap taut.
 //!
 //! A rigid body in the plane hangs on inextensible cables under forces that vary in time. With no
-//! cable taut it flies freely, in closed form; where a cable closes it snaps taut, an impact with
-//! restitution; with one cable taut the body slides along a circle like a double pendulum, with two
-//! it rocks. A [`Simulation`] goes from event to event; each is located with a proof that none is
-//! earlier.
+//! cable taut it flies freely; where a cable closes it snaps taut, an impact with restitution; with
+//! one cable taut the body slides along a circle like a double pendulum, with two it rocks. Flight
+//! of a body of unit mass under up to eight sinusoids, without drag and not afloat, is computed in
+//! closed form, all other motion as a Taylor series. A [`Simulation`] goes from event to event;
+//! each is located with a proof that none is earlier.
 //!
 //! All quantities are nondimensional, in the units of the breakwater of `docs/model.md`.
 //!

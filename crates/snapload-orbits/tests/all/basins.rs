@@ -91,8 +91,8 @@ fn cells_are_those_of_the_reference() {
     agrees("circle_f_omega", false);
 }
 
-/// Without waves many cells are not decided, and nearly all of them ended as safe: the knee is that of
-/// the reference all the same, which lies between what these cells may make of it.
+/// Without waves many cells are not decided, and nearly all of them ended as safe: the knee is that
+/// of the reference all the same, which lies between what these cells may make of it.
 #[test]
 fn the_knee_is_that_of_the_decided_cells() {
     let curve = &reference()["curves"]["circle_xy"];
@@ -103,7 +103,8 @@ fn the_knee_is_that_of_the_decided_cells() {
     let values: Vec<f64> = chosen.iter().map(|point| number(&point["f_o"])).collect();
     let erosion = Erosion::of(&window(curve), "f_o", &values, true, &unwatched).unwrap();
     assert_eq!(erosion.knee(), Some(values[2]));
-    // As a part of all cells the first value's safe part is too large, and the knee comes too early.
+    // As a part of all cells the first value's safe part is too large, and the knee comes too
+    // early.
     let [low, high] = erosion.knee_between();
     assert!(low.is_some_and(|low| low < values[2]), "{low:?}");
     assert!(high.is_none_or(|high| high >= values[2]), "{high:?}");

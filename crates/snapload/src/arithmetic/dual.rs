@@ -10,9 +10,11 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// last step of the search, s − f/ḟ, has the derivative −f'/ḟ of the implicit function theorem, so
 /// the saltation matrix (Müller 1995) follows without being written down.
 ///
-/// Comparisons look at the number alone, so a motion over dual numbers takes the same turns, with
-/// the same bits, as the ordinary one. Sums and products are inlined everywhere, as they are made
-/// by the instructions of whatever is compiled for a kind of processor (`apart!`).
+/// Comparisons look at the number alone, so a motion over dual numbers under up to eight
+/// frequencies takes the same turns, with the same bits, as the ordinary one. Under more it is the
+/// ordinary one to rounding: duals sum up the waves one by one, doubles by a polynomial. Sums and
+/// products are inlined everywhere, as they are made by the instructions of whatever is compiled
+/// for a kind of processor (`apart!`).
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<T, const N: usize> {
     /// The number.

@@ -201,7 +201,7 @@ struct Piece<T> {
 pub struct Path<'a, T: Real = f64> {
     held: &'a Held<T>,
     from: (T, State<T>),
-    /// In the order of the motion; none of slack flight.
+    /// In the order of the motion; none where it has a closed form.
     pieces: Vec<Piece<T>>,
 }
 

@@ -1,9 +1,10 @@
 //! The stretches of a run, from which its motion is computed again, in bounded memory.
 //!
-//! Taut motion is a chain of Taylor expansions: where one ends without an event, the next begins at
-//! the state that it ends with. So the first of a chain is enough to compute all that follow, to the
-//! bit. Up to [`MOST_LINKS`] of those that follow are kept to come to any time quickly; a longer run
-//! keeps every second, then every fourth, and so on, and its memory grows with its events alone.
+//! Motion without a closed form is a chain of Taylor series: where one ends without an event, the
+//! next begins at the state that it ends with. So the first of a chain is enough to compute all
+//! that follow, to the bit. Up to [`MOST_LINKS`] of those that follow are kept to come to any time
+//! quickly; a longer run keeps every second, then every fourth, and so on, and its memory grows
+//! with its events alone.
 
 use crate::model::floating::Complex;
 use crate::model::state::State;

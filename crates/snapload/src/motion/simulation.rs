@@ -284,8 +284,8 @@ impl<T: Real> Simulation<T> {
         self.extremes.theta_max
     }
 
-    /// Goes on to the next event, or to the end of one Taylor expansion of taut motion. `None` once
-    /// the motion has stopped.
+    /// Goes on to the next event, or to the end of one Taylor series. `None` once the motion has
+    /// stopped.
     pub fn step(&mut self) -> Option<Step<T>>
     where
         T: Steps,

@@ -1,5 +1,6 @@
-//! Sliding, rocking, and motion with any other set of taut cables, and all motion with drag, of any
-//! mass but the unit one, or afloat: its Taylor series.
+//! Sliding, rocking, and motion with any other set of taut cables, all motion with drag, of any
+//! mass but the unit one, or afloat, and slack flight under more than eight sinusoids: its Taylor
+//! series.
 //!
 //! Taut motion is a differential-algebraic problem of index 3 (docs/model.md section 6):
 //!
@@ -29,8 +30,8 @@
 //! slack cables and the tensions come out as polynomials on the step, in which
 //! [`crate::motion::events`] finds events with the guarantee it has in flight.
 //!
-//! With any other mass matrix all accelerations are M⁻¹ times forces and moments, and W = G M⁻¹ Gᵀ; of
-//! a floating body the force has the parts of [`crate::motion::water_series`].
+//! With any other mass matrix all accelerations are M⁻¹ times forces and moments, and
+//! W = G M⁻¹ Gᵀ; of a floating body the force has the parts of [`crate::motion::water_series`].
 //!
 //! Libraries weighed for this: `ode_solvers` and `differential-equations` (Dormand-Prince 5 and 8:
 //! their step control raises to powers with the platform's libm, and they allocate their output as

@@ -24,9 +24,10 @@ const INSTANTS: usize = 17;
 
 /// The motion along a stretch.
 pub(in crate::motion) enum Stretch<'a, T: Real> {
-    /// In closed form.
+    /// In closed form: slack, under few sinusoids.
     Closed(Cow<'a, Flight<T>>),
-    /// By a series, as cables are taut, or the water resists or carries.
+    /// By a series: cables are taut, the water resists or carries, the mass is not the unit one, or
+    /// the sinusoids are many.
     Expanded(&'a Series<T>),
 }
 
@@ -164,7 +165,7 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// The series of the latest stretch, which there is if that was no free flight.
+    /// The series of the latest stretch; none if that has a closed form.
     #[inline(always)]
     fn expanded(&self, taut: TautSet) -> Option<&Series<T>> {
         let series = self.series.as_deref();
@@ -385,7 +386,7 @@ impl<T: Real> Simulation<T> {
         now
     }
 
-    /// How far the latest expansion of taut motion may be used.
+    /// How far the latest Taylor series may be used.
     pub(crate) fn expansion(&self) -> T {
         self.series.as_ref().map_or(T::ZERO, |series| series.step())
     }
