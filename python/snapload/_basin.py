@@ -215,7 +215,7 @@ def erosion(
         :func:`snapload.safe_basin` has them, and the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
         trust). The attribute ``knee`` is the last value up to which the safe part of the decided cells never falls
         below nine tenths of what it is at the first one; NaN if it never does. ``knee_between`` has the least and the
-        greatest value that it has, however the undecided cells end.
+        greatest value that it has, however the undecided cells end (NaN without trust, as then all count as decided).
 
     Raises
     ------
@@ -257,7 +257,7 @@ def erosion(
         numbers = np.array([_or_nan(point[name]) for point in points], dtype=np.float64)
         variables[name] = (key, numbers, {"long_name": meaning})
     coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
-    between = [_or_nan(knee) for knee in told["knee_between"]]
+    between = [_or_nan(knee) for knee in told["knee_between"] or (None, None)]
     knees = {"knee": _or_nan(told["knee"]), "knee_between": between}
     attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, **knees}
     return xarray.Dataset(variables, coords, attrs)

@@ -75,7 +75,8 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
             ))
         }
         Some(over) => {
-            // Neighbours of every cell would take ten times as long.
+            // Neighbours of every cell would take ten times as long; the answer says that they were
+            // not looked at.
             let erosion = Erosion::of(&window, over.key, &over.values, false, &go_on);
             let erosion = erosion.map_err(|why| unfinished(why, "snapload erosion"))?;
             serde_json::to_vec(&Eroded {

@@ -55,43 +55,105 @@ impl Erosion {
         Ok(Self { key, points })
     }
 
+    /// Whether neighbours and horizons were looked at: without them no cell is known to be undecided.
+    pub fn looked_beside(&self) -> bool {
+        self.points.iter().all(|(_, basin)| basin.looked_beside)
+    }
+
     /// The last value up to which the safe part of the decided cells never falls below nine tenths of
     /// what it is at the first value; none where it never does fall below.
     ///
     /// Cells that are not decided are left out, as how they end says nothing: where starts are
-    /// symmetric they are many, and all at one value.
+    /// symmetric they are many, and all at one value. A value without decided cells is passed over.
+    /// Where neighbours were not looked at, all cells count as decided.
     pub fn knee(&self) -> Option<f64> {
         self.knee_of(|m| {
             let decided = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
-            [decided; 2]
+            (m.legal > m.undecided).then_some([decided; 2])
         })
     }
 
     /// The least and the greatest value that the knee has, however the cells that are not decided
-    /// end; none where there is none then.
-    pub fn knee_between(&self) -> [Option<f64>; 2] {
+    /// end, each none where there is none then; none at all where neighbours were not looked at.
+    pub fn knee_between(&self) -> Option<[Option<f64>; 2]> {
         let part = |cells: usize, m: &Measures| cells as f64 / m.legal as f64;
         let low = |m: &Measures| part(m.safe - m.undecided_safe, m);
         let high = |m: &Measures| part(m.safe + m.undecided - m.undecided_safe, m);
-        [
-            self.knee_of(|m| [high(m), low(m)]),
-            self.knee_of(|m| [low(m), high(m)]),
-        ]
+        self.looked_beside().then(|| {
+            [
+                self.knee_of(|m| (m.legal > 0).then(|| [high(m), low(m)])),
+                self.knee_of(|m| (m.legal > 0).then(|| [low(m), high(m)])),
+            ]
+        })
     }
 
-    /// The knee, with the safe part of a window as the whole and as what is left of it.
-    fn knee_of(&self, parts: impl Fn(&Measures) -> [f64; 2]) -> Option<f64> {
-        let mut points = self.points.iter();
-        let (first, basin) = points.next()?;
-        let [whole, _] = parts(&basin.measures);
-        let mut last = *first;
-        for (value, basin) in points {
-            let [_, left] = parts(&basin.measures);
+    /// The knee, with the safe part of a window as the whole and as what is left of it, of the values
+    /// where there are such parts.
+    fn knee_of(&self, parts: impl Fn(&Measures) -> Option<[f64; 2]>) -> Option<f64> {
+        let of = |(value, basin): &(f64, Basin)| parts(&basin.measures).map(|both| (*value, both));
+        let mut points = self.points.iter().filter_map(of);
+        let (mut last, [whole, _]) = points.next()?;
+        for (value, [_, left]) in points {
             if left < KNEE * whole {
                 return Some(last);
             }
-            last = *value;
+            last = value;
         }
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snapload::Parameters;
+
+    /// Basins of a hundred legal cells, by how many are safe, undecided, and both.
+    fn eroded(looked_beside: bool, counts: &[[usize; 3]]) -> Erosion {
+        let basin = |&[safe, undecided, undecided_safe]: &[usize; 3]| Basin {
+            window: Window {
+                base: Parameters::STANDARD,
+                keys: ["x", "y"],
+                values: [vec![0.0], vec![0.0]],
+            },
+            cells: Vec::new(),
+            looked_beside,
+            measures: Measures {
+                legal: 100,
+                safe,
+                undecided,
+                undecided_safe,
+                past_horizon: 0,
+                gim: safe as f64 / 100.0,
+                interval: [0.0, 1.0],
+                lim: None,
+                integrity_factor: None,
+                iim: None,
+            },
+        };
+        let points = (0u8..).map(f64::from).zip(counts.iter().map(basin));
+        Erosion {
+            key: "f_o",
+            points: points.collect(),
+        }
+    }
+
+    #[test]
+    fn a_value_without_decided_cells_hides_no_knee() {
+        let erosion = eroded(
+            true,
+            &[[90, 100, 90], [80, 0, 0], [75, 100, 75], [40, 0, 0]],
+        );
+        assert_eq!(erosion.knee(), Some(1.0));
+        assert_eq!(erosion.knee_between(), Some([Some(0.0), None]));
+    }
+
+    #[test]
+    fn without_neighbours_nothing_is_said_of_how_certain_the_knee_is() {
+        let erosion = eroded(false, &[[90, 0, 0], [40, 0, 0]]);
+        assert_eq!(erosion.knee(), Some(0.0));
+        assert_eq!(erosion.knee_between(), None);
+        let text = crate::erosion_in_words(&erosion);
+        assert!(text.contains("neighbours were not looked at"), "{text}");
     }
 }

@@ -178,18 +178,21 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
     }
     if let Some(knee) = erosion.knee() {
-        let between = erosion.knee_between();
         let beyond = || "beyond the last value".to_owned();
         let told = |value: Option<f64>| value.map_or_else(beyond, |value| value.to_string());
-        let doubt = match between {
-            [Some(low), Some(high)] if low == knee && high == knee => String::new(),
-            [low, high] => format!(
+        let doubt = match erosion.knee_between() {
+            None => String::new(),
+            Some([Some(low), Some(high)]) if low == knee && high == knee => String::new(),
+            Some([low, high]) => format!(
                 ", or from {} to {} by how undecided cells end",
                 told(low),
                 told(high)
             ),
         };
         let _ = writeln!(text, "Knee      at {} = {knee}{doubt}", erosion.key);
+    }
+    if !erosion.looked_beside() {
+        text += "Undecided not known, as neighbours were not looked at\n";
     }
     text
 }

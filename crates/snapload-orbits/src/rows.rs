@@ -183,8 +183,9 @@ impl BasinRow {
 pub struct ErosionRow {
     over: &'static str,
     knee: Option<f64>,
-    /// Where it lies however the cells that are not decided end.
-    knee_between: [Option<f64>; 2],
+    /// Where it lies however the cells that are not decided end; none where neighbours were not
+    /// looked at.
+    knee_between: Option<[Option<f64>; 2]>,
     points: Vec<ErosionPoint>,
 }
 

@@ -105,7 +105,7 @@ fn the_knee_is_that_of_the_decided_cells() {
     assert_eq!(erosion.knee(), Some(values[2]));
     // As a part of all cells the first value's safe part is too large, and the knee comes too
     // early.
-    let [low, high] = erosion.knee_between();
+    let [low, high] = erosion.knee_between().unwrap();
     assert!(low.is_some_and(|low| low < values[2]), "{low:?}");
     assert!(high.is_none_or(|high| high >= values[2]), "{high:?}");
     let text = erosion_in_words(&erosion);
