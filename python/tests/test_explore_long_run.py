@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from explore import count, settled
 from playwright.sync_api import expect
 
@@ -66,6 +68,37 @@ def test_a_safe_basin_is_that_of_the_command_and_a_cell_a_start(open_page, comma
     expect(page.locator("#basin")).not_to_have_class("cells stale")
     page.locator("#field-f_o").fill("0.2")
     expect(page.locator("#basin")).to_have_class("cells stale")
+    for words in ["#basin-said", "#basin-legend"]:
+        expect(page.locator(words)).to_have_class(re.compile(r"\bstale\b"))
+
+
+def test_a_smaller_basin_has_no_cell_of_the_one_before(open_page):
+    page = open_page("t_end=20&t=0&basin=x,-0.4,0.4,9,y,0.02,0.72,9,f_o,0.1,0.6,3")
+    page.locator("#basin-run").click()
+    expect(page.locator("#basin-said")).to_contain_text("(LIM)", timeout=30_000)
+    page.locator("#basin").focus()
+    for _ in range(9):
+        page.keyboard.press("ArrowUp")
+        page.keyboard.press("ArrowRight")
+    expect(page.locator("#basin-pointed")).to_contain_text("x = 0.4, y = 0.72: ")
+    for side in ["x", "y"]:
+        page.locator(f"#basin-{side}-count").fill("4")
+        page.locator(f"#basin-{side}-count").press("Tab")
+    page.locator("#basin-run").click()
+    expect(page.locator("#basin-said")).to_contain_text(" of 10 legal", timeout=30_000)
+    expect(page.locator("#basin-pointed")).to_have_text("")
+    page.locator("#basin").focus()
+    expect(page.locator("#basin-pointed")).to_contain_text("x = \u22120.4, y = 0.02: ")
+
+
+def test_keys_of_a_basin_change_places(open_page):
+    page = open_page("t_end=20&t=0&basin=x,-0.4,0.4,9,y,0.02,0.72,8,f_o,0.1,0.6,3")
+    page.locator("#basin-x-key").select_option("f_o")
+    for side, key in {"x": "f_o", "y": "y", "over": "x"}.items():
+        expect(page.locator(f"#basin-{side}-key")).to_have_value(key)
+    expect(page.locator("#basin-over-count")).to_have_value("9")
+    page = open_page("t_end=20&t=0&basin=x,-0.4,0.4,9,x,0.02,0.72,8,f_o,0.1,0.6,3")
+    expect(page.locator("#note")).to_contain_text("Not understood in the link")
 
 
 def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command_json):
@@ -79,6 +112,7 @@ def test_a_safe_basin_is_eroded_as_the_command_says(open_page, command_json):
     said = page.locator("#erosion-said").inner_text()
     assert f"{100 * first['fraction']:.3g} % at f_o = 0" in said and f"f_o = {told['knee']:g}." in said
     assert f"{100 * last['fraction']:.3g} % at 0.6" in said
+    assert told["knee_between"] is None and "Neighbours were not looked at" in said
     expect(page.locator("#erosion")).to_be_visible()
 
 

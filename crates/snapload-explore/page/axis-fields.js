@@ -52,6 +52,12 @@ export class AxisFields {
 const isAxis = ({ low, high, count }) =>
   high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
 
+/** The same axes with another one of a side; a key that one of the others had changes places with it. */
+export function withAxis(axes, side, axis) {
+  const other = ["x", "y", "over"].find((one) => one !== side && axes[one]?.key === axis.key);
+  return { ...axes, [side]: axis, ...(other ? { [other]: axes[side] } : {}) };
+}
+
 /** The usual range of a key in so many cells. */
 export function usualAxis(keys, name, count) {
   const { low, high } = keys.find((key) => key.name === name).usual;

@@ -2,7 +2,7 @@
 // shrinks along a third key.
 
 import { fetchTold } from "./api.js";
-import { AxisFields } from "./axis-fields.js";
+import { AxisFields, withAxis } from "./axis-fields.js";
 import { axisWords, cellOf, crosshair, drawCellAxes, frameOf, outline, paintCells } from "./cells.js";
 import { $, put } from "./dom.js";
 import { drawErosion } from "./erosion.js";
@@ -12,11 +12,14 @@ import { prepare } from "./plot.js";
 import { copy } from "./take.js";
 import { number, reasonText } from "./words.js";
 
-/** Starts at rest of the thesis's bodies, and the force that erodes them. */
+/**
+ * Starts at rest of the thesis's bodies, and the force that erodes them. Where it is 0, many starts are symmetric: how
+ * they end is not certain.
+ */
 const USUAL = {
   x: { key: "x", low: -0.4, high: 0.4, count: 41 },
   y: { key: "y", low: 0.02, high: 0.72, count: 36 },
-  over: { key: "f_o", low: 0, high: 0.6, count: 21 },
+  over: { key: "f_o", low: 0.03, high: 0.6, count: 20 },
 };
 const SIDES = ["x", "y", "over"];
 const PATH = "api/basin";
@@ -39,7 +42,7 @@ export class SafeBasin {
         new AxisFields(`basin-${side}`, this.numeric, {
           value: (name) => state.value(name),
           now: () => state.basin[side],
-          onChange: (axis) => state.set({ basin: { ...state.basin, [side]: axis } }),
+          onChange: (axis) => state.set({ basin: withAxis(state.basin, side, axis) }),
           onWrong: (words) => ($("basin-pointed").textContent = words),
         }),
     );
@@ -79,10 +82,10 @@ export class SafeBasin {
     for (const axis of this.axes) axis.show();
     const other = (answer, erodes) => answer !== null && answer.asked !== JSON.stringify(this.#question(erodes));
     for (const [shown, words, answer, erodes] of [
-      ["basin", "basin-run", this.answer, false],
-      ["erosion", "erosion-run", this.eroded, true],
+      [["basin", "basin-legend", "basin-pointed", "basin-said"], "basin-run", this.answer, false],
+      [["erosion", "erosion-said"], "erosion-run", this.eroded, true],
     ]) {
-      $(shown).classList.toggle("stale", other(answer, erodes));
+      for (const id of shown) $(id).classList.toggle("stale", other(answer, erodes));
       put($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
     }
     this.draw();
@@ -97,12 +100,13 @@ export class SafeBasin {
     $("basin-progress").textContent = "";
     try {
       const text = await fetchTold(PATH, question, asking.signal, ({ doing, percent }) => {
+        if (this.asking !== asking) return;
         $("basin-bar").value = percent / 100;
         $("basin-progress").textContent = `${doing}, ${percent} %`;
       });
       const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
       if (erodes) this.eroded = answer;
-      else this.answer = answer;
+      else this.#take(answer);
       $(erodes ? "erosion-said" : "basin-said").textContent = erodes ? knee(answer) : lines(answer.words);
       if (this.asking === asking) $("basin-progress").textContent = "";
     } catch (error) {
@@ -112,6 +116,14 @@ export class SafeBasin {
     this.asking = null;
     this.#running(false);
     if (this.state.basin) this.follow();
+  }
+
+  /** No cell of the basin before is pointed at in another one, which may have fewer. */
+  #take(answer) {
+    this.answer = answer;
+    this.pointed = null;
+    this.cursor = [0, 0];
+    $("basin-pointed").textContent = "";
   }
 
   #running(running) {
@@ -198,9 +210,10 @@ export class SafeBasin {
 }
 
 /** What an erosion comes to, in words. */
-function knee({ knee: at, over, points }) {
+function knee({ knee: at, knee_between: between, over, points }) {
   const part = (point) => (point.legal ? `${number(100 * point.fraction, 3)} %` : "nothing");
   const ends = `Safe: ${part(points[0])} at ${over} = ${number(points[0].value)}, ${part(points.at(-1))} at ${number(points.at(-1).value)}.`;
   const falls = at === null ? "It does not fall below nine tenths of the first." : `Nine tenths of the first are left up to ${over} = ${number(at)}.`;
-  return `${ends} ${falls}`;
+  const sure = between === null ? " Neighbours were not looked at: how certain that is, is not known." : "";
+  return `${ends} ${falls}${sure}`;
 }

@@ -12,13 +12,15 @@ export class EventTable {
     this.run = null;
     this.page = 0;
     this.at = null;
+    /** Whether it is of an earlier run than the picture: pale, and without a way there. */
+    this.old = false;
     this.body = $("events-body");
     $("events-previous").addEventListener("click", () => this.#turn(-1));
     $("events-next").addEventListener("click", () => this.#turn(1));
     this.body.addEventListener("keydown", (event) => this.#step(event));
     this.body.addEventListener("click", (event) => {
       const row = event.target.closest("tr");
-      if (row) onJump(this.run.events[Number(row.dataset.event)].t);
+      if (row && !this.old) onJump(this.run.events[Number(row.dataset.event)].t);
     });
   }
 
@@ -27,6 +29,12 @@ export class EventTable {
     this.at = null;
     this.page = Math.min(this.page, this.#pages - 1);
     this.#fill();
+  }
+
+  setOld(old) {
+    if (old === this.old) return;
+    this.old = old;
+    this.body.classList.toggle("stale", old);
   }
 
   get #pages() {

@@ -29,7 +29,10 @@ const STANDS_STILL_MS = 30_000;
 const pause = () =>
   new Promise((done) => {
     const { port1, port2 } = new MessageChannel();
-    port1.onmessage = done;
+    port1.onmessage = () => {
+      port1.close();
+      done(null);
+    };
     port2.postMessage(null);
   });
 

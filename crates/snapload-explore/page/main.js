@@ -40,6 +40,8 @@ class Page {
   constructor(schema) {
     this.state = new State(schema);
     this.run = null;
+    /** The questions of the run that is shown, and of that in the table of events. */
+    this.shown = this.tabled = null;
     this.hover = null;
     /** The time that was looked at when a run came that ends before it. */
     this.keptTime = null;
@@ -146,6 +148,7 @@ class Page {
 
   take(answer, since, question) {
     this.run = new Run(answer);
+    this.shown = keyOf(question);
     const latest = this.asked === keyOf(question);
     if (latest) {
       put($("failed"), { hidden: true });
@@ -194,7 +197,8 @@ class Page {
     this.later = setTimeout(() => {
       if (!this.run) return;
       this.events.take(this.run);
-      this.events.show(this.state.t, true);
+      this.tabled = this.shown;
+      this.#showEvents(true);
       this.exports.take(this.run);
     }, LOOK_UP_MS);
   }
@@ -296,7 +300,14 @@ class Page {
     this.charts.cursor(this.state.t, this.hover);
     this.trajectory.cursor(this.state.t, this.hover);
     this.transport.show();
-    this.events.show(this.state.t, !this.playback.playing);
+    this.#showEvents(!this.playback.playing);
+  }
+
+  /** Marks what happens now in the table, unless that is of the run before yet: then it is pale. */
+  #showEvents(follow) {
+    const old = this.tabled !== this.shown;
+    this.events.setOld(old);
+    if (!old) this.events.show(this.state.t, follow);
   }
 
   cases() {

@@ -1,7 +1,7 @@
 // How runs end over two keys: filled in while it is computed; each cell leads to its run.
 
 import { Refused, fetchMap } from "./api.js";
-import { AxisFields, usualAxis } from "./axis-fields.js";
+import { AxisFields, usualAxis, withAxis } from "./axis-fields.js";
 import {
   CIVIDIS,
   axisWords,
@@ -362,13 +362,6 @@ export class SweepMap {
     const html = parts.join("");
     if ($("map-legend").innerHTML !== html) $("map-legend").innerHTML = html;
   }
-}
-
-/** The same map over another axis; a key that the other one had changes places with it. */
-function withAxis(map, side, axis) {
-  const other = side === "x" ? "y" : "x";
-  const swapped = map[other].key === axis.key ? { [other]: map[side] } : {};
-  return { ...map, [side]: axis, ...swapped };
 }
 
 /** The values of an axis as decimals that one would write. */

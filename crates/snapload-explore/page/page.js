@@ -16,11 +16,12 @@ export function paintedSince(since, then = () => {}) {
     // After the frame's paint, and not before it.
     const channel = new MessageChannel();
     channel.port1.onmessage = () => {
+      channel.port1.close();
       const took = performance.now() - since;
-      then();
       $("took").textContent = `picture in ${Math.round(took)} ms`;
       $("took").dataset.ms = took.toFixed(2);
       $("took").dataset.count = Number($("took").dataset.count ?? 0) + 1;
+      then();
     };
     channel.port2.postMessage(null);
   });

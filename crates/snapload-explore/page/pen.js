@@ -8,8 +8,8 @@ export class Pen {
   /** @param {{ moveTo: (x: number, y: number) => void, lineTo: (x: number, y: number) => void }} paper */
   constructor(paper) {
     this.paper = paper;
-    /** The point that was drawn last, and the latest one. @type {number[]} */
-    this.from = [0, 0];
+    /** The point that was drawn last, and the latest one. @type {number[] | null} */
+    this.from = null;
     /** @type {number[] | null} */
     this.latest = null;
     /** The way from the one to the other, how far it is, and between which angles about it the line passes all since. */
@@ -20,11 +20,16 @@ export class Pen {
 
   moveTo(x, y) {
     this.lift();
+    this.from = null;
+    if (!Number.isFinite(x + y)) return;
     this.paper.moveTo(x, y);
     this.from = [x, y];
   }
 
   lineTo(x, y) {
+    // A point that is none is left out; a line begins with the first that is one.
+    if (!Number.isFinite(x + y)) return;
+    if (!this.from) return this.moveTo(x, y);
     const [dx, dy] = [x - this.from[0], y - this.from[1]];
     const far = Math.hypot(dx, dy);
     const wide = Math.asin(Math.min(SEEN_PX / far, 1));

@@ -232,7 +232,8 @@ function axisFromParts([key, ...rest], schema) {
 function basinFromText(text, schema) {
   const parts = text.split(",");
   const [x, y, over] = [0, 4, 8].map((from) => axisFromParts(parts.slice(from, from + 4), schema));
-  return parts.length === 12 && x && y && over ? { x, y, over } : undefined;
+  const different = new Set([x?.key, y?.key, over?.key]).size === 3;
+  return parts.length === 12 && x && y && over && different ? { x, y, over } : undefined;
 }
 
 function mapFromText(text, schema) {

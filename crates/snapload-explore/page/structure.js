@@ -186,6 +186,7 @@ class Page {
       if (current() && state.elastic) await this.#stretchable({ case: question.case, window: this.run.window }, abort);
     } catch (error) {
       if (error.name === "AbortError" || !current()) return;
+      this.#tellComing("");
       $("preview").textContent = error.message;
     }
   }

@@ -94,7 +94,8 @@ export class Take {
       this.say(`${of} is saved.`);
     } catch (error) {
       if (error.name !== "AbortError") throw error;
-      this.say(`${of} was given up.`);
+      // The next file may be what it was given up for: what is said is of that one by now.
+      if (this.writing === writing) this.say(`${of} was given up.`);
     } finally {
       if (this.writing === writing) {
         this.writing = null;
