@@ -93,13 +93,14 @@ impl<T: Real> Polynomial<T> {
         (jet, size * T::EPSILON * ROUNDINGS)
     }
 
-    /// Whether it is provably below zero on all of \[0, s\], by more than its rounding.
+    /// Whether it is provably below zero on all of \[0, s\], by more than its rounding and a further
+    /// error.
     #[inline(always)]
-    pub(crate) fn stays_negative(&self, s: T, order: usize) -> bool {
+    pub(crate) fn stays_negative(&self, s: T, order: usize, error: T) -> bool {
         let size = self.derivative_bound(0, s, order);
         let constant = self.0[0];
         let largest = size - constant.abs() + constant;
-        largest < -(size * T::EPSILON * (2.0 * ROUNDINGS))
+        largest < -(size * T::EPSILON * (2.0 * ROUNDINGS) + error)
     }
 
     /// Bound on the n-th derivative over \[0, s\].

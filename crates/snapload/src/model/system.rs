@@ -87,15 +87,18 @@ impl<T: Real> System<T> {
         }
     }
 
-    /// Whether motion with these taut cables is computed in closed form. Of many sinusoids that takes
-    /// longer than a series: each has to be evaluated at every look, and their series is summed up once
-    /// for many steps ([`crate::motion::waves`]).
+    /// Whether motion with these taut cables is computed in closed form. Of many sinusoids that
+    /// takes longer than a series: each has to be evaluated at every look, and their series is
+    /// summed up once for many steps ([`crate::motion::waves`]). Not so in many digits, which take
+    /// many short steps; numbers with derivatives go the way of the doubles beside which they run.
     pub(crate) fn has_closed_form(&self, taut: TautSet) -> bool {
-        self.flies_freely(taut) && self.forcing.harmonics.len() <= FEW_SINUSOIDS
+        let summed_up = T::FUSES || T::CARRIES_SLOPES;
+        let many = self.forcing.harmonics.len() > FEW_SINUSOIDS;
+        self.flies_freely(taut) && !(summed_up && many)
     }
 
-    /// Whether motion with these taut cables is by the force alone, which depends on no state: slack,
-    /// of unit mass, and in water that neither resists nor carries.
+    /// Whether motion with these taut cables is by the force alone, which depends on no state:
+    /// slack, of unit mass, and in water that neither resists nor carries.
     pub(crate) fn flies_freely(&self, taut: TautSet) -> bool {
         taut.is_empty()
             && self.drag.is_none()

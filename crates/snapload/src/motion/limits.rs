@@ -146,7 +146,7 @@ impl<T: Real> Limits<T> {
         if let Some(limit) = self.rotation {
             for mut side in [*theta, theta.negated()] {
                 side[0] -= limit;
-                if !side.stays_negative(step, ORDER) {
+                if !side.stays_negative(step, ORDER, T::ZERO) {
                     watched.push((EventFunction::Limit(Limit::Rotation), side, ORDER));
                 }
             }
@@ -161,7 +161,7 @@ impl<T: Real> Limits<T> {
                 top[k] = y[k] + px * sine + py * cosine;
             }
             top[0] = top[0] + self.radius - level;
-            if !top.stays_negative(step, ORDER) {
+            if !top.stays_negative(step, ORDER, T::ZERO) {
                 watched.push((EventFunction::Limit(Limit::UpperBound), top, ORDER));
             }
         }

@@ -98,6 +98,8 @@ pub(crate) struct Series<T: Real> {
     contacts: Contacts<T>,
     /// A gap below this counts as zero while its cable rests.
     touch: PerCable<T>,
+    /// What the series of a slack flight leaves out of the motion by waves, but for a power of the time.
+    waves_left_out: T,
     /// What the series leave out of the gaps within the step.
     left_out: PerCable<T>,
     limits: Limits<T>,
@@ -129,6 +131,7 @@ impl<T: Real> Series<T> {
             lines: Vec::new(),
             contacts: [Contact::CLOSED; MAX_CABLES],
             touch: [T::ZERO; MAX_CABLES],
+            waves_left_out: water::waves_left_out(system),
             left_out: [T::ZERO; MAX_CABLES],
             limits: Limits::of(system, rules),
             step: T::ZERO,

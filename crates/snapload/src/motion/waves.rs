@@ -9,8 +9,10 @@
 //! ```
 //!
 //! with c' and d' the amplitudes seen from t_m. What is left out is at most (Ωs)^36/36! of the
-//! amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series, on
-//! which Ωs < 2.4, beyond an end of the stretch. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes; so it
+//! amplitudes a time s from the middle, 4e-19 at Ωs = 4.4: that is a step of a Taylor series with
+//! Ωs = 2.4 beyond an end of the stretch. A wave for which Ωs is larger on a step leaves about as much
+//! out of the series of the motion, (Ωs)^29/29! of its amplitude, and the step is so long only where
+//! that is below rounding, as the wave is small. Rounding is that of Σ (ωh)^k/k! ≤ e² amplitudes; so it
 //! is in the series about another time, which is the same polynomial. The stretches are the same
 //! whatever is asked for first, so that the same case has the same numbers, and up to eight
 //! frequencies are summed up each time, to the bit as they always were.

@@ -30,20 +30,18 @@ impl<T: Real> Series<T> {
         let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
         for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
             let line = &self.lines[cable];
-            let (function, series, order) = if carrying.contains(cable) {
-                (
-                    EventFunction::Tension(cable),
-                    line.tension.negated(),
-                    ORDER - 2,
-                )
+            let (function, series, order, error) = if carrying.contains(cable) {
+                let tension = line.tension.negated();
+                (EventFunction::Tension(cable), tension, ORDER - 2, T::ZERO)
             } else {
-                (EventFunction::Gap(cable), line.gap, ORDER)
+                let error = self.contacts[cable].error + self.left_out[cable];
+                (EventFunction::Gap(cable), line.gap, ORDER, error)
             };
             // Where not all taut cables carry, one whose tension is zero all along is no event.
             let nothing = taut != carrying
                 && carrying.contains(cable)
                 && series.derivative_bound(0, step, order) <= T::from_decimal(NOTHING);
-            if !nothing && !series.stays_negative(step, order) {
+            if !nothing && !series.stays_negative(step, order, error) {
                 self.watched.push((function, series, order));
             }
         }
