@@ -217,7 +217,7 @@ mod tests {
             let omega = 3.0 + 30.0 * part(7);
             let wave = Harmonic::ellipse(0.3 * omega * omega, 0.7, omega);
             let body = Body::rigid(Shape::of_half_sizes(0.2, 0.1), 0.02);
-            let free = System::moored_breakwater(body, [0.2, 0.1], 1.5, 0.9, wave.clone());
+            let free = System::moored_breakwater(body, [0.2, 0.1], 1.5, 0.9, wave);
             let flat = |j: u32| Harmonic::ellipse(0.0, 1.0, omega * (0.3 + 0.07 * f64::from(j)));
             let mut among_others = free.clone();
             among_others.forcing.harmonics = (0..8).map(flat).chain([wave]).collect();
