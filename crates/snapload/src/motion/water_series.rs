@@ -320,23 +320,34 @@ impl<T: Real> Norm<T> {
 
 /// What all sinusoids have beyond the order of the series, in units of the pace.
 fn sinusoids<T: Real>(system: &System<T>, water: &Floating<T>, pace: T) -> T {
-    let beyond = |omega: T, parts: [[T; 3]; 2]| {
-        let [cosine, sine] = parts.map(|part| largest(system.body.moved_by(part)));
-        let mut size = cosine + sine;
-        for k in 1..=ORDER + 1 {
-            size = size * omega.abs() / k as f64;
-        }
-        size / pace
-    };
-    let force = |force: Vector2<T>| [force.x, force.y, T::ZERO];
     let mut sum = T::ZERO;
     for wave in &water.excitation {
-        sum += beyond(wave.omega, [wave.cosine, wave.sine]);
+        sum += derivative_of_wave(system, wave.omega, [wave.cosine, wave.sine], ORDER + 1);
     }
+    sum += derivatives_of_forcing(system, ORDER + 1);
+    sum / pace
+}
+
+/// Σ ‖a_j‖ Ω_j^n/n! of the sinusoids of the forcing, with the accelerations a_j by them: a bound on
+/// the n-th derivative of the acceleration, over n!.
+pub(crate) fn derivatives_of_forcing<T: Real>(system: &System<T>, n: usize) -> T {
+    let force = |force: Vector2<T>| [force.x, force.y, T::ZERO];
+    let mut sum = T::ZERO;
     for wave in &system.forcing.harmonics {
-        sum += beyond(wave.omega, [force(wave.cosine), force(wave.sine)]);
+        let parts = [force(wave.cosine), force(wave.sine)];
+        sum += derivative_of_wave(system, wave.omega, parts, n);
     }
     sum
+}
+
+/// The same of one sinusoid of forces and moments.
+fn derivative_of_wave<T: Real>(system: &System<T>, omega: T, parts: [[T; 3]; 2], n: usize) -> T {
+    let [cosine, sine] = parts.map(|part| largest(system.body.moved_by(part)));
+    let mut size = cosine + sine;
+    for k in 1..=n {
+        size = size * omega.abs() / k as f64;
+    }
+    size
 }
 
 fn largest<T: Real>([x, y, theta]: [T; 3]) -> T {

@@ -7,7 +7,7 @@ use crate::model::floating::Complex;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, PerCable};
 use crate::motion::taut_series::{STILL, Series};
-use crate::motion::water_series::SeriesEnd;
+use crate::motion::water_series::{SeriesEnd, derivatives_of_forcing};
 
 impl<T: Real> Series<T> {
     /// Adds the k-th coefficients of what linear water does.
@@ -89,9 +89,9 @@ impl<T: Real> Series<T> {
         self.water.is_none() && system.body.mass.is_unit() && !self.active.taut.is_empty()
     }
 
-    /// What the series of place, velocity and memory leave out up to a time `s`, at most. With drag
-    /// or taut cables that is no sum of known terms: the last ones of the series are below rounding
-    /// there, and nothing is added.
+    /// What the series of the place leave out up to a time `s`, at most, and those of velocity and
+    /// memory where there is one. With drag or taut cables that is no sum of known terms: the last
+    /// ones of the series are below rounding there, and nothing is added.
     #[inline(always)]
     fn left_out_of_motion(&self, s: T) -> T {
         match &self.water {
@@ -164,25 +164,13 @@ impl<T: Real> Series<T> {
     }
 }
 
-/// Σ ‖a_j‖ Ω_j^{n−2}/n!, n = [`ORDER`] + 1, with the accelerations a_j by the sinusoids: what the
-/// series of a slack flight by them alone leaves out is at most s^n times this. Zero with drag.
+/// What the series of the place in a slack flight by waves alone leaves out is at most this times
+/// s^n, n = [`ORDER`] + 1: Σ ‖a_j‖ Ω_j^{n−2}/n!. Zero with drag.
 pub(super) fn waves_left_out<T: Real>(system: &System<T>) -> T {
-    let mut sum = T::ZERO;
-    if system.drag.is_some() {
-        return sum;
+    match system.drag {
+        Some(_) => T::ZERO,
+        None => derivatives_of_forcing(system, ORDER - 1) / (ORDER * (ORDER + 1)) as f64,
     }
-    for wave in &system.forcing.harmonics {
-        let mut size = T::ZERO;
-        for part in [wave.cosine, wave.sine] {
-            let moved = system.body.moved_by([part.x, part.y, T::ZERO]);
-            size += moved.map(T::abs).into_iter().fold(T::ZERO, T::max);
-        }
-        for k in 1..ORDER {
-            size = size * wave.omega.abs() / k as f64;
-        }
-        sum += size / (ORDER * (ORDER + 1)) as f64;
-    }
-    sum
 }
 
 #[cfg(test)]
@@ -201,9 +189,8 @@ mod tests {
     use crate::motion::waves::Waves;
 
     /// The gap of a body in a quick wave at the end of a step is that of its closed form, within the
-    /// error told: with coefficients of drag that are zero, and among eight waves of no height. The
-    /// step is longer where only the place is looked at, and the gap, of its square, then off by a
-    /// thousand times as much as is asked for here.
+    /// error told: with coefficients of drag that are zero, and among eight waves of no height. A step
+    /// chosen by the place alone is too long for the gap, which is of its square.
     #[test]
     fn gaps_in_quick_waves_are_those_of_the_closed_form() {
         let drag = Drag {
