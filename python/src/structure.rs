@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use snapload::{CaseError, Entries};
 use snapload_structure::note::{self, Source};
 use snapload_structure::{BothModels, Lines, Prepared, STRUCTURE, both_models, moordyn};
+use std::path::Path;
 
 /// The example of the manual.
 const EXAMPLE: &str = include_str!("../../docs/examples/cylinder.toml");
@@ -21,7 +22,9 @@ pub(crate) struct Structure {
 impl Structure {
     fn of(name: &str, mut entries: Entries, changes: &[String]) -> Result<Self, CaseError> {
         changes.iter().try_for_each(|change| entries.set(change))?;
-        let structure = snapload_structure::Structure::from_entries(&entries);
+        // A text has no folder of its own; its files are found from where Python runs.
+        let here = Path::new("");
+        let structure = snapload_structure::Structure::from_entries_beside(&entries, here);
         let structure = structure.map_err(|error| match error.place {
             Some(_) => error,
             None => error.at(name.to_owned()),

@@ -71,7 +71,7 @@ fn read(args: &Read) -> Result<(), Failure> {
     args.set.iter().try_for_each(|set| entries.set(set))?;
     let missing = entries.missing();
     if missing.is_empty() {
-        Structure::from_entries(&entries)?;
+        Structure::from_entries_beside(&entries, Path::new(""))?;
     }
     let mut text = format!("# From {}, an input file of MoorDyn.\n", one_line(&name));
     for note in &notes {

@@ -4,7 +4,7 @@ use crate::refusal::{LARGEST_BODY, Refusal};
 use crate::request::Body;
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
-use crate::work::{self, Allowance, compute};
+use crate::work::{Allowance, compute, compute_in_lines};
 use crate::{basin, case_file, export, map, page, proof, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
@@ -140,13 +140,9 @@ async fn answer_basin(
     State(shared): State<Arc<Shared>>,
     Body(request): Body<basin::Request>,
 ) -> Result<Response, Refusal> {
-    let tells = request.told;
+    let progress = request.progress;
     let work = move |allowance: &Allowance| basin::answer(request, allowance);
-    if tells {
-        return Ok(told(&shared.mappers, work));
-    }
-    let answer = compute(&shared.mappers, work).await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer).into_response())
+    progress_or(json, progress, &shared.mappers, work).await
 }
 
 async fn answer_map(
@@ -165,12 +161,23 @@ fn line_by_line(
     ([(CONTENT_TYPE, "application/x-ndjson")], body).into_response()
 }
 
-/// Work that tells how far it has come, and at last what comes of it.
-fn told(
+/// An object of JSON.
+fn json(bytes: Vec<u8>) -> Response {
+    ([(CONTENT_TYPE, "application/json")], bytes).into_response()
+}
+
+/// What comes of some work as an answer by itself, or where its progress is asked for as the last
+/// line of that.
+async fn progress_or(
+    whole: impl FnOnce(Vec<u8>) -> Response,
+    progress: bool,
     workers: &Arc<Semaphore>,
     work: impl FnOnce(&Allowance) -> Result<Vec<u8>, Refusal> + Send + 'static,
-) -> Response {
-    line_by_line(work::told(workers, work))
+) -> Result<Response, Refusal> {
+    match progress {
+        true => Ok(line_by_line(compute_in_lines(workers, work))),
+        false => compute(workers, work).await.map(whole),
+    }
 }
 
 async fn answer_export(
@@ -210,15 +217,11 @@ async fn answer_structure_run(
     Body(request): Body<structure::RunRequest>,
 ) -> Result<Response, Refusal> {
     let workers = Arc::clone(&shared.workers);
-    let tells = request.told;
+    let progress = request.progress;
     let work = move |allowance: &Allowance| {
         structure::run(&request, shared.opened.as_ref(), &shared.latest, allowance)
     };
-    if tells {
-        return Ok(told(&workers, work));
-    }
-    let answer = compute(&workers, work).await?;
-    Ok(([(CONTENT_TYPE, "application/json")], answer).into_response())
+    progress_or(json, progress, &workers, work).await
 }
 
 async fn answer_structure_elastic(
@@ -252,13 +255,10 @@ async fn answer_structure_export(
 ) -> Result<Response, Refusal> {
     let file = structure::File::named(&name).ok_or_else(Refusal::nothing_there)?;
     let writers = Arc::clone(&shared.writers);
-    let tells = request.told;
+    let progress = request.progress;
     let work = move |allowance: &Allowance| {
         file.write(&request, shared.opened.as_ref(), &shared.latest, allowance)
     };
-    if tells {
-        return Ok(told(&writers, work));
-    }
-    let bytes = compute(&writers, work).await?;
-    Ok(file_named(&name, file.content_type(), bytes))
+    let whole = |bytes| file_named(&name, file.content_type(), bytes);
+    progress_or(whole, progress, &writers, work).await
 }

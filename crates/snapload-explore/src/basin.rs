@@ -27,8 +27,8 @@ pub(crate) struct Request {
     #[serde(default)]
     over: Option<AxisGiven>,
     /// Whether to tell how far it has come, line by line.
-    #[serde(default)]
-    pub(crate) told: bool,
+    #[serde(default, rename = "told")]
+    pub(crate) progress: bool,
 }
 
 #[derive(Serialize)]
@@ -67,25 +67,24 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     };
     let allowance = allowance.within(BUDGET);
     let go_on = |progress: Progress| allowance.go_on(progress);
-    let told = match over {
+    let bytes = match over {
         None => {
             let basin = Basin::of(window, true, &go_on);
-            serde_json::to_vec(&Picture::of(
-                basin.map_err(|why| unfinished(why, "snapload basin"))?,
-            ))
+            let basin = basin.map_err(|why| unfinished(why, BUDGET, "snapload basin"))?;
+            serde_json::to_vec(&Picture::of(basin))
         }
         Some(over) => {
             // Neighbours of every cell would take ten times as long; the answer says that they were
             // not looked at.
             let erosion = Erosion::of(&window, over.key, &over.values, false, &go_on);
-            let erosion = erosion.map_err(|why| unfinished(why, "snapload erosion"))?;
+            let erosion = erosion.map_err(|why| unfinished(why, BUDGET, "snapload erosion"))?;
             serde_json::to_vec(&Eroded {
                 words: erosion_in_words(&erosion),
                 erosion: ErosionRow::new(&erosion),
             })
         }
     };
-    told.map_err(Refusal::failed)
+    bytes.map_err(Refusal::failed)
 }
 
 impl Picture {

@@ -2,7 +2,7 @@
 use crate::order::coarse_first;
 use crate::refusal::Refusal;
 use crate::request::{Values, entries};
-use crate::work::Allowance;
+use crate::work::{Allowance, lines_of, on_a_worker};
 use axum::body::Bytes;
 use serde::ser::{SerializeMap, Serializer};
 use serde::{Deserialize, Serialize};
@@ -16,9 +16,8 @@ use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tokio::sync::Semaphore;
-use tokio::sync::mpsc::{Sender, channel};
-use tokio_stream::wrappers::ReceiverStream;
-use tokio_stream::{Stream, StreamExt};
+use tokio::sync::mpsc::Sender;
+use tokio_stream::Stream;
 
 /// The most values of an axis.
 const MOST_VALUES: u64 = 200;
@@ -117,23 +116,16 @@ pub(crate) fn lines(
     mappers: Arc<Semaphore>,
 ) -> Result<impl Stream<Item = Result<Bytes, Infallible>> + use<>, Refusal> {
     let map = Arc::new(Map::of(request.values, request.x, request.y)?);
-    let (send, receive) = channel(4);
-    let (waiting, allowance) = Allowance::new();
-    tokio::spawn(async move {
-        let sent = Drawing {
+    Ok(lines_of(async move |allowance, send| {
+        let drawing = Drawing {
             map,
             mappers,
             allowance,
             send,
         };
         // Where a line can not be sent nobody waits for the next.
-        let _ = sent.draw().await;
-    });
-    let lines = ReceiverStream::new(receive).map(move |line| {
-        let _waiting = &waiting;
-        Ok(line)
-    });
-    Ok(lines)
+        let _ = drawing.draw().await;
+    }))
 }
 
 /// The first line: what the cells stand at.
@@ -172,20 +164,17 @@ impl Drawing {
         while !rest.is_empty() {
             let (now, later) = rest.split_at(size.min(rest.len()));
             let (now, later): (Arc<[usize]>, Arc<[usize]>) = (now.into(), later.into());
-            // A semaphore that is closed has nobody waiting.
-            let turn = Arc::clone(&self.mappers).acquire_owned().await;
-            let (map, allowance) = (Arc::clone(&self.map), self.allowance.clone());
-            let began = Instant::now();
-            let cells = tokio::task::spawn_blocking(move || {
-                let _turn = turn;
-                Cells::of(&map, now, &allowance)
+            let (map, mappers) = (Arc::clone(&self.map), Arc::clone(&self.mappers));
+            let cells = on_a_worker(mappers, self.allowance.clone(), move |allowance| {
+                let began = Instant::now();
+                Ok((Cells::of(&map, now, allowance), began.elapsed()))
             });
-            let cells = cells.await.map_err(|_| Abandoned)?;
+            let (cells, took) = cells.await.map_err(|_| Abandoned)?;
             if self.allowance.is_abandoned() {
                 return Err(Abandoned);
             }
             self.send(&cells).await?;
-            let pace = EVERY.as_secs_f64() / began.elapsed().as_secs_f64().max(1e-9);
+            let pace = EVERY.as_secs_f64() / took.as_secs_f64().max(1e-9);
             size = ((size as f64 * pace.clamp(0.25, 4.0)) as usize).clamp(least, most);
             rest = later;
         }

@@ -37,7 +37,7 @@ impl Refusal {
         &self.message
     }
 
-    /// As the last line of an answer that was begun already.
+    /// As JSON, for the last line of a streamed answer.
     pub(crate) fn in_a_line(&self) -> serde_json::Value {
         serde_json::json!({ "key": self.key, "message": self.message })
     }

@@ -41,7 +41,7 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     let section = Section::of(case.parameters(), &stretch, &|progress| {
         allowance.go_on(progress)
     });
-    let section = section.map_err(|why| unfinished(why, "snapload section"))?;
+    let section = section.map_err(|why| unfinished(why, BUDGET, "snapload section"))?;
     let answer = Answer {
         words: section_in_words(&section),
         section: SectionRow::new(&section, stretch.phase),
@@ -49,13 +49,13 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
     serde_json::to_vec(&answer).map_err(Refusal::failed)
 }
 
-/// Why there is no answer.
-pub(crate) fn unfinished(why: Unfinished, command: &str) -> Refusal {
+/// Why there is no answer within some time.
+pub(crate) fn unfinished(why: Unfinished, time: Duration, command: &str) -> Refusal {
     match why {
         Unfinished::Case(error) => error.into(),
         Unfinished::Cancelled(_) => Refusal::values(format!(
             "this takes more than {} s here\nhint: {command} has as long as it takes",
-            BUDGET.as_secs()
+            time.as_secs()
         )),
     }
 }

@@ -5,9 +5,11 @@ use serde_json::{Value as JsonValue, json};
 use snapload::analysis::Progress;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
+use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+use tokio::sync::mpsc::error::SendError;
 use tokio::sync::mpsc::{Sender, channel};
 use tokio::sync::{Semaphore, watch};
 use tokio_stream::wrappers::ReceiverStream;
@@ -30,8 +32,8 @@ impl Drop for Waiting {
 pub(crate) struct Allowance {
     abandoned: Arc<AtomicBool>,
     until: Option<Instant>,
-    /// Whoever is told how far it has come.
-    told: Option<watch::Sender<Come>>,
+    /// Where it leaves how far it has come, for whoever looks.
+    progress: Option<watch::Sender<Come>>,
 }
 
 /// How far some work has come.
@@ -49,23 +51,23 @@ impl Allowance {
         let allowance = Self {
             abandoned: Arc::clone(&abandoned),
             until: None,
-            told: None,
+            progress: None,
         };
         (Waiting(abandoned), allowance)
     }
 
-    /// The same, with somebody to tell how far it has come.
-    fn telling(self, told: watch::Sender<Come>) -> Self {
-        let told = Some(told);
-        Self { told, ..self }
+    /// The same, with a place to leave how far it has come.
+    fn with_progress(self, progress: watch::Sender<Come>) -> Self {
+        let progress = Some(progress);
+        Self { progress, ..self }
     }
 
-    /// The same, for so long from now on.
+    /// The same, for so long from now on, and no longer than it was allowed before.
     pub(crate) fn within(&self, time: Duration) -> Self {
+        let until = Instant::now() + time;
         Self {
-            abandoned: Arc::clone(&self.abandoned),
-            until: Some(Instant::now() + time),
-            told: self.told.clone(),
+            until: Some(self.until.map_or(until, |before| before.min(until))),
+            ..self.clone()
         }
     }
 
@@ -76,10 +78,10 @@ impl Allowance {
 
     /// What long work asks.
     pub(crate) fn go_on(&self, progress: Progress) -> ControlFlow<()> {
-        if let Some(told) = &self.told {
-            // A negative or missing number is cast to nought, and one too large to the most.
-            let percent = (100.0 * progress.done / progress.of).min(100.0) as u8;
-            told.send_if_modified(|come| {
+        if let Some(come) = &self.progress {
+            // What is no number, as nothing of nothing, is cast to nought.
+            let percent = ((100.0 * progress.done / progress.of) as u8).min(100);
+            come.send_if_modified(|come| {
                 let more = come.percent != percent || come.doing != progress.doing;
                 if more {
                     let doing = progress.doing.to_owned();
@@ -103,8 +105,19 @@ pub(crate) async fn compute<T: Send + 'static>(
     work: impl FnOnce(&Allowance) -> Result<T, Refusal> + Send + 'static,
 ) -> Result<T, Refusal> {
     let (_waiting, allowance) = Allowance::new();
-    let worker = Arc::clone(workers).acquire_owned().await;
-    let worker = worker.map_err(Refusal::failed)?;
+    on_a_worker(Arc::clone(workers), allowance, work).await
+}
+
+/// The same for work that may be abandoned already when its turn comes; it is not begun then.
+pub(crate) async fn on_a_worker<T: Send + 'static>(
+    workers: Arc<Semaphore>,
+    allowance: Allowance,
+    work: impl FnOnce(&Allowance) -> Result<T, Refusal> + Send + 'static,
+) -> Result<T, Refusal> {
+    let worker = workers.acquire_owned().await.map_err(Refusal::failed)?;
+    if allowance.is_abandoned() {
+        return Err(Refusal::failed("nobody waits for the answer"));
+    }
     let work = move || {
         // Held until the work ends, which may be after it was told to.
         let _worker = worker;
@@ -115,51 +128,54 @@ pub(crate) async fn compute<T: Send + 'static>(
         .map_err(Refusal::failed)?
 }
 
-/// The same, told line by line, each an object of JSON: how far it has come, and in the end the
-/// text that comes of it, as `answer`, or why there is none, as `error`. Dropping the lines ends the
-/// work.
-pub(crate) fn told<W>(
-    workers: &Arc<Semaphore>,
-    work: W,
-) -> impl Stream<Item = Result<Bytes, Infallible>> + use<W>
+/// The lines that a task sends. Dropping them ends the work that the task has its allowance for.
+pub(crate) fn lines_of<T, F>(task: T) -> impl Stream<Item = Result<Bytes, Infallible>> + use<T, F>
 where
-    W: FnOnce(&Allowance) -> Result<Vec<u8>, Refusal> + Send + 'static,
+    T: FnOnce(Allowance, Sender<Bytes>) -> F,
+    F: Future<Output = ()> + Send + 'static,
 {
     let (waiting, allowance) = Allowance::new();
-    let (tell, come) = watch::channel(Come::default());
-    let allowance = allowance.telling(tell);
     let (send, receive) = channel(4);
-    let turn = Arc::clone(workers).acquire_owned();
-    tokio::spawn(async move {
-        // A semaphore that is closed has nobody waiting.
-        let turn = turn.await;
-        let work = tokio::task::spawn_blocking(move || {
-            let _turn = turn;
-            work(&allowance)
-        });
-        // Where a line can not be sent nobody waits for the next.
-        let _ = tell_of(work, come, send).await;
-    });
+    tokio::spawn(task(allowance, send));
     ReceiverStream::new(receive).map(move |line| {
         let _waiting = &waiting;
         Ok(line)
     })
 }
 
+/// As `compute`, in lines, each an object of JSON: how far the work has come, and in the end the
+/// text that comes of it, as `answer`, or why there is none, as `error`.
+pub(crate) fn compute_in_lines<W>(
+    workers: &Arc<Semaphore>,
+    work: W,
+) -> impl Stream<Item = Result<Bytes, Infallible>> + use<W>
+where
+    W: FnOnce(&Allowance) -> Result<Vec<u8>, Refusal> + Send + 'static,
+{
+    let workers = Arc::clone(workers);
+    lines_of(async move |allowance: Allowance, send| {
+        let (progress, come) = watch::channel(Come::default());
+        let work = on_a_worker(workers, allowance.with_progress(progress), work);
+        // Where a line can not be sent nobody waits for the next.
+        let _ = send_progress(work, come, send).await;
+    })
+}
+
 /// Sends the lines of some work.
-async fn tell_of(
-    mut work: tokio::task::JoinHandle<Result<Vec<u8>, Refusal>>,
+async fn send_progress(
+    work: impl Future<Output = Result<Vec<u8>, Refusal>>,
     mut come: watch::Receiver<Come>,
     send: Sender<Bytes>,
-) -> Result<(), tokio::sync::mpsc::error::SendError<Bytes>> {
-    let line = |told: JsonValue| Bytes::from(format!("{told}\n"));
+) -> Result<(), SendError<Bytes>> {
+    let line = |object: JsonValue| Bytes::from(format!("{object}\n"));
+    let mut work = pin!(work);
     let done = loop {
-        match tokio::time::timeout(EVERY, &mut work).await {
-            Ok(done) => break done.map_err(Refusal::failed).and_then(|done| done),
+        match tokio::time::timeout(EVERY, work.as_mut()).await {
+            Ok(done) => break done,
             Err(_) if come.has_changed().unwrap_or(false) => {
-                let told = come.borrow_and_update().clone();
-                let told = json!({ "doing": told.doing, "percent": told.percent });
-                send.send(line(told)).await?;
+                let Come { doing, percent } = come.borrow_and_update().clone();
+                let now = json!({ "doing": doing, "percent": percent });
+                send.send(line(now)).await?;
             }
             Err(_) => {}
         }
@@ -170,4 +186,79 @@ async fn tell_of(
         Err(refusal) => json!({ "error": refusal.in_a_line() }),
     }))
     .await
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HOUR: Duration = Duration::from_secs(3600);
+
+    fn goes_on(allowance: &Allowance) -> bool {
+        allowance
+            .go_on(Progress::new("cells", 0.0, 1.0))
+            .is_continue()
+    }
+
+    async fn next(
+        lines: &mut (impl Stream<Item = Result<Bytes, Infallible>> + Unpin),
+    ) -> JsonValue {
+        let Ok(line) = lines.next().await.expect("a line");
+        serde_json::from_slice(&line).expect("JSON")
+    }
+
+    #[test]
+    fn a_later_limit_of_time_does_not_put_off_an_earlier_one() {
+        let (_waiting, allowance) = Allowance::new();
+        assert!(goes_on(&allowance.within(HOUR)));
+        assert!(!goes_on(&allowance.within(Duration::ZERO).within(HOUR)));
+        assert!(!goes_on(&allowance.within(HOUR).within(Duration::ZERO)));
+    }
+
+    #[tokio::test]
+    async fn each_step_is_a_line_and_the_answer_is_the_last() {
+        let (go, seen) = std::sync::mpsc::channel();
+        let workers = Arc::new(Semaphore::new(1));
+        let mut lines = compute_in_lines(&workers, move |allowance| {
+            for (done, of) in [(0.0, 0.0), (1.0, 4.0), (3.0, 4.0), (9.0, 4.0), (-1.0, 4.0)] {
+                let _ = allowance.go_on(Progress::new("cells", done, of));
+                seen.recv().map_err(Refusal::failed)?;
+            }
+            Ok(b"made".to_vec())
+        });
+        for percent in [0, 25, 75, 100, 0] {
+            let line = next(&mut lines).await;
+            assert_eq!(line, json!({ "doing": "cells", "percent": percent }));
+            go.send(()).expect("work that goes on");
+        }
+        assert_eq!(next(&mut lines).await, json!({ "answer": "made" }));
+        assert!(lines.next().await.is_none());
+    }
+
+    #[tokio::test]
+    async fn work_without_a_worker_is_not_begun() {
+        let workers = Arc::new(Semaphore::new(1));
+        workers.close();
+        let mut lines = compute_in_lines(&workers, |_| panic!("it was begun"));
+        let line = next(&mut lines).await;
+        let message = line["error"]["message"].as_str();
+        assert!(
+            message.is_some_and(|said| said.contains("closed")),
+            "{line}"
+        );
+    }
+
+    #[tokio::test]
+    async fn work_that_was_abandoned_before_its_turn_is_not_begun() {
+        let (waiting, allowance) = Allowance::new();
+        drop(waiting);
+        let begun = Arc::new(AtomicBool::new(false));
+        let here = Arc::clone(&begun);
+        let workers = Arc::new(Semaphore::new(1));
+        let done = on_a_worker(workers, allowance, move |_| {
+            here.store(true, Ordering::Relaxed);
+            Ok(())
+        });
+        assert!(done.await.is_err() && !begun.load(Ordering::Relaxed));
+    }
 }

@@ -41,7 +41,7 @@ pub use runs::seas::{Lines, SeaOutcome, Seas, seas};
 pub use schema::{STRUCTURE, is_structure};
 pub use snapload_hydro::wave_number;
 pub use structure::{
-    AddedMass, Afloat, BodySi, ByDefault, DesignRule, IrregularSea, LineSi, Outline, Project, Site,
-    SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
+    AddedMass, Afloat, BodySi, ByDefault, DesignRule, IrregularSea, LineSi, Outline, Project,
+    READS_NO_FILES, Site, SpectrumShape, Structure, THREE_HOURS_S, Water, Wave,
 };
 pub use words::told;

@@ -6,7 +6,7 @@ mod design;
 mod read;
 
 pub use added_mass::{AddedMass, ByDefault};
-pub use afloat::Afloat;
+pub use afloat::{Afloat, READS_NO_FILES};
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -9,7 +9,7 @@ use snapload::analysis::Unfinished;
 use snapload_structure::note::{self, Source};
 use std::time::Duration;
 
-/// What a run and its neighbours may take.
+/// What a file may take: a run, its neighbours and other waves.
 const BUDGET: Duration = Duration::from_secs(120);
 
 /// A file that can be asked for.
@@ -25,8 +25,8 @@ pub(crate) enum File {
 pub(crate) struct Request {
     case: Asked,
     /// Whether to tell how far it has come, line by line.
-    #[serde(default)]
-    pub(crate) told: bool,
+    #[serde(default, rename = "told")]
+    pub(crate) progress: bool,
 }
 
 impl File {
@@ -61,19 +61,19 @@ impl File {
         if matches!(self, Self::Case) {
             return Ok(case.opened.entries.to_toml().into_bytes());
         }
+        let allowance = allowance.within(BUDGET);
         // What the page has been told already is not run again.
         let wanted = Wanted {
             preview: false,
             neighbours: true,
             time: BUDGET,
         };
-        let assessment = assessed(&request.case, &case, wanted, latest, allowance)?;
+        let assessment = assessed(&request.case, &case, wanted, latest, &allowance)?;
         let name = &case.opened.name;
         if matches!(self, Self::Assessment) {
-            let told = assessment.to_json(name);
-            return serde_json::to_vec_pretty(&told).map_err(Refusal::failed);
+            let answer = assessment.to_json(name);
+            return serde_json::to_vec_pretty(&answer).map_err(Refusal::failed);
         }
-        let allowance = allowance.within(BUDGET);
         let scan = note::scan(&case.structure, &|progress| allowance.go_on(progress));
         let scan =
             scan.map_err(|cancelled| too_long(&case, BUDGET, Unfinished::Cancelled(cancelled)))?;

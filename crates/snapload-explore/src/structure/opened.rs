@@ -2,7 +2,7 @@
 use crate::refusal::Refusal;
 use serde::{Deserialize, Serialize};
 use snapload::{CaseError, Entries};
-use snapload_structure::{STRUCTURE, Structure};
+use snapload_structure::{READS_NO_FILES, STRUCTURE, Structure};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -28,9 +28,6 @@ pub(crate) enum WaterKind {
 
 /// Tables that stand for waves, with the water that each is.
 const WATERS: [(&str, WaterKind); 2] = [("wave", WaterKind::Wave), ("sea", WaterKind::Sea)];
-
-/// The keys of `[float]` that name files.
-const FILES: [&str; 2] = ["file", "memory"];
 
 /// A case file that was opened on the page.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -84,33 +81,25 @@ impl Opened {
         there.map_or(WaterKind::Still, |(_, kind)| *kind)
     }
 
-    /// The structure.
+    /// The structure. What a browser hands over has no folder, and what lies where the program was
+    /// begun may be another body's: such a case says all by itself.
     pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
         let Some(folder) = &self.folder else {
-            self.names_no_file()?;
-            return Structure::from_entries(&self.entries);
+            let alone = Structure::from_entries(&self.entries);
+            return alone.map_err(|error| self.say_how_to_begin(error));
         };
         Structure::from_entries_beside(&self.entries, folder)
     }
 
-    /// That the case says all by itself: what a browser hands over has no folder, and what lies where
-    /// the program was begun may be another body's.
-    fn names_no_file(&self) -> Result<(), CaseError> {
-        for index in 0..self.entries.count("float") {
-            let fields = self.entries.table("float", index);
-            for key in FILES {
-                if let Some(value) = fields.given(key) {
-                    let allowed = "nothing in a case that is opened on the page, which reads no files; \
-                                   without it a body floats on textbook values of its section";
-                    let begin = format!(
-                        "begin with it where its files are: snapload explore {}",
-                        self.name
-                    );
-                    return Err(fields.refuse(key, value, allowed).with_hint(begin));
-                }
-            }
+    /// With a hint if the error is that a file is named.
+    fn say_how_to_begin(&self, error: CaseError) -> CaseError {
+        if &*error.allowed != READS_NO_FILES {
+            return error;
         }
-        Ok(())
+        let name = &self.name;
+        error.with_hint(format!(
+            "begin with it where its files are: snapload explore {name}"
+        ))
     }
 
     /// The same with no other waves than of this kind.

@@ -35,8 +35,8 @@ pub(crate) struct Request {
     #[serde(default)]
     window: Option<[f64; 2]>,
     /// Whether to tell how far it has come, line by line.
-    #[serde(default)]
-    pub(crate) told: bool,
+    #[serde(default, rename = "told")]
+    pub(crate) progress: bool,
 }
 
 /// The answer, as JSON.

@@ -7,12 +7,15 @@ use snapload_hydro::{
     FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
     SectionBody, Shape, Warning, Water, Weight, read,
 };
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The file's displaced mass and the case's volume differ by no more than this part.
 const SAME_VOLUME: f64 = 0.01;
 /// A circle is half immersed if its centre is within this part of its width of the still water.
 const HALF_IMMERSED: f64 = 0.01;
+/// What is allowed for a key that names a file, where a case has no folder that files are in.
+pub const READS_NO_FILES: &str = "nothing in a case that is read by itself, without the files beside \
+                                  it; without it a body floats on textbook values of its section";
 /// What stands for the name of a file where there is none.
 const SECTION: &str = "textbook values of its section";
 
@@ -34,26 +37,31 @@ impl Afloat {
         self.body.constant_force - Vector3::new(0.0, 0.0, self.constant_moment_n_m)
     }
 
-    /// Reads the coefficients beside a case file and fits their memory.
+    /// Reads the coefficients beside a case file and fits their memory; without a folder it may name
+    /// no files.
     ///
     /// # Errors
     /// A [`CaseError`] that says what is wrong with the file or what it lacks.
     pub(super) fn read(
         entries: &Entries,
-        beside: &Path,
+        folder: Option<&Path>,
         site: &Site,
         body: &BodySi,
     ) -> Result<Self, CaseError> {
         let fields = entries.table("float", 0);
         let own = entries.table("body", 0);
+        let [file, memory] = [
+            path(fields, "file", folder)?,
+            path(fields, "memory", folder)?,
+        ];
         if let Some(value) = own.given("added_mass") {
             let allowed = "nothing beside [float], whose file has the added mass";
             return Err(own.refuse("added_mass", value, allowed));
         }
-        let mut reading = coefficients(entries, beside, site, body)?;
+        let mut reading = coefficients(entries, file.as_deref(), site, body)?;
         let bad = |error: HydroError| refused(fields, &error);
         // A memory that does not say what it is about is about what the file is.
-        let memory = memory(fields, beside)?.map(|memory| GivenMemory {
+        let memory = read_memory(fields, memory.as_deref())?.map(|memory| GivenMemory {
             reference_m: memory.reference_m.or(Some(reading.hydro.reference_m)),
             ..memory
         });
@@ -94,18 +102,33 @@ impl Afloat {
     }
 }
 
-/// The coefficients of the file beside the case, or of the textbook where it names none.
+/// Where the file is that a key names, if it does.
+fn path(
+    fields: Fields<'_>,
+    key: &str,
+    folder: Option<&Path>,
+) -> Result<Option<PathBuf>, CaseError> {
+    let Some(name) = fields.get::<String>(key)? else {
+        return Ok(None);
+    };
+    match folder {
+        Some(folder) => Ok(Some(folder.join(name))),
+        None => Err(fields.refuse(key, format!("{name:?}"), READS_NO_FILES)),
+    }
+}
+
+/// The coefficients of a file, or of the textbook where there is none.
 fn coefficients(
     entries: &Entries,
-    beside: &Path,
+    file: Option<&Path>,
     site: &Site,
     body: &BodySi,
 ) -> Result<Reading, CaseError> {
     let fields = entries.table("float", 0);
-    let Some(file) = fields.get::<String>("file")? else {
+    let Some(file) = file else {
         return section(fields, site, body);
     };
-    let reading = read(&beside.join(&file), &given(fields, site)?);
+    let reading = read(file, &given(fields, site)?);
     let mut reading = reading.map_err(|error| refused(fields, &error))?;
     idle(fields, &reading)?;
     same_volume(entries.table("body", 0), site, body, &mut reading)?;
@@ -250,22 +273,23 @@ fn three(fields: Fields<'_>, key: &str) -> Result<Option<[f64; 3]>, CaseError> {
     }
 }
 
-/// The memory that a file of JSON holds, if one is named.
-fn memory(fields: Fields<'_>, beside: &Path) -> Result<Option<GivenMemory>, CaseError> {
-    let Some(file) = fields.get::<String>("memory")? else {
+/// The memory that a file of JSON holds, if there is one.
+fn read_memory(fields: Fields<'_>, file: Option<&Path>) -> Result<Option<GivenMemory>, CaseError> {
+    let Some(file) = file else {
         return Ok(None);
     };
-    let shown = || format!("{file:?}");
-    let text = std::fs::read_to_string(beside.join(&file)).map_err(|error| {
-        fields.refuse(
-            "memory",
-            shown(),
-            format!("a file that can be read; {error}"),
-        )
-    })?;
+    let refuse = |allowed: String| {
+        let shown = fields
+            .given("memory")
+            .map_or(String::new(), ToString::to_string);
+        fields.refuse("memory", shown, allowed)
+    };
+    let text = std::fs::read_to_string(file)
+        .map_err(|error| refuse(format!("a file that can be read; {error}")))?;
     let memory = serde_json::from_str(&text).map_err(|error| {
-        let allowed = format!("a memory as snapload hydro --json writes it; {error}");
-        fields.refuse("memory", shown(), allowed)
+        refuse(format!(
+            "a memory as snapload hydro --json writes it; {error}"
+        ))
     })?;
     Ok(Some(memory))
 }

@@ -27,12 +27,12 @@ impl Structure {
         Self::from_entries(&Entries::parse(&STRUCTURE, name, text)?)
     }
 
-    /// From the keys that a case gives.
+    /// From the keys that a case gives, none of which may name a file: no file is read.
     ///
     /// # Errors
     /// A [`CaseError`] that names the key, its value and what is allowed.
     pub fn from_entries(entries: &Entries) -> Result<Self, CaseError> {
-        Self::from_entries_beside(entries, Path::new(""))
+        read(entries, None).map_err(|error| entries.locate(error))
     }
 
     /// The same, where files that the case names are beside one in this folder.
@@ -40,12 +40,12 @@ impl Structure {
     /// # Errors
     /// As above, and if a file can not be read or used.
     pub fn from_entries_beside(entries: &Entries, folder: &Path) -> Result<Self, CaseError> {
-        read(entries, folder).map_err(|error| entries.locate(error))
+        read(entries, Some(folder)).map_err(|error| entries.locate(error))
     }
 }
 
-/// Reads and checks a structure.
-fn read(entries: &Entries, folder: &Path) -> Result<Structure, CaseError> {
+/// Reads and checks a structure; without a folder it may name no files.
+fn read(entries: &Entries, folder: Option<&Path>) -> Result<Structure, CaseError> {
     let site = read_site(entries.table("site", 0))?;
     let floats = entries.count("float") > 0;
     let mut body = read_body(entries.table("body", 0), &site, floats)?;
