@@ -184,7 +184,7 @@ class BaseOrbit:
         >>> int(lap.leg[-1]), bool(abs(lap.x[-1] - lap.x[0]) < 1e-12)
         (2, True)
         """
-        data = self._engine.curve(float(whole("pieces", pieces, 1, 10**7)))
+        data = self._engine.curve(whole("pieces", pieces, 1, 10**7))
         names = ("leg", "taut", "t", *STATE)
         rows = np.frombuffer(data, dtype=np.float64).reshape(-1, len(names))
         kinds = [(name, "i8" if name in ("leg", "taut") else "f8") for name in names]

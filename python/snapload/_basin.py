@@ -18,6 +18,7 @@ from ._later import Later
 from ._orbit import Orbit
 from ._progress import bar
 from ._signature import with_keys
+from ._table import numbers, or_nan
 
 if TYPE_CHECKING:
     import xarray
@@ -215,7 +216,8 @@ def erosion(
         :func:`snapload.safe_basin` has them, and the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
         trust). The attribute ``knee`` is the last value up to which the safe part of the decided cells never falls
         below nine tenths of what it is at the first one; NaN if it never does. ``knee_between`` has the least and the
-        greatest value that it has, however the undecided cells end (NaN without trust, as then all count as decided).
+        greatest value that it has, however the undecided cells end, NaN for one beyond the last value; without trust,
+        where all cells count as decided, it is not there.
 
     Raises
     ------
@@ -254,11 +256,11 @@ def erosion(
     for point in points:
         point["low"], point["high"] = point["interval95"]
     for name, meaning in _ERODED.items():
-        numbers = np.array([_or_nan(point[name]) for point in points], dtype=np.float64)
-        variables[name] = (key, numbers, {"long_name": meaning})
+        variables[name] = (key, numbers(points, name), {"long_name": meaning})
     coords = {key: (key, np.array([point["value"] for point in points], dtype=np.float64), attributes()[key])}
-    between = [_or_nan(knee) for knee in told["knee_between"] or (None, None)]
-    knees = {"knee": _or_nan(told["knee"]), "knee_between": between}
+    knees: dict[str, Any] = {"knee": or_nan(told["knee"])}
+    if told["knee_between"] is not None:
+        knees["knee_between"] = [or_nan(knee) for knee in told["knee_between"]]
     attrs = {"title": "Erosion of a safe basin of a body on cables", **ABOUT, **knees}
     return xarray.Dataset(variables, coords, attrs)
 
@@ -306,11 +308,7 @@ def _coords(sides: list[tuple[str, Any]]) -> dict[str, Any]:
 def _measures(told: dict[str, Any]) -> dict[str, Any]:
     """The measures as attributes that any file of xarray can hold."""
     names = ("legal", "safe", "fraction", "undecided", "past_horizon", "gim", "lim", "if", "iim")
-    return {name: _or_nan(told[name]) for name in names} | {"interval95": np.array(told["interval95"])}
-
-
-def _or_nan(value: float | None) -> float:
-    return float("nan") if value is None else value
+    return {name: or_nan(told[name]) for name in names} | {"interval95": np.array(told["interval95"])}
 
 
 def _column(kind: str, data: bytearray, words: list[str]) -> NDArray[Any]:

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ._base_orbit import STATE, complexes
-from ._table import Table
+from ._scales import MOTION
+from ._table import Table, numbers
 
 
 def events_table(rows: list[dict[str, Any]]) -> Table:
     """A row an event."""
-
-    def column(name: str) -> NDArray[np.float64]:
-        return np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
+    column = partial(numbers, rows)
 
     largest = [np.abs(complexes(row["multipliers"])).max() for row in rows]
     states = np.array([row["state"] for row in rows], dtype=np.float64).reshape(-1, len(STATE))
-    scales = dict(zip(STATE, ("L", "L", "rad", "L/T", "L/T", "rad/T"), strict=True))
     whole_numbers = {
         "cable": np.array([row["cable"] or 0 for row in rows], dtype=np.int64),
         "admissible": np.array([row["admissible"] for row in rows], dtype=np.int64),
@@ -29,11 +27,21 @@ def events_table(rows: list[dict[str, Any]]) -> Table:
             ("kind", "", "what happens", np.array([row["kind"] for row in rows], dtype=object)),
             ("value", "1", "value of the key", column("value")),
             ("arclength", "1", "length along the branch", column("arclength")),
-            *((name, scales[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
+            *((name, MOTION[name], f"{name} at the section", states[:, k]) for k, name in enumerate(STATE)),
             ("cable", "", "number of the cable, 0 for none", whole_numbers["cable"]),
             ("t", "T", "time in the lap", column("t")),
-            ("normal_acceleration", "L/T^2", "what bends the gap away at a graze", column("normal_acceleration")),
-            ("sqrt_coefficient", "L^(1/2)/T", "jump of the velocity by root of length", column("sqrt_coefficient")),
+            (
+                "normal_acceleration",
+                "L/T^2",
+                "what bends the gap away at a graze",
+                column("normal_acceleration"),
+            ),
+            (
+                "sqrt_coefficient",
+                "L^(1/2)/T",
+                "jump of the velocity by root of length",
+                column("sqrt_coefficient"),
+            ),
             ("largest_multiplier", "1", "largest |multiplier|", np.array(largest, dtype=np.float64)),
             ("admissible", "", "whether a body can have the orbit", whole_numbers["admissible"]),
         ]

@@ -20,6 +20,7 @@ from ._later import Later
 from ._progress import bar
 from ._result import Result
 from ._signature import with_keys
+from ._table import numbers, or_nan
 
 if TYPE_CHECKING:
     import xarray
@@ -109,8 +110,8 @@ def section(
         "title": "A section of a long motion of a body on cables",
         **ABOUT,
         "phase": told["phase"],
-        "period": _or_nan(told["period"]),
-        "snaps": _or_nan(told["snaps"]),
+        "period": or_nan(told["period"]),
+        "snaps": or_nan(told["snaps"]),
         "y_max": told["y_max"],
         "theta_max": told["theta_max"],
     }
@@ -283,21 +284,18 @@ def orbit_diagram(
         points[row, :count] = states[at : at + count]
         at += count
 
-    def column(name: str) -> NDArray[np.float64]:
-        return np.array([_or_nan(row[name]) for row in rows], dtype=np.float64)
-
     about = attributes()
     variables: dict[str, Any] = {
         name: ((key, "k"), points[:, :, place], of_state(name)) for place, name in enumerate(STATE) if name != key
     }
     for name, meaning in _OF_VALUES.items():
-        variables[name] = (key, column(name), {"long_name": meaning})
+        variables[name] = (key, numbers(rows, name), {"long_name": meaning})
     stops = np.array([row["stop"] or "" for row in rows], dtype=object)
     variables["stop"] = (key, stops, {"long_name": "which limit stopped the motion"})
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
     variables["restarted"] = (key, restarted, {"long_name": "begun with the start of the case"})
     coords = {
-        key: (key, column("value"), about[key]),
+        key: (key, numbers(rows, "value"), about[key]),
         "k": ("k", np.arange(keep + 1), {"long_name": "number of the period that is kept"}),
     }
     title = {"title": "The attractor of a body on cables against a key", **ABOUT}
@@ -361,10 +359,6 @@ def _impacts(rows: list[dict[str, Any]]) -> dict[str, Any]:
 def _spectrum(rows: list[dict[str, float | None]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     values = [-np.inf if row["value"] is None else row["value"] for row in rows]
     return np.array(values, dtype=np.float64), np.array([row["se"] for row in rows], dtype=np.float64)
-
-
-def _or_nan(value: float | None) -> float:
-    return float("nan") if value is None else value
 
 
 def _count(values: str | NDArray[Any]) -> int:

@@ -28,7 +28,7 @@ Result = TypeVar("Result", Table, "xarray.Dataset", "xarray.DataArray", "np.reca
 _UNITS = {"L": "m", "m": "kg", "F": "N", "T": "s", "rad": "rad"}
 
 #: What a motion holds beside tensions.
-_MOTION = {"t": "T", "x": "L", "y": "L", "theta": "rad", "vx": "L/T", "vy": "L/T", "vtheta": "rad/T", "energy": "F L"}
+MOTION = {"t": "T", "x": "L", "y": "L", "theta": "rad", "vx": "L/T", "vy": "L/T", "vtheta": "rad/T", "energy": "F L"}
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,7 @@ class Scales:
     def _motion(self, motion: np.recarray[Any, Any]) -> np.recarray[Any, Any]:
         brought = motion.copy()
         for name in motion.dtype.names or ():
-            brought[name] *= self.factor(_MOTION.get(name, "F"))
+            brought[name] *= self.factor(MOTION.get(name, "F"))
         return brought
 
     def _variable(self, variable: Any) -> Any:

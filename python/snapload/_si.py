@@ -32,15 +32,10 @@ _UNITS = {
 }
 
 
-def unit(name: str) -> str:
-    """The unit that a name ends in, 1 where it ends in none."""
-    return next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "1")
-
-
 def about(name: str) -> dict[str, str]:
     """Attributes of what has this name: the name in words, and its unit."""
     ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
-    return {"long_name": name.removesuffix(ending).replace("_", " "), "units": unit(name)}
+    return {"long_name": name.removesuffix(ending).replace("_", " "), "units": _UNITS.get(ending, "1")}
 
 
 def column(values: list[Any]) -> NDArray[Any]:

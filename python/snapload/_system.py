@@ -271,7 +271,7 @@ class System:
         NoOrbitError
             If there is none; the words say what there is instead.
         ValueError
-            If an option is out of its range, or the forces do not repeat themselves.
+            If an option is out of its range, the start is beyond a cable, or the forces do not repeat themselves.
 
         See Also
         --------

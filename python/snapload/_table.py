@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any, overload
 
@@ -19,6 +19,16 @@ else:
 
 #: So many rows are shown.
 _SHOWN = 10
+
+
+def or_nan(value: float | None) -> float:
+    """A number, NaN where there is none."""
+    return float("nan") if value is None else value
+
+
+def numbers(rows: Sequence[Mapping[str, Any]], name: str) -> NDArray[np.float64]:
+    """What the rows have under a name, NaN where there is none."""
+    return np.array([or_nan(row[name]) for row in rows], dtype=np.float64)
 
 
 class Table:

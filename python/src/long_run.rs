@@ -127,22 +127,10 @@ fn of_unfinished(error: Unfinished) -> PyErr {
     }
 }
 
-/// How much of the work the cells themselves are, where their neighbours are run, too.
-const CELLS: f64 = 0.1;
-
-/// Tells of both stages of a basin as one, in thousandths.
-fn as_one(watch: &Watch, trust: bool, progress: Progress) -> ControlFlow<()> {
-    let part = progress.done / progress.of;
-    let part = match (trust, progress.doing) {
-        (true, "cells") => CELLS * part,
-        (true, "their neighbours") => CELLS + (1.0 - CELLS) * part,
-        _ => part,
-    };
-    watch.go_on(Progress::new(
-        progress.doing,
-        (1000.0 * part).floor(),
-        1000.0,
-    ))
+/// Tells of it in thousandths.
+fn in_thousandths(watch: &Watch, progress: Progress) -> ControlFlow<()> {
+    let done = (1000.0 * progress.done / progress.of).floor();
+    watch.go_on(Progress::new(progress.doing, done, 1000.0))
 }
 
 /// Name of a column, its type, its bytes, and its words.
@@ -175,7 +163,7 @@ pub(crate) fn safe_basin<'py>(
 ) -> PyResult<(String, Vec<Filled<'py>>)> {
     let window = window(case, &sides)?;
     let basin = interruptible(py, progress, move |watch| {
-        Basin::of(window, trust, &|progress| as_one(watch, trust, progress))
+        Basin::of(window, trust, &|progress| in_thousandths(watch, progress))
     })?;
     let basin = basin.map_err(of_unfinished)?;
     let cells = || basin.cells.iter();
@@ -212,7 +200,7 @@ pub(crate) fn basins_of_attraction<'py>(
     let window = window(case, &sides)?;
     let found = interruptible(py, progress, move |watch| {
         Attraction::of(window, transient, &|progress| {
-            as_one(watch, false, progress)
+            in_thousandths(watch, progress)
         })
     })?;
     let found = found.map_err(of_unfinished)?;
@@ -256,7 +244,7 @@ pub(crate) fn erosion<'py>(
     let window = window(case, &sides)?;
     let (key, values) = values_of(&over)?;
     let found = interruptible(py, progress, move |watch| {
-        let on_progress = |progress: Progress| as_one(watch, trust, progress);
+        let on_progress = |progress: Progress| in_thousandths(watch, progress);
         Erosion::of(&window, key, &values, trust, &on_progress)
     })?;
     to_json(&ErosionRow::new(&found.map_err(of_unfinished)?))

@@ -14,8 +14,8 @@ use snapload::{CaseError, Rules, Value};
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
     Along, BranchEvent, BranchRow, Family, Jet, Kind, Moored, OrbitRow, Point, Starts, Wanted,
-    along, branch_in_words, check_start, checked_phase, distance, of_attractor, orbit_in_words,
-    period_of, prove_all, start_of,
+    along, branch_in_words, check_start, check_start_of_system, checked_phase, distance,
+    of_attractor, orbit_in_words, period_of, prove_all, start_of,
 };
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub(crate) struct Orbit {
 }
 
 /// The least number of pieces in which a leg of a lap is drawn.
-const PIECES: f64 = 8.0;
+const PIECES: usize = 8;
 
 impl Orbit {
     pub(crate) fn of_case(case: Case, orbit: snapload_orbits::Orbit) -> Self {
@@ -95,7 +95,7 @@ impl Orbit {
 
     /// One lap as the sequence of events has it, whether a body has it or not: rows of doubles with
     /// the number of the leg, how many cables it is held by, the time, and the state.
-    fn curve<'py>(&self, py: Python<'py>, pieces: f64) -> Bound<'py, PyByteArray> {
+    fn curve<'py>(&self, py: Python<'py>, pieces: u32) -> Bound<'py, PyByteArray> {
         let orbit = &self.orbit;
         let mut bytes = Vec::new();
         for on in self.family.along_lap(orbit, pieces, PIECES) {
@@ -202,6 +202,7 @@ pub(crate) fn orbit_of_system(
         // No rule enters the derivatives.
         move |_| (jets.clone(), Rules::until(Jet::constant(rules.t_end))),
     );
+    check_start_of_system(&family, &start).map_err(of_case)?;
     let searched = family.clone();
     let orbit = interruptible(py, None, move |_| searched.orbit([0.0; 2], &start, &wanted))?;
     Ok(match orbit {

@@ -157,6 +157,8 @@ def test_a_ball_on_a_table_is_that_of_holmes():
     assert other == orbit and len(other.run(3, trust=False).impacts) == 3
     with pytest.raises(ValueError, match="with a sinusoid of a frequency above 0"):
         snapload.System(snapload.Body(), [rope], snapload.Forcing((0, -1)), 0.5).orbit({"y": 0.2})
+    with pytest.raises(ValueError, match="start = x, y, theta = 0, 1000, 0 is not allowed; allowed: a start within"):
+        ball.orbit({"y": 1e3})
     twice = snapload.Forcing((0, -1), [shaken, snapload.Sinusoid((0.1, 0), 4)])
     with pytest.raises(ValueError, match=r"omega = 4\.0 is not allowed; allowed: whole multiples of the first"):
         snapload.System(snapload.Body(), [rope], twice, 0.5).orbit({"y": 0.2})

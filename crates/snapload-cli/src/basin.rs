@@ -28,7 +28,7 @@ Examples:
       starts at rest of the standard body
   snapload basin --set t_end=60 --vary f_o=0.02:0.6:30 --vary omega=0.4:2.4:41 --json -
       any two keys
-  snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21 --json -
+  snapload erosion --set t_end=60 --vary x=-0.4:0.4:33 --vary y=0.02:0.72:29 --over f_o=0:0.6:21
       how the safe part shrinks as the force grows";
 
 /// Which case, and which window.
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
     /// Periods of the forcing before attractors are looked at
-    #[arg(long, value_name = "N", default_value_t = 300, allow_negative_numbers = true, value_parser = whole::<u64>(1, 10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u64>(1, 10_000_000))]
     transient: u64,
     /// Write a table with a row a cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

@@ -51,10 +51,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "period_doubling[:N]")]
     switch: Vec<String>,
     /// Length of the first step, in the space of state, times of events, and the key
-    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Points in either direction at most
-    #[arg(long, value_name = "N", default_value_t = 2000, allow_negative_numbers = true, value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(1, 1_000_000))]
     points: u32,
     /// Kinds of events that are told, with commas between them
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]

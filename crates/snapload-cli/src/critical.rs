@@ -39,10 +39,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "KEY=a:b:n", allow_hyphen_values = true)]
     over: Option<String>,
     /// Step of the amplitude
-    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Largest amplitude
-    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0)]
     max: f64,
     /// Run N neighbours at each amplitude where one run can not tell, and give the probability of
     /// exceeding

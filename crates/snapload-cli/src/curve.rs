@@ -58,10 +58,10 @@ pub(crate) struct Args {
     )]
     along: String,
     /// Length of the first step, in the space of state, times of events, and the keys
-    #[arg(long, default_value_t = 0.01, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Points in either direction at most
-    #[arg(long, value_name = "N", default_value_t = 500, allow_negative_numbers = true, value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole::<u32>(1, 1_000_000))]
     points: u32,
     /// Write a table with a row a point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

@@ -3,6 +3,7 @@ use crate::case_input::{CaseArgs, read_text};
 use crate::failure::{Failure, plain, print};
 use crate::interrupt::{Graceful, end_gracefully, say};
 use crate::structure_input::{entries_of, structure_of};
+use crate::whole::whole;
 use snapload::Parameters;
 use snapload_explore::{Opened, Server, Start};
 use std::io;
@@ -37,7 +38,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
     /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(0, u16::MAX))]
     port: Option<u16>,
     /// Print the address, and leave it to you to open it
     #[arg(long)]

@@ -2,6 +2,7 @@
 //! not say.
 use crate::case_input::read_text;
 use crate::failure::Failure;
+use crate::whole::whole;
 use snapload_hydro::{
     FirstColumn, FitOptions, Given, GivenMemory, HydroError, Line, Report, Request, Weight, read,
 };
@@ -54,7 +55,7 @@ pub(crate) struct HydroArgs {
     #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
     damping: Option<[f64; 3]>,
     /// Pairs of poles of the memory; without it as many as are needed for 1 %
-    #[arg(long, value_name = "NUMBER", help_heading = "The memory")]
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>(0, usize::MAX), help_heading = "The memory")]
     pairs: Option<usize>,
     /// Take the memory from a file that --json wrote, and fit none
     #[arg(

@@ -57,7 +57,7 @@ mod verify;
 mod whole;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use snapload::CASE_KEYS;
 use std::ffi::OsString;
 use std::sync::OnceLock;
@@ -158,7 +158,10 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     let line: Vec<OsString> = line.into_iter().collect();
     let words = WORDS.get_or_init(|| line.iter().skip(1).cloned().collect());
     let name = OsString::from("snapload");
-    let cli = Cli::try_parse_from(std::iter::once(&name).chain(words));
+    let line = std::iter::once(&name).chain(words);
+    let command = whole::with_negative_numbers(Cli::command());
+    let matches = command.try_get_matches_from(line);
+    let cli = matches.and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = cli.unwrap_or_else(|error| refuse(error));
     let result = match cli.verb {
         Verb::Run(args) => run::run(&args),

@@ -47,14 +47,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
     /// Try so many random starts, and tell all orbits found
-    #[arg(long, value_name = "N", conflicts_with = "start", allow_negative_numbers = true, value_parser = whole::<u32>(1, 10_000_000))]
+    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole::<u32>(1, 10_000_000))]
     find: Option<u32>,
     /// Which random starts
     #[arg(
         long,
         value_name = "S",
         default_value_t = 0,
-        allow_negative_numbers = true,
+        value_parser = whole::<u64>(0, u64::MAX),
         requires = "find"
     )]
     seed: u64,
@@ -85,15 +85,10 @@ pub(crate) struct NearArgs {
     #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
     start: Option<String>,
     /// Length in periods of the forcing; 1 near a start, what the motion has otherwise
-    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole::<u32>(1, 1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1, 1024))]
     periods: Option<u32>,
     /// Time of the section, in periods of the forcing
-    #[arg(
-        long,
-        value_name = "P",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }
 

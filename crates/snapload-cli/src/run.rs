@@ -7,6 +7,7 @@ use crate::json::{Json, JsonArgs, refuse_directory};
 use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
+use crate::whole::whole;
 use snapload::Case;
 use snapload::analysis::Progress;
 use snapload_certificate::Cancelled;
@@ -47,14 +48,14 @@ pub(crate) struct Args {
     uncertainty: UncertaintyArgs,
     /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if
     /// those end alike
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(0, u32::MAX))]
     ensemble: Option<u32>,
     /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out its
     /// certificate is run.cert
     #[arg(long)]
     certify: bool,
     /// Time step of the motion in --json and --out
-    #[arg(long, value_name = "DT", allow_negative_numbers = true, value_parser = step)]
+    #[arg(long, value_name = "DT", value_parser = step)]
     sample: Option<f64>,
 }
 

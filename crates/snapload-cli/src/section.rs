@@ -58,18 +58,13 @@ pub(crate) struct Args {
 #[derive(clap::Args)]
 pub(crate) struct StretchArgs {
     /// Periods of the forcing in all
-    #[arg(long, value_name = "N", default_value_t = 400, allow_negative_numbers = true, value_parser = whole::<u64>(1, 100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u64>(1, 100_000_000))]
     periods: u64,
     /// Periods that are kept, the last ones
-    #[arg(long, value_name = "N", default_value_t = 100, allow_negative_numbers = true, value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(1, 1_000_000))]
     keep: u64,
     /// Time of the section, in periods of the forcing
-    #[arg(
-        long,
-        value_name = "P",
-        default_value_t = 0.0,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }
 

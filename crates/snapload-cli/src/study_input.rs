@@ -2,6 +2,7 @@
 use crate::case_input::{CaseArgs, begin_with};
 use crate::failure::Failure;
 use crate::interrupt::say;
+use crate::whole::whole;
 use snapload::DefaultValue::{Count, Derived, Flag};
 use snapload::{
     CASE_KEYS, CaseError, Entries, Heading, KEYS, Key, Kind, Schema, Table, Value, key_named,
@@ -49,10 +50,10 @@ pub(crate) struct StudyArgs {
     #[arg(long, value_name = "KEY=VALUES", allow_hyphen_values = true)]
     vary: Vec<String>,
     /// Sobol points in the box of the ranges instead of a grid
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0, u64::MAX))]
     random: Option<u64>,
     /// Which random points
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", value_parser = whole::<u64>(0, u64::MAX))]
     seed: Option<u64>,
     /// Cases from a CSV or Parquet file: a row a case, a column a key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]

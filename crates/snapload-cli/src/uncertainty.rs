@@ -1,5 +1,6 @@
 //! What of a case is uncertain, as given on the command line.
 use crate::failure::Failure;
+use crate::whole::whole;
 use snapload::Case;
 use snapload::analysis::Uncertainty;
 
@@ -7,12 +8,7 @@ use snapload::analysis::Uncertainty;
 #[derive(clap::Args)]
 pub(crate) struct ToleranceArgs {
     /// Error of state and time above which a result counts as not known
-    #[arg(
-        long,
-        value_name = "SIZE",
-        default_value_t = 1e-3,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "SIZE", default_value_t = 1e-3)]
     tolerance: f64,
 }
 
@@ -33,12 +29,12 @@ impl ToleranceArgs {
 #[derive(clap::Args)]
 pub(crate) struct UncertaintyArgs {
     /// How far every start value may be off, or one key; may be repeated
-    #[arg(long, value_name = "SIZE|KEY=SIZE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SIZE|KEY=SIZE")]
     uncertainty: Vec<String>,
     #[command(flatten)]
     tolerance: ToleranceArgs,
     /// Which neighbours an ensemble draws
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u64>(0, u64::MAX))]
     seed: u64,
 }
 

@@ -1,8 +1,11 @@
-//! Whole numbers as options: what is refused is told as what is wrong with a key is.
+//! Numbers as options: what is refused is told as what is wrong with a key is.
+
 use clap::builder::ValueParser;
 use clap::error::{ContextKind, ContextValue};
+use clap::{Arg, Command};
 use std::error::Error;
 use std::fmt::Display;
+use std::num::ParseFloatError;
 use std::str::FromStr;
 
 /// Reads a whole number from `low` to `high`.
@@ -27,13 +30,23 @@ pub(crate) fn refusal(error: &clap::Error) -> Option<String> {
     };
     let option = text(ContextKind::InvalidArg)?.split_whitespace().next()?;
     let value = text(ContextKind::InvalidValue)?;
-    let allowed = match error.source()?.to_string() {
+    let source = error.source()?;
+    let allowed = match source.to_string() {
         said if said.starts_with("allowed: ") => said,
-        said if said == "invalid float literal" => "allowed: a number".to_owned(),
-        said if said == "invalid digit found in string" => {
-            "allowed: a whole number, not below 0".to_owned()
-        }
+        _ if source.is::<ParseFloatError>() => "allowed: a number".to_owned(),
         _ => return None,
     };
     Some(format!("{option} = {value} is not allowed; {allowed}"))
+}
+
+/// The same command, the options of which take negative numbers as values everywhere, if only to say
+/// that they are not allowed.
+pub(crate) fn with_negative_numbers(command: Command) -> Command {
+    let option = |arg: Arg| match arg.is_positional() || !arg.get_action().takes_values() {
+        true => arg,
+        false => arg.allow_negative_numbers(true),
+    };
+    command
+        .mut_args(option)
+        .mut_subcommands(with_negative_numbers)
 }

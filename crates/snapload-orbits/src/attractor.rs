@@ -2,7 +2,7 @@
 
 use crate::hybrid::{Family, Point, distance};
 use crate::in_words::periods;
-use crate::lap::{Lap, SAME};
+use crate::lap::SAME;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, Wanted};
@@ -144,15 +144,8 @@ pub fn find_orbits(
 
 /// The states at all sections of an orbit.
 fn sections(family: &Moored, orbit: &Orbit) -> Vec<Point> {
-    let lap = Lap {
-        family,
-        at: orbit.at,
-        sequence: &orbit.lap.sequence,
-        phase: orbit.phase,
-        periods: orbit.periods,
-    };
     let system = family.plain(orbit.at);
-    let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
+    let (lap, legs) = orbit.lap_of(family, &system);
     lap.sections(&system, &legs)
 }
 

@@ -5,7 +5,7 @@
 
 use crate::distances::squared_distances;
 use snapload::analysis::{
-    Cancelled, Certainty, Counter, OnProgress, Share, Unfinished, on_all_threads,
+    Cancelled, Certainty, Counter, OnProgress, Progress, Share, Unfinished, on_all_threads,
     outcomes_on_one_thread,
 };
 use snapload::{Case, CaseError, Lanes, Outcome, Parameters, Stop, Value};
@@ -195,9 +195,23 @@ impl Basin {
     /// [`Unfinished`] where a key or a value can not be, or it is told to end.
     pub fn of(window: Window, trust: bool, on_progress: OnProgress) -> Result<Self, Unfinished> {
         window.check()?;
-        let mut cells = centres(&window, trust, on_progress)?;
+        // Both stages are shares of one work, in runs as far as they are known beforehand.
+        let count = window.count() as f64;
+        let beside = if trust {
+            count * NEIGHBOURS.len() as f64
+        } else {
+            0.0
+        };
+        let of = count + beside;
+        let share =
+            |progress: Progress| on_progress(Progress::new(progress.doing, progress.done, of));
+        let mut cells = centres(&window, trust, &share)?;
         if trust {
-            look_beside(&window, &mut cells, on_progress)?;
+            let share = |progress: Progress| {
+                let done = count + beside * progress.done / progress.of;
+                on_progress(Progress::new(progress.doing, done, of))
+            };
+            look_beside(&window, &mut cells, &share)?;
         }
         let measures = Measures::of(&window, &cells);
         Ok(Self {

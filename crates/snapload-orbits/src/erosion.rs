@@ -67,10 +67,13 @@ impl Erosion {
     /// symmetric they are many, and all at one value. A value without decided cells is passed over.
     /// Where neighbours were not looked at, all cells count as decided.
     pub fn knee(&self) -> Option<f64> {
-        self.knee_of(|m| {
-            let decided = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
-            (m.legal > m.undecided).then_some([decided; 2])
-        })
+        self.knee_of(|m| decided_part(m).map(|part| [part; 2]))
+    }
+
+    /// The values with decided cells, each with the safe part of these.
+    pub(crate) fn decided(&self) -> Vec<(f64, f64)> {
+        let part = |(value, basin): &(f64, Basin)| Some((*value, decided_part(&basin.measures)?));
+        self.points.iter().filter_map(part).collect()
     }
 
     /// The least and the greatest value that the knee has, however the cells that are not decided
@@ -101,6 +104,12 @@ impl Erosion {
         }
         None
     }
+}
+
+/// The safe part of the decided cells, where there are some.
+fn decided_part(m: &Measures) -> Option<f64> {
+    let part = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
+    (m.legal > m.undecided).then_some(part)
 }
 
 #[cfg(test)]
@@ -153,7 +162,71 @@ mod tests {
         let erosion = eroded(false, &[[90, 0, 0], [40, 0, 0]]);
         assert_eq!(erosion.knee(), Some(0.0));
         assert_eq!(erosion.knee_between(), None);
-        let text = crate::erosion_in_words(&erosion);
-        assert!(text.contains("neighbours were not looked at"), "{text}");
+        let told = words(&erosion);
+        assert!(told.contains("neighbours were not looked at"), "{told}");
+    }
+
+    /// What is said after the table.
+    fn words(erosion: &Erosion) -> String {
+        let text = crate::erosion_in_words(erosion);
+        text.split_once("\n\n").unwrap().1.to_owned()
+    }
+
+    #[test]
+    fn the_knee_is_told_with_the_value_that_it_is_measured_by() {
+        let told = words(&eroded(false, &[[90, 0, 0], [85, 0, 0], [40, 0, 0]]));
+        let safe =
+            "Safe      0.9000 (0.0000 to 1.0000) at f_o = 0, 0.4000 (0.0000 to 1.0000) at f_o = 2";
+        assert!(told.contains(safe), "{told}");
+        let knee = "at f_o = 1, up to which at least 0.9 of the safe part at f_o = 0 is left\n";
+        assert!(told.contains(knee), "{told}");
+        let told = words(&eroded(
+            true,
+            &[[90, 100, 90], [80, 0, 0], [75, 100, 75], [40, 0, 0]],
+        ));
+        let doubt = "of the safe part of the decided cells at f_o = 1 is left; or from 0 to beyond the last value by how";
+        assert!(told.contains(doubt), "{told}");
+    }
+
+    #[test]
+    fn why_there_is_no_knee_is_told() {
+        let told = |counts: &[[usize; 3]]| words(&eroded(false, counts));
+        for (counts, why) in [
+            (
+                &[[90, 0, 0], [85, 0, 0]][..],
+                "never falls below 0.9 of that at f_o = 0",
+            ),
+            (
+                &[[0, 0, 0], [85, 0, 0]],
+                "no legal cell is safe at the first value, f_o = 0",
+            ),
+            (&[[90, 0, 0]], "f_o = 0 alone has a legal cell"),
+        ] {
+            assert!(told(counts).contains(why), "{}", told(counts));
+        }
+        let undecided = words(&eroded(true, &[[90, 100, 90], [80, 100, 80]]));
+        assert!(
+            undecided.contains("no value has a decided cell"),
+            "{undecided}"
+        );
+    }
+
+    #[test]
+    fn values_without_a_legal_start_are_no_safe_part() {
+        let mut erosion = eroded(false, &[[0, 0, 0], [85, 0, 0], [40, 0, 0], [0, 0, 0]]);
+        for k in [0, 3] {
+            erosion.points[k].1.measures.legal = 0;
+        }
+        let told = words(&erosion);
+        assert!(told.contains(" at f_o = 1, 0.4000 "), "{told}");
+        assert!(told.contains("Knee      at f_o = 1, up to which"), "{told}");
+        for (_, basin) in &mut erosion.points {
+            basin.measures.legal = 0;
+        }
+        let told = words(&erosion);
+        assert!(
+            told.contains("no start is legal at any value") && !told.contains("Safe"),
+            "{told}"
+        );
     }
 }

@@ -32,18 +32,9 @@ pub trait Hybrid<T: Real> {
 
     /// The same motion at any time from 0 to `s`, for whoever asks for many of them:
     /// [`Hybrid::flow`] to rounding.
-    fn path<'a>(
-        &'a self,
-        held: TautSet,
-        t: T,
-        z: &Point<T>,
-        _s: T,
-    ) -> Box<dyn Fn(T) -> Point<T> + 'a>
-    where
-        T: 'a,
-    {
+    fn path(&self, held: TautSet, t: T, z: &Point<T>, _s: T) -> impl Fn(T) -> Point<T> {
         let z = *z;
-        Box::new(move |s| self.flow(held, t, &z, s))
+        move |s| self.flow(held, t, &z, s)
     }
 
     /// How far the state is beyond a surface, as a length: negative where it is legal.

@@ -3,9 +3,10 @@
 use crate::attraction::Attraction;
 use crate::basin::Basin;
 use crate::diagram::At;
-use crate::erosion::Erosion;
-use crate::orbit::{Orbit, words};
+use crate::erosion::{Erosion, KNEE};
+use crate::orbit::Orbit;
 use crate::section::Section;
+use crate::sequence::words;
 use std::fmt::Write;
 
 /// An orbit.
@@ -167,7 +168,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
     text
 }
 
-/// An erosion.
+/// An erosion: a row a value, and after an empty line what they come to.
 pub fn erosion_in_words(erosion: &Erosion) -> String {
     let mut text = format!("{:<12} safe     nearest  disc\n", erosion.key);
     let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
@@ -177,24 +178,71 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         let safe = maybe((m.legal > 0).then_some(m.gim));
         let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
     }
-    if let Some(knee) = erosion.knee() {
-        let beyond = || "beyond the last value".to_owned();
-        let told = |value: Option<f64>| value.map_or_else(beyond, |value| value.to_string());
-        let doubt = match erosion.knee_between() {
-            None => String::new(),
-            Some([Some(low), Some(high)]) if low == knee && high == knee => String::new(),
-            Some([low, high]) => format!(
-                ", or from {} to {} by how undecided cells end",
-                told(low),
-                told(high)
-            ),
-        };
-        let _ = writeln!(text, "Knee      at {} = {knee}{doubt}", erosion.key);
-    }
+    let part = |(value, basin): &(f64, Basin)| {
+        let [low, high] = basin.measures.interval;
+        let safe = basin.measures.gim;
+        format!(
+            "{safe:.4} ({low:.4} to {high:.4}) at {} = {value}",
+            erosion.key
+        )
+    };
+    let legal = |(_, basin): &&(f64, Basin)| basin.measures.legal > 0;
+    let mut there = erosion.points.iter().filter(legal);
+    text.push('\n');
+    let _ = match (there.next(), there.next_back()) {
+        (Some(first), Some(last)) => writeln!(text, "Safe      {}, {}", part(first), part(last)),
+        (Some(only), None) => writeln!(text, "Safe      {}", part(only)),
+        (None, _) => Ok(()),
+    };
+    let _ = writeln!(text, "Knee      {}", knee_in_words(erosion));
     if !erosion.looked_beside() {
         text += "Undecided not known, as neighbours were not looked at\n";
     }
     text
+}
+
+/// Where the knee is and what it says, or why there is none.
+fn knee_in_words(erosion: &Erosion) -> String {
+    let key = erosion.key;
+    if erosion
+        .points
+        .iter()
+        .all(|(_, basin)| basin.measures.legal == 0)
+    {
+        return "none, as no start is legal at any value: each of the window is beyond a cable or a limit"
+            .to_owned();
+    }
+    let (cell, safe) = match erosion.looked_beside() {
+        true => ("decided cell", "safe part of the decided cells"),
+        false => ("legal cell", "safe part"),
+    };
+    let knee = erosion.knee();
+    let told = match (knee, erosion.decided().as_slice()) {
+        (Some(knee), [(first, _), ..]) => {
+            format!(
+                "at {key} = {knee}, up to which at least {KNEE} of the {safe} at {key} = {first} is left"
+            )
+        }
+        (_, []) => format!("none, as no value has a {cell}"),
+        (None, [(first, 0.0), ..]) => {
+            format!("none, as no {cell} is safe at the first value, {key} = {first}")
+        }
+        (None, [(only, _)]) => {
+            format!("none, as {key} = {only} alone has a {cell}, with nothing to compare it with")
+        }
+        (None, [(first, _), ..]) => {
+            format!("none, as the {safe} never falls below {KNEE} of that at {key} = {first}")
+        }
+    };
+    let beyond = || "beyond the last value".to_owned();
+    let place = |value: Option<f64>| value.map_or_else(beyond, |value| value.to_string());
+    match erosion.knee_between() {
+        Some([low, high]) if [low, high] != [knee; 2] => {
+            let (low, high) = (place(low), place(high));
+            format!("{told}; or from {low} to {high} by how undecided cells end")
+        }
+        _ => told,
+    }
 }
 
 /// Basins of attraction.

@@ -82,16 +82,22 @@ impl<F: Family> Lap<'_, F> {
         (self.phase * period, f64::from(self.periods) * period)
     }
 
+    /// How long the last leg lasts, from the last event to the section.
+    pub(crate) fn last_leg(&self, durations: &[f64]) -> f64 {
+        let (begun, length) = self.times();
+        begun + length - durations.iter().fold(begun, |t, s| t + s)
+    }
+
     /// Its legs over doubles.
     pub fn legs(&self, system: &F::Plain, z: &Point, durations: &[f64]) -> Vec<Leg> {
-        let (mut t, length) = self.times();
-        let end = t + length;
+        let (mut t, _) = self.times();
         let start = self.sequence.start;
         let mut z = system.placed(start, start, z);
         let held = self.sequence.held();
         let mut legs = Vec::with_capacity(held.len());
         for (k, held) in held.into_iter().enumerate() {
-            let s = durations.get(k).map_or(end - t, |s| *s);
+            let s = durations.get(k).copied();
+            let s = s.unwrap_or_else(|| self.last_leg(durations));
             let end = system.flow(held, t, &z, s);
             legs.push(Leg {
                 held,
@@ -108,30 +114,29 @@ impl<F: Family> Lap<'_, F> {
         legs
     }
 
-    /// The states at all of its sections, one a period of the forcing, of its legs.
-    pub fn sections(&self, system: &F::Plain, legs: &[Leg]) -> Vec<Point> {
+    /// The state at the section after so many periods of the forcing, of its legs.
+    fn section(&self, system: &F::Plain, legs: &[Leg], periods: u32) -> Point {
         let (begun, length) = self.times();
-        let period = length / f64::from(self.periods);
-        let begins = legs.first().map(|leg| leg.start);
-        let later = (1..self.periods).filter_map(|k| {
-            let t = begun + period * f64::from(k);
-            let leg = legs.iter().rev().find(|leg| leg.t <= t)?;
-            Some(system.flow(leg.held, leg.t, &leg.start, t - leg.t))
-        });
-        begins.into_iter().chain(later).collect()
+        let t = begun + length / f64::from(self.periods) * f64::from(periods);
+        let leg = legs.iter().rfind(|leg| leg.t <= t).unwrap_or(&legs[0]);
+        match periods {
+            0 => leg.start,
+            _ => system.flow(leg.held, leg.t, &leg.start, t - leg.t),
+        }
     }
 
-    /// After how many periods it first comes back to where it began: fewer than it has where it
-    /// goes round a shorter orbit several times.
+    /// The states at all of its sections, one a period of the forcing, of its legs.
+    pub fn sections(&self, system: &F::Plain, legs: &[Leg]) -> Vec<Point> {
+        let section = |k| self.section(system, legs, k);
+        (0..self.periods).map(section).collect()
+    }
+
+    /// After how many periods it first comes back to within 1e-8 of where it began: fewer than it
+    /// has where it goes round a shorter orbit several times.
     pub fn smallest_periods(&self, system: &F::Plain, legs: &[Leg]) -> u32 {
-        if self.periods == 1 {
-            return 1;
-        }
-        let sections = self.sections(system, legs);
         let is_back = |k: &u32| {
-            let there = sections.get(*k as usize).zip(sections.first());
             self.periods.is_multiple_of(*k)
-                && there.is_some_and(|(z, first)| distance(z, first) < SAME)
+                && distance(&self.section(system, legs, *k), &legs[0].start) < SAME
         };
         (1..self.periods).find(is_back).unwrap_or(self.periods)
     }
@@ -140,14 +145,14 @@ impl<F: Family> Lap<'_, F> {
     pub fn linearise(&self, z: &Point, durations: &[f64]) -> Linearised {
         let system = self.family.jets(self.at);
         let period = self.family.forcing_period(self.at);
-        let (mut t, length) = self.times();
-        let end = t + length;
+        let (mut t, _) = self.times();
         let start = self.sequence.start;
         let placed = system.placed(start, start, &variable(z));
         let mut state = values(&placed);
         let mut legs = Vec::new();
         for (k, held) in self.sequence.held().into_iter().enumerate() {
-            let s = durations.get(k).map_or(end - t, |s| *s);
+            let s = durations.get(k).copied();
+            let s = s.unwrap_or_else(|| self.last_leg(durations));
             let [at, lasts] = [Jet::variable(t, TIME), Jet::variable(s, DURATION)];
             let reached = system.flow(held, at, &variable(&state), lasts);
             let leg = match self.sequence.events.get(k) {

@@ -79,12 +79,14 @@ pub use moored::{Cables, Moored};
 pub use moored_questions::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
-pub use options::{across, along, check_start, checked_phase, followed, stretch};
-pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted, words};
+pub use options::{
+    across, along, check_start, check_start_of_system, checked_phase, followed, stretch,
+};
+pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted};
 pub use orbit_row::OrbitRow;
 pub use proof::{Proofs, prove_all};
 pub use rows::{AttractionRow, BasinRow, DiagramRow, ErosionRow, SectionRow};
 pub use scan::scan;
 pub use section::{LONGEST_PERIOD, Section, Stretch, period_of, start_of};
-pub use sequence::{Event, Happening, Sequence, Timed};
+pub use sequence::{Event, Happening, Sequence, Timed, words};
 pub use survey::{Extreme, Survey, survey};

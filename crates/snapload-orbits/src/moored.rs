@@ -42,18 +42,9 @@ impl<T: Real> Hybrid<T> for Cables<T> {
         self.held.carried(held, t, &state, s).components()
     }
 
-    fn path<'a>(
-        &'a self,
-        held: TautSet,
-        t: T,
-        z: &Point<T>,
-        s: T,
-    ) -> Box<dyn Fn(T) -> Point<T> + 'a>
-    where
-        T: 'a,
-    {
+    fn path(&self, held: TautSet, t: T, z: &Point<T>, s: T) -> impl Fn(T) -> Point<T> {
         let path = self.held.path(held, t, &State::from_components(*z), s);
-        Box::new(move |s| path.state(s).components())
+        move |s| path.state(s).components()
     }
 
     /// g/2r.

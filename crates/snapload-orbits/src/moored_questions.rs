@@ -1,14 +1,13 @@
 //! Orbits, branches and curves of bodies on cables, compiled here.
 //!
-//! What is generic over a [`crate::Family`] is compiled in the crate that asks for it, as that
-//! crate is: a program that leaves its own code unoptimised would have these computations
-//! unoptimised, too, down to each sum.
+//! Generic code is compiled with the settings of whoever calls it. These functions, which are not
+//! generic, are compiled with those of this crate, so that a program that leaves its own code
+//! unoptimised has them fast.
 
 use crate::branch::{Along, Branch};
 use crate::branch_events::BranchEvent;
 use crate::curve::{Across, Curve};
 use crate::hybrid::{Family, Hybrid, Point};
-use crate::lap::Lap;
 use crate::moored::Moored;
 use crate::orbit::{NoOrbit, Orbit, Wanted};
 use snapload::analysis::{Cancelled, OnProgress};
@@ -78,21 +77,15 @@ impl Moored {
         Curve::of(self, event, across, on_progress)
     }
 
-    /// States along an orbit as its sequence of events has it, whether a body has it or not: about
-    /// `pieces` of the lap from one to the next, and at least `fewest` of each leg.
-    pub fn along_lap(&self, orbit: &Orbit, pieces: f64, fewest: f64) -> Vec<OnLap> {
-        let lap = Lap {
-            family: self,
-            at: orbit.at,
-            sequence: &orbit.lap.sequence,
-            phase: orbit.phase,
-            periods: orbit.periods,
-        };
+    /// States along an orbit as its sequence of events has it, whether a body has it or not: the lap
+    /// in about so many pieces, and each leg in at least `fewest`.
+    pub fn along_lap(&self, orbit: &Orbit, pieces: u32, fewest: usize) -> Vec<OnLap> {
         let system = self.plain(orbit.at);
-        let legs = lap.legs(&system, &orbit.z, &orbit.lap.durations);
+        let (_, legs) = orbit.lap_of(self, &system);
         let mut states = Vec::new();
         for (number, leg) in legs.iter().enumerate() {
-            let count = (pieces * leg.s.abs() / orbit.length).ceil().max(fewest) as usize;
+            let share = (f64::from(pieces) * leg.s.abs() / orbit.length).ceil() as usize;
+            let count = share.max(fewest).max(1);
             let path = system.path(leg.held, leg.t, &leg.start, leg.s);
             states.extend((0..=count).map(|k| {
                 let s = leg.s * k as f64 / count as f64;

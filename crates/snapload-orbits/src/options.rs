@@ -40,15 +40,32 @@ pub fn check_start(parameters: &Parameters, start: &Point) -> Result<(), CaseErr
     let Err(error) = Case::new(there) else {
         return Ok(());
     };
-    let family = Moored::case(*parameters, [None; 2]);
-    let system = family.plain([0.0; 2]);
-    let mut surfaces = system.surfaces().iter();
-    let is_near = surfaces.all(|surface| system.gap(surface, start) < NEAR);
-    let mut limits = family.limits(&system, start).into_iter();
-    match is_near && limits.all(|beyond| beyond <= 0.0) {
+    match is_within_reach(&Moored::case(*parameters, [None; 2]), start) {
         true => Ok(()),
         false => Err(error),
     }
+}
+
+/// The same for a system of one's own.
+///
+/// # Errors
+/// A [`CaseError`] that names the start.
+pub fn check_start_of_system(family: &Moored, start: &Point) -> Result<(), CaseError> {
+    if is_within_reach(family, start) {
+        return Ok(());
+    }
+    let [x, y, theta, ..] = start;
+    let allowed = "a start within reach of every cable and below the limits of the run";
+    let start = format!("x, y, theta = {x}, {y}, {theta}");
+    Err(CaseError::value("start", start, allowed))
+}
+
+/// Whether a start is beyond no cable by more than a little, and beyond no limit.
+fn is_within_reach(family: &Moored, start: &Point) -> bool {
+    let system = family.plain([0.0; 2]);
+    let mut surfaces = system.surfaces().iter();
+    let mut limits = family.limits(&system, start).into_iter();
+    surfaces.all(|surface| system.gap(surface, start) < NEAR) && limits.all(|beyond| beyond <= 0.0)
 }
 
 /// So many periods in all, of which the last ones are kept.

@@ -5,7 +5,7 @@ use crate::lap::{Lap, Leg};
 use crate::multipliers::{Multipliers, Stability, multipliers};
 use crate::newton::{Closed, close, step_of_map};
 use crate::scan::scan;
-use crate::sequence::{Sequence, Timed};
+use crate::sequence::{Sequence, Timed, words};
 use crate::survey::{Survey, survey};
 use snapload::TautSet;
 use snapload_certificate::ProvedOrbit;
@@ -204,6 +204,23 @@ impl Orbit {
         Self { at, ..self }
     }
 
+    /// Its lap in a family of systems, one of which is its own, and the legs of that.
+    pub fn lap_of<'a, F: Family>(
+        &'a self,
+        family: &'a F,
+        system: &F::Plain,
+    ) -> (Lap<'a, F>, Vec<Leg>) {
+        let lap = Lap {
+            family,
+            at: self.at,
+            sequence: &self.lap.sequence,
+            phase: self.phase,
+            periods: self.periods,
+        };
+        let legs = lap.legs(system, &self.z, &self.lap.durations);
+        (lap, legs)
+    }
+
     /// Whether a body has it.
     pub fn is_admissible(&self) -> bool {
         self.why_not.is_empty()
@@ -385,16 +402,6 @@ fn run_once<F: Family>(
         why_not.push(format!("the motion is off by {error:.1e} after one lap"));
     }
     Some(error)
-}
-
-/// A symbol in one line.
-pub fn words(sequence: &Sequence) -> String {
-    let symbol = sequence.symbol();
-    if symbol.is_empty() {
-        "none".to_owned()
-    } else {
-        symbol.join(", ")
-    }
 }
 
 /// The closing velocity of each event.

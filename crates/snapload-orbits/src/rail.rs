@@ -148,9 +148,7 @@ impl<'a, F: Family> Rail<'a, F> {
         let (next, steps) = self.advanced(step)?;
         let times = self.here.durations.iter().zip(&next.here.durations);
         let most = times.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let parameters = self.here.at.iter().zip(&next.here.at);
-        let changed = parameters.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let off = crate::distance(&self.here.z, &next.here.z).max(changed);
+        let off = self.here.distance(&next.here);
         let turned = next.tangent.dot(&self.tangent);
         (most < TIMES && off <= 2.0 * step && turned > TURN).then_some((next, steps))
     }

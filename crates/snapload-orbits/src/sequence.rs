@@ -143,3 +143,13 @@ impl Timed {
             || self.without_accumulations().symbol() == other.without_accumulations().symbol()
     }
 }
+
+/// A symbol in one line.
+pub fn words(sequence: &Sequence) -> String {
+    let symbol = sequence.symbol();
+    if symbol.is_empty() {
+        "none".to_owned()
+    } else {
+        symbol.join(", ")
+    }
+}

@@ -173,9 +173,7 @@ impl<F: Family> Tracer<'_, F> {
         let lap = self.lap(u.at);
         let (begun, length) = lap.times();
         let count = u.durations.len();
-        // The last leg lasts as [`Lap::legs`] has it, to the bit.
-        let reached = u.durations.iter().fold(begun, |t, s| t + s);
-        if *u.durations.first()? >= 0.0 && begun + length - reached >= 0.0 {
+        if *u.durations.first()? >= 0.0 && lap.last_leg(&u.durations) >= 0.0 {
             return None;
         }
         let system = self.family.plain(u.at);

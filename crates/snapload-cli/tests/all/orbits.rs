@@ -90,6 +90,18 @@ fn a_lap_that_goes_round_twice_says_so() {
     }
 }
 
+/// An orbit of two periods has two; two laps of it are told as that.
+#[test]
+fn an_orbit_of_two_periods_has_no_fewer() {
+    let start = "x=0.069220795,y=0.067061903,vx=0.162448120,vy=0.407325943";
+    for periods in ["2", "4"] {
+        let orbit = json("orbit", &["--start", start, "--periods", periods]);
+        assert_eq!(orbit["period"]["forcing_periods"].to_string(), periods);
+        assert_eq!(orbit["period"]["smallest"], 2);
+        assert!((number(&orbit["section"]["state"][0]) - 0.069220795).abs() < 1e-8);
+    }
+}
+
 #[test]
 fn an_orbit_far_from_its_start_says_so() {
     for (start, is_far) in [("x=-0.26,y=0.38,vx=0.81,vy=-0.42", false), ("y=0.4", true)] {
@@ -237,6 +249,20 @@ fn what_can_not_be_is_refused() {
             &format!("error: {option} = {value} {whole}"),
         );
     }
+    let whole = "is not allowed; allowed: a whole number from";
+    refused(
+        &["verify", "--digits", "-3"],
+        &format!("error: --digits = -3 {whole} 1 to"),
+    );
+    refused(
+        &["run", "--ensemble", "-1"],
+        &format!("error: --ensemble = -1 {whole} 0 to"),
+    );
+    let vast = "99999999999999999999";
+    refused(
+        &["orbit", "--find", "3", "--seed", vast],
+        &format!("error: --seed = {vast} {whole} 0 to"),
+    );
     refused(
         &["branch", "--along", "f_o=0.2:0.4", "--step", "far"],
         "error: --step = far is not allowed; allowed: a number",

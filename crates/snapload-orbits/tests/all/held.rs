@@ -59,3 +59,25 @@ fn the_steps_of_a_run_are_held_motions() {
         "{slack} {taut} {struck}"
     );
 }
+
+/// Over many Taylor steps, either way, a path is at any time the motion carried there.
+#[test]
+fn a_long_path_is_the_motion_carried_there() {
+    let parameters = named_case("sliding-example").unwrap().parameters;
+    let mut simulation = Case::new(parameters).unwrap().simulation();
+    let held = Held::new(simulation.system().clone());
+    let sliding = std::iter::from_fn(|| simulation.step()).find(|step| step.taut.len() == 1);
+    let step = sliding.expect("it slides");
+    for s in [5.0, -5.0] {
+        // A step of a series is at most 1 long.
+        let path = held.path(step.taut, step.t_start, &step.start, s);
+        for k in 0..=200 {
+            let part = s * f64::from(k) / 200.0;
+            let known = held.carried(step.taut, step.t_start, &step.start, part);
+            let found = path.state(part).components().into_iter();
+            for (a, b) in found.zip(known.components()) {
+                assert!((a - b).abs() < 1e-11, "{part}: {a} {b}");
+            }
+        }
+    }
+}
