@@ -7,6 +7,7 @@ import re
 import signal
 import socket
 import subprocess
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,55 @@ def test_the_verdict_is_that_of_the_picture(open_page):
     assert "Settled" not in page.locator("#said").inner_text()
     assert "Settled" in page.locator("#announced").inner_text(), "a screen reader is told once it rests"
     expect(page.locator("#announced")).to_have_text(page.locator("#said").inner_text())
+
+
+TOLD = """() => {
+    window.told = [];
+    const note = () => window.told.push({
+        at: performance.now(),
+        words: document.getElementById('said').textContent,
+        stale: ['summary', 'said', 'seal', 'section-said']
+            .map(id => document.getElementById(id).classList.contains('stale')),
+    });
+    new MutationObserver(note).observe(document.getElementById('summary'), { attributes: true, childList: true });
+}"""
+
+
+def test_words_of_the_run_before_are_pale_beside_a_newer_picture(open_page):
+    page = open_page("t=0")
+    expect(page.locator("#said")).to_contain_text("Settled at t = 7.246")
+    # Nobody looks at the page: it has no frames.
+    page.evaluate("() => (window.requestAnimationFrame = () => 1)")
+    page.evaluate(TOLD)
+    picture = "canvas => canvas.toDataURL()"
+    before = page.locator("#strip").evaluate(picture)
+    page.locator("#slider-f_o").evaluate(SLIDE, 0.31)
+    expect(page.locator("#said")).not_to_contain_text("Settled")
+    assert page.locator("#strip").evaluate(picture) != before
+    told = page.evaluate("() => window.told")
+    assert "Settled" in told[0]["words"] and all(told[0]["stale"]), told
+    assert not any(told[-1]["stale"]) and told[-1]["at"] - told[0]["at"] < 1000, told
+    expect(page.locator("#summary")).to_have_css("opacity", "1")
+
+
+def test_words_keep_up_with_a_fast_drag(open_page):
+    page = open_page("t=0")
+    page.evaluate(TOLD)
+    # Frames that are slower than answers: one picture takes the place of the other before it is painted.
+    page.evaluate("() => (window.requestAnimationFrame = f => setTimeout(f, 1500))")
+    told = page.evaluate(
+        """async () => {
+            const slider = document.getElementById('slider-f_o');
+            for (let k = 0; k < 70; k += 1) {
+                slider.value = 0.3 + k / 1000;
+                slider.dispatchEvent(new Event('input'));
+                await new Promise(done => setTimeout(done, 30));
+            }
+            return window.told.filter(({ stale }) => !stale[0]).map(({ at }) => at);
+        }"""
+    )
+    assert len(told) >= 5, told
+    assert max(later - at for at, later in pairwise(told)) < 600, told
 
 
 def test_forced_colours_leave_the_pictures_theirs(open_page):

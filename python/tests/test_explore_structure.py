@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -127,8 +128,13 @@ def test_a_note_tells_how_far_it_has_come(open_structure, tmp_path: Path):
     page.set_default_timeout(60_000)
     note = download(page, '[data-file="note.html"]', tmp_path / "note.html")
     assert note.startswith(b"<!") and b"</html>" in note
-    told = [re.search(r"of \S+: [a-z ]+, (\d+) %$", words) for words in page.evaluate("() => window.told")]
-    assert any(told), page.evaluate("() => window.told")
+    told = [re.search(r"of \S+: ([a-z ]+), (\d+) %$", words) for words in page.evaluate("() => window.told")]
+    # Each stage is told from its beginning to its end.
+    stages = [list(stage) for _, stage in groupby((found for found in told if found), key=lambda found: found[1])]
+    assert len({stage[0][1] for stage in stages}) == len(stages) > 1, page.evaluate("() => window.told")
+    for stage in stages:
+        percent = [int(found[2]) for found in stage]
+        assert len(set(percent)) > 1 and percent == sorted(percent), percent
     expect(page.locator("#take-said")).to_contain_text("is saved")
     for one in ["#file-progress", "#file-cancel"]:
         expect(page.locator(one)).to_be_hidden()
@@ -230,38 +236,7 @@ def test_case_files_find_their_page(open_page, structure_url, open_at, tmp_path:
     expect(page.locator("#field-f_o")).to_have_value("0.42", timeout=30_000)
 
 
-BARGE = """
-[body]
-shape = "rectangle"
-width = 4
-height = 2
-mass = 70000
-displaced_volume = 80
-position = [0, 0]
-
-[float]
-centre_of_gravity = [0, 0]
-
-[[line]]
-anchor = [6, -10]
-fairlead = [2, -1]
-length = 9.85
-[[line]]
-anchor = [-6, -10]
-fairlead = [-2, -1]
-length = 9.85
-
-[site]
-depth = 10
-
-[wave]
-height = 0.8
-period = 6
-
-[run]
-restitution = 0.3
-duration = 60
-"""
+BARGE = (ROOT / "crates/snapload-explore/tests/data/barge.toml").read_text(encoding="utf-8")
 
 
 def test_a_body_that_floats_is_opened_unless_it_names_a_file(open_at, url, tmp_path: Path, command_json):

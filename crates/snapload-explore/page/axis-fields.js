@@ -1,36 +1,43 @@
 // The fields of an axis of a map: a key, from where to where, in how many cells.
 
-import { $ } from "./dom.js";
-import { MOST_CELLS, readValue } from "./state.js";
+import { $, mark } from "./dom.js";
+import { MOST_CELLS, finite, isAxis, isCount, same } from "./state.js";
 import { plain } from "./words.js";
 
 const ENDS = ["low", "high", "count"];
 
 export class AxisFields {
   /**
-   * The fields have ids that begin with `id`, such as `map-x-key`. `value(name)` is that of a key, `now()` the axis as it
-   * is; `onChange` is told of another axis, `onWrong` in words of what can be none, or that all is well again.
+   * Builds the fields in the fieldset with the id `id`; their own ids begin with it, such as `map-x-key`. `legend` is what
+   * stands over them, `counted` what an axis has a number of. `value(name)` is that of a key, `now()` the axis as it is;
+   * `onChange` is told of another axis, `onWrong` in words of what can be none, or that all is well again.
    */
-  constructor(id, keys, { value, now, onChange, onWrong }) {
+  constructor(id, keys, { legend, counted = "cells", value, now, onChange, onWrong }) {
     this.id = id;
     this.now = now;
+    this.onWrong = onWrong;
+    this.shown = null;
+    this.wrong = false;
+    const field = (name, words, mode) =>
+      `<label>${words} <input type="text" inputmode="${mode}" class="field" id="${id}-${name}"></label>`;
+    $(id).innerHTML =
+      `<legend>${legend}</legend><select id="${id}-key" aria-label="Key, ${legend.toLowerCase()}"></select>` +
+      field("low", "from", "decimal") + field("high", "to", "decimal") + field("count", counted, "numeric");
     const key = this.#field("key");
     for (const one of keys) key.append(new Option(one.name, one.name));
     key.addEventListener("change", () => {
       const { usual } = keys.find((one) => one.name === key.value);
-      const about = value(key.value) ?? 1;
+      const own = value(key.value);
+      const about = Number.isFinite(own) ? own : 1;
       const range = usual ?? { low: about * 0.5, high: about * 2 || 1 };
       onChange({ ...now(), key: key.value, ...range });
     });
+    const words = `${legend}: from a lower to a higher value, in 2 to ${MOST_CELLS} ${counted}`;
     for (const name of ENDS) {
-      const field = this.#field(name);
-      field.addEventListener("change", () => {
-        const axis = { ...now(), [name]: readValue({ kind: { type: "number" } }, field.value) };
-        const legal = isAxis(axis);
-        field.setAttribute("aria-invalid", String(!legal));
-        const side = id.split("-").at(-1);
-        onWrong(legal ? "" : `${side}: from a lower to a higher value, in 2 to ${MOST_CELLS} cells`);
-        if (legal) onChange(axis);
+      this.#field(name).addEventListener("change", () => {
+        const axis = this.#typed();
+        this.#judge(axis, words);
+        if (isAxis(axis)) onChange(axis);
       });
     }
   }
@@ -39,18 +46,35 @@ export class AxisFields {
     return $(`${this.id}-${name}`);
   }
 
-  /** Shows the axis as it is; what is being typed stays. */
+  /** The axis as its fields have it: what was refused in one of them may be allowed with another one. */
+  #typed() {
+    return { ...this.now(), ...Object.fromEntries(ENDS.map((name) => [name, finite(this.#field(name).value)])) };
+  }
+
+  /** Marks the fields that can not be, and says so. */
+  #judge(axis, words) {
+    const { low, high, count } = axis;
+    const crossed = high <= low;
+    const wrong = { low: crossed || low === undefined, high: crossed || high === undefined, count: !isCount(count) };
+    for (const name of ENDS) mark(this.#field(name), { "aria-invalid": String(wrong[name]) });
+    this.wrong = !isAxis(axis);
+    this.onWrong(this.wrong ? words : "");
+  }
+
+  /** Shows an axis that is another one than before; what is being typed stays, and so does what was refused. */
   show() {
+    const now = this.now();
+    if (same(now, this.shown)) return;
+    this.shown = now;
     for (const name of ["key", ...ENDS]) {
       const field = this.#field(name);
-      if (document.activeElement !== field || name === "key") field.value = plain(this.now()[name]);
+      if (document.activeElement !== field || name === "key") field.value = plain(now[name]);
+      mark(field, { "aria-invalid": null });
     }
+    if (this.wrong) this.onWrong("");
+    this.wrong = false;
   }
 }
-
-/** Whether there are cells from one end to the other. */
-const isAxis = ({ low, high, count }) =>
-  high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
 
 /** The same axes with another one of a side; a key that one of the others had changes places with it. */
 export function withAxis(axes, side, axis) {

@@ -9,6 +9,7 @@ import { drawErosion } from "./erosion.js";
 import { lines } from "./long-run.js";
 import { rangeText, studyLine } from "./map-files.js";
 import { prepare } from "./plot.js";
+import { same } from "./state.js";
 import { copy } from "./take.js";
 import { number, reasonText } from "./words.js";
 
@@ -21,26 +22,31 @@ const USUAL = {
   y: { key: "y", low: 0.02, high: 0.72, count: 36 },
   over: { key: "f_o", low: 0.03, high: 0.6, count: 20 },
 };
-const SIDES = ["x", "y", "over"];
+/** The sides with their legends, and what each has a number of. */
+const SIDES = { x: ["Across", "cells"], y: ["Up", "cells"], over: ["Eroded by", "values"] };
 const PATH = "api/basin";
 
 export class SafeBasin {
-  constructor(state, { colours, onPick }) {
+  constructor(state, { colours, own, onPick }) {
     this.state = state;
     this.colours = colours;
+    this.own = own;
     this.onPick = onPick;
     this.answer = null;
     this.eroded = null;
+    this.erosionDrawn = false;
     this.asking = null;
     this.cursor = [0, 0];
     this.pointed = null;
     this.box = $("basin-box");
     this.canvas = $("basin");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
-    this.axes = SIDES.map(
-      (side) =>
+    this.axes = Object.entries(SIDES).map(
+      ([side, [legend, counted]]) =>
         new AxisFields(`basin-${side}`, this.numeric, {
-          value: (name) => state.value(name),
+          legend,
+          counted,
+          value: own,
           now: () => state.basin[side],
           onChange: (axis) => state.set({ basin: withAxis(state.basin, side, axis) }),
           onWrong: (words) => ($("basin-pointed").textContent = words),
@@ -53,8 +59,8 @@ export class SafeBasin {
     $("basin-run").addEventListener("click", () => this.#compute(false));
     $("erosion-run").addEventListener("click", () => this.#compute(true));
     $("basin-stop").addEventListener("click", () => this.asking?.abort());
-    $("basin-copy").addEventListener("click", () => copy($("basin-copy"), this.#line("basin")));
-    $("erosion-copy").addEventListener("click", () => copy($("erosion-copy"), this.#line("erosion")));
+    $("basin-copy").addEventListener("click", () => copy($("basin-copy"), this.#line(false)));
+    $("erosion-copy").addEventListener("click", () => copy($("erosion-copy"), this.#line(true)));
     this.#listen();
   }
 
@@ -66,12 +72,11 @@ export class SafeBasin {
     return { values, x, y, ...(erodes ? { over } : {}) };
   }
 
-  /** The command with the same answer. */
-  #line(verb) {
-    const { x, y, over } = this.state.basin;
-    const { values } = this.#question(verb === "erosion");
-    const more = verb === "erosion" ? `--over ${rangeText(over)} --no-trust` : "--out basin.parquet";
-    return studyLine(verb, values, [x, y], more);
+  /** The command of the answer that is shown, even where the values are others now; without one, of what is asked. */
+  #line(erodes) {
+    const { values, x, y, over } = (erodes ? this.eroded : this.answer)?.question ?? this.#question(erodes);
+    const more = erodes ? `--over ${rangeText(over)} --no-trust` : "--out basin.parquet";
+    return studyLine(erodes ? "erosion" : "basin", values, [x, y], more);
   }
 
   /** Follows the state: opens and closes; what is shown of other values is pale until it is computed again. */
@@ -88,7 +93,7 @@ export class SafeBasin {
       for (const id of shown) $(id).classList.toggle("stale", other(answer, erodes));
       put($(words), { textContent: `${erodes ? "Erosion" : "Compute"}${answer ? " again" : ""}` });
     }
-    this.draw();
+    this.#repaint();
   }
 
   async #compute(erodes) {
@@ -105,9 +110,10 @@ export class SafeBasin {
         $("basin-progress").textContent = `${doing}, ${percent} %`;
       });
       const answer = { ...JSON.parse(text), asked: JSON.stringify(question), question };
-      if (erodes) this.eroded = answer;
+      if (erodes) Object.assign(this, { eroded: answer, erosionDrawn: false });
       else this.#take(answer);
-      $(erodes ? "erosion-said" : "basin-said").textContent = erodes ? knee(answer) : lines(answer.words);
+      // Of an erosion the picture shows what its words have as a table, up to an empty line.
+      $(erodes ? "erosion-said" : "basin-said").textContent = lines(answer.words.split("\n\n").at(-1));
       if (this.asking === asking) $("basin-progress").textContent = "";
     } catch (error) {
       if (this.asking === asking) $("basin-progress").textContent = error.name === "AbortError" ? "stopped" : error.message;
@@ -153,11 +159,11 @@ export class SafeBasin {
   }
 
   #point(cell) {
-    if (!this.answer) return;
+    if (!this.answer || same(cell, this.pointed)) return;
     this.pointed = cell;
     if (cell) this.cursor = cell;
     $("basin-pointed").textContent = cell ? this.#words(cell) : "";
-    this.draw();
+    this.#repaint();
   }
 
   #pick(cell) {
@@ -176,12 +182,32 @@ export class SafeBasin {
     return `${place}${escapes[k] ? "not safe" : "safe"} (${reasonText(ends[k])})${sure}`;
   }
 
+  /** Everything, as after a change of the theme or of the size. */
   draw() {
+    this.erosionDrawn = false;
+    this.#repaint();
+  }
+
+  /** Where the run that is shown lies. */
+  #place() {
+    const { x, y } = this.answer.question;
+    return [x, y].map(({ key }) => this.own(key));
+  }
+
+  /** The run is another: where it lies may follow from it. */
+  takeRun() {
+    if (this.answer && String(this.#place()) !== this.placed) this.#repaint();
+  }
+
+  /** The cells, and the erosion where it is not drawn as it is. */
+  #repaint() {
     if (!this.box.open || this.framed) return;
     this.framed = requestAnimationFrame(() => {
       this.framed = null;
       if (this.answer) this.#paint();
-      if (this.eroded) drawErosion($("erosion"), this.eroded, this.colours(), axisWords(this.numeric, this.eroded.over));
+      if (!this.eroded || this.erosionDrawn) return;
+      this.erosionDrawn = true;
+      drawErosion($("erosion"), this.eroded, this.colours(), axisWords(this.numeric, this.eroded.over));
     });
   }
 
@@ -195,7 +221,8 @@ export class SafeBasin {
     paintCells(context, frame, question, fill, (k) => !decided[k]);
     const words = [question.x, question.y].map(({ key }) => axisWords(this.numeric, key));
     drawCellAxes(context, frame, question, colours, words);
-    const own = [question.x, question.y].map(({ key }) => this.state.value(key) ?? 0);
+    const own = this.#place();
+    this.placed = String(own);
     crosshair(context, frame, own);
     if (this.pointed) outline(context, frame, question, this.pointed, colours);
     const swatch = (paint, text) => `<span><i class="swatch" style="background:${paint}"></i>${text}</span>`;
@@ -207,13 +234,4 @@ export class SafeBasin {
     const over = `Safe basin over ${question.x.key} and ${question.y.key}: ${safe} of ${legal} cells are safe`;
     this.canvas.setAttribute("aria-label", `${over}. Arrow keys move, Enter begins there.`);
   }
-}
-
-/** What an erosion comes to, in words. */
-function knee({ knee: at, knee_between: between, over, points }) {
-  const part = (point) => (point.legal ? `${number(100 * point.fraction, 3)} %` : "nothing");
-  const ends = `Safe: ${part(points[0])} at ${over} = ${number(points[0].value)}, ${part(points.at(-1))} at ${number(points.at(-1).value)}.`;
-  const falls = at === null ? "It does not fall below nine tenths of the first." : `Nine tenths of the first are left up to ${over} = ${number(at)}.`;
-  const sure = between === null ? " Neighbours were not looked at: how certain that is, is not known." : "";
-  return `${ends} ${falls}${sure}`;
 }

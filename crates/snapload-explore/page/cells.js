@@ -149,7 +149,7 @@ export function axisWords(keys, name) {
 }
 
 /**
- * Where the run that is shown lies.
+ * Where the run that is shown lies; nowhere where one of the two is NaN.
  * @param {CanvasRenderingContext2D} context
  * @param {Frame} frame
  * @param {number[]} at

@@ -9,8 +9,7 @@ const MARGIN = { left: 56, right: 12, top: 10, bottom: 36 };
 export function drawErosion(canvas, { points, knee, over }, colours, across) {
   canvas.hidden = false;
   const { context, width, height } = prepare(canvas);
-  const there = points.filter(({ legal }) => legal > 0);
-  const values = there.map(({ value }) => value);
+  const there = points.map(({ legal }) => legal > 0);
   const frame = new Frame(inside(width, height, MARGIN), [points[0].value, points.at(-1).value], [0, 1]);
   drawAxes(context, frame, colours, {
     xTicks: ticks(frame.x0, frame.x1, frame.width / 70),
@@ -20,10 +19,13 @@ export function drawErosion(canvas, { points, knee, over }, colours, across) {
   label(context, colours, "safe part", 12, frame.top + frame.height / 2, -Math.PI / 2);
   context.strokeStyle = colours.safe;
   context.lineWidth = 1.2;
-  for (const { value, interval95 } of there) stroke(context, interval95.map((part) => [frame.x(value), frame.y(part)]));
+  for (const { value, interval95 } of points.filter((_, row) => there[row])) {
+    stroke(context, interval95.map((part) => [frame.x(value), frame.y(part)]));
+  }
   context.lineWidth = 2;
-  const parts = there.map(({ fraction }) => fraction);
-  drawColumn(context, frame, values, parts);
+  const column = (name) => points.map((point) => point[name]);
+  // Across a value at which nothing can begin there is no line: what is safe there is not known from its neighbours.
+  drawColumn(context, frame, column("value"), column("fraction"), 0, points.length, (row) => there[row]);
   if (knee !== null) {
     context.strokeStyle = colours.muted;
     context.lineWidth = 1;
@@ -31,6 +33,7 @@ export function drawErosion(canvas, { points, knee, over }, colours, across) {
     stroke(context, [frame.top, frame.top + frame.height].map((y) => [frame.x(knee), y]));
     context.setLineDash([]);
   }
-  const told = there.map(({ value, fraction }) => `${number(value, 3)}: ${number(fraction, 3)}`).join(", ");
+  const part = ({ fraction }, row) => (there[row] ? number(fraction, 3) : "no legal start");
+  const told = points.map((point, row) => `${number(point.value, 3)}: ${part(point, row)}`).join(", ");
   canvas.setAttribute("aria-label", `The safe part over ${over}: ${told}`);
 }

@@ -92,10 +92,10 @@ export class Film {
         done(null);
       };
     });
-    let lived = performance.now();
+    let lastOutputAt = performance.now();
     const encoder = new VideoEncoder({
       output: (chunk) => {
-        lived = performance.now();
+        lastOutputAt = performance.now();
         const data = new Uint8Array(chunk.byteLength);
         chunk.copyTo(data);
         pictures.push({ data, time: Math.round(chunk.timestamp / 1000), key: chunk.type === "key" });
@@ -103,7 +103,7 @@ export class Film {
       error: fail,
     });
     const watch = setInterval(() => {
-      if (performance.now() - lived > STANDS_STILL_MS) fail(new Error("its encoder stands still; try once more"));
+      if (performance.now() - lastOutputAt > STANDS_STILL_MS) fail(new Error("its encoder stands still; try once more"));
     }, 1000);
     const dequeued = () => new Promise((done) => encoder.addEventListener("dequeue", done, { once: true }));
     encoder.configure(this.#settings(codec));

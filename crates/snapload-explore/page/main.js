@@ -33,6 +33,10 @@ const PURPOSE_READ = "snapload-purpose-read";
 const REST_MS = 300;
 /** So long after a picture nobody drags any more. */
 const LOOK_UP_MS = 100;
+/** So long at the most a picture has no words. */
+const TELL_MS = 250;
+/** What says something of the run. */
+const TOLD = ["summary", "said", "seal", "prove-said", "section-plot", "section-said"];
 
 chooseTheme(chosenTheme());
 
@@ -40,8 +44,8 @@ class Page {
   constructor(schema) {
     this.state = new State(schema);
     this.run = null;
-    /** The questions of the run that is shown, and of that in the table of events. */
-    this.shown = this.tabled = null;
+    /** The questions of the run that is shown, of that which the words tell, and of that in the table of events. */
+    this.shown = this.told = this.tabled = null;
     this.hover = null;
     /** The time that was looked at when a run came that ends before it. */
     this.keptTime = null;
@@ -77,11 +81,9 @@ class Page {
       onZoom: (window) => this.state.set({ window }),
     });
     this.events = new EventTable({ onJump: jump });
-    this.map = new SweepMap(this.state, {
-      colours,
-      onPick: (values) => this.#begin(values),
-    });
-    this.basin = new SafeBasin(this.state, { colours, onPick: (values) => this.#begin(values) });
+    const study = { colours, own: (name) => this.#own(name), onPick: (values) => this.#begin(values) };
+    this.map = new SweepMap(this.state, study);
+    this.basin = new SafeBasin(this.state, study);
     this.exports = new Take({
       state: this.state,
       stage: this.stage,
@@ -128,6 +130,11 @@ class Page {
     this.link.write({ now: true });
   }
 
+  /** The value of a key; that of the run where it follows from others, and NaN where there is none of it. */
+  #own(name) {
+    return this.state.value(name) ?? this.run?.values[name] ?? NaN;
+  }
+
   /** Follows a change of a value by hand; settled: not being dragged. */
   changed({ since, settled, gesture = null }) {
     this.ask(since);
@@ -148,6 +155,7 @@ class Page {
 
   take(answer, since, question) {
     this.run = new Run(answer);
+    this.question = question;
     this.shown = keyOf(question);
     const latest = this.asked === keyOf(question);
     if (latest) {
@@ -161,19 +169,33 @@ class Page {
     if (this.state.window?.[0] >= this.run.tEnd) this.state.set({ window: null });
     this.drawAll();
     this.#drawNow();
+    this.#markTold();
     if (this.playsAtOnce) this.playback.play();
     this.playsAtOnce = false;
-    if (question.samples === SAMPLES.first) this.afterwards(question, since, latest);
-    else this.tell(this.run, question);
+    if (question.samples === SAMPLES.first) this.afterwards(since, latest);
+    else this.tell();
   }
 
-  /** Says in words what the picture shows. */
-  tell(run, question) {
-    if (this.run !== run) return;
+  /** Says in words what the picture shows; once of each run, however often it is asked to. */
+  tell() {
+    clearTimeout(this.telling);
+    this.telling = null;
+    const { run, question } = this;
+    if (this.toldRun === run) return;
+    this.toldRun = run;
+    this.told = this.shown;
     this.stage.tell();
     this.proof.take(question.values);
     this.longRun.take(question.values);
-    if (this.asked === keyOf(question)) this.controls.show(run.values);
+    this.#markTold();
+    this.map.takeRun();
+    this.basin.takeRun();
+    if (this.asked === this.shown) this.controls.show(run.values);
+  }
+
+  /** What is said of the run before is pale beside a newer picture. */
+  #markTold() {
+    for (const id of TOLD) $(id).classList.toggle("stale", this.told !== this.shown);
   }
 
   /** A shorter run is shown at its end; a longer one after it, at the time that was looked at before. */
@@ -184,9 +206,10 @@ class Page {
   }
 
   /** What follows the picture: how long it took, its words, what is looked up in it, and more rows of a long run. */
-  afterwards(question, since, latest) {
-    const { run } = this;
-    paintedSince(since, () => this.tell(run, question));
+  afterwards(since, latest) {
+    paintedSince(since, () => this.tell());
+    // Where pictures come faster than they are painted, or nobody looks at the page and none is.
+    this.telling ??= setTimeout(() => this.tell(), TELL_MS);
     this.#lookUp();
     if (latest) this.#refine();
   }

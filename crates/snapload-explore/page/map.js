@@ -27,9 +27,10 @@ const REST_MS = 500;
 const DECADES = 100;
 
 export class SweepMap {
-  constructor(state, { colours, onPick }) {
+  constructor(state, { colours, own, onPick }) {
     this.state = state;
     this.colours = colours;
+    this.own = own;
     this.onPick = onPick;
     this.cells = null;
     this.controller = null;
@@ -39,10 +40,11 @@ export class SweepMap {
     this.box = $("map-box");
     this.canvas = $("map");
     this.numeric = state.schema.keys.filter((key) => key.kind.type === "number");
-    this.axes = ["x", "y"].map(
-      (side) =>
+    this.axes = Object.entries({ x: "Across", y: "Up" }).map(
+      ([side, legend]) =>
         new AxisFields(`map-${side}`, this.numeric, {
-          value: (name) => state.value(name),
+          legend,
+          value: own,
           now: () => state.map[side],
           onChange: (axis) => state.set({ map: withAxis(state.map, side, axis) }),
           onWrong: (words) => ($("map-said").textContent = words),
@@ -111,7 +113,8 @@ export class SweepMap {
     this.columns = [...this.state.schema.map.map(({ name }) => name), "error"];
     this.cells = Object.fromEntries(this.columns.map((name) => [name, new Array(count).fill(null)]));
     Object.assign(this.cells, { x, y, xs: spaced(x), ys: spaced(y), done: 0, count });
-    this.cursor = [nearest(this.cells.xs, this.#own(x.key)), nearest(this.cells.ys, this.#own(y.key))];
+    const own = this.#place();
+    this.cursor = [nearest(this.cells.xs, own[0]), nearest(this.cells.ys, own[1])];
     if (this.pointed) this.#point(this.cursor);
     const controller = (this.controller = new AbortController());
     this.#progress(`0 of ${count} runs`);
@@ -149,8 +152,14 @@ export class SweepMap {
     for (const id of ["map-stop", "map-bar"]) put($(id), { hidden: !running });
   }
 
-  #own(name) {
-    return this.state.value(name) ?? 0;
+  /** Where the run that is shown lies. */
+  #place() {
+    return [this.cells.x, this.cells.y].map(({ key }) => this.own(key));
+  }
+
+  /** The run is another: where it lies may follow from it. */
+  takeRun() {
+    if (this.cells && String(this.#place()) !== this.placed) this.draw();
   }
 
   #fill(line) {
@@ -292,7 +301,9 @@ export class SweepMap {
     this.frame = frame;
     paintCells(context, frame, cells, this.#paintOf(colours), (k) => this.#uncertain(k));
     drawCellAxes(context, frame, cells, colours, [this.#axisWords(x), this.#axisWords(y)]);
-    crosshair(context, frame, [this.#own(x.key), this.#own(y.key)]);
+    const own = this.#place();
+    this.placed = String(own);
+    crosshair(context, frame, own);
     if (this.drawn) outlineBox(context, frame, cells, this.drawn, colours);
     if (this.pointed) outline(context, frame, cells, this.pointed, colours);
     this.#legend(colours);

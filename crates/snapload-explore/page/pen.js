@@ -1,7 +1,7 @@
 // Lines of many points, in as few of them as are seen: each one more takes its time to paint.
 
 /** A line that is no further off than this [px] is drawn as the straight one that it looks like. */
-const SEEN_PX = 0.25;
+export const SEEN_PX = 0.25;
 
 /** Draws lines as the context of a canvas does, but leaves out points that lie on the way. */
 export class Pen {
@@ -12,7 +12,10 @@ export class Pen {
     this.from = null;
     /** @type {number[] | null} */
     this.latest = null;
-    /** The way from the one to the other, how far it is, and between which angles about it the line passes all since. */
+    /**
+     * The piece that is not drawn yet: its direction as a vector of length 1, its length [px], and from which to which
+     * angle [rad] off that direction it may be drawn so that it passes each skipped point within SEEN_PX.
+     */
     this.way = [0, 0];
     this.far = 0;
     this.angles = [0, 0];

@@ -217,6 +217,11 @@ function pinFromText(text, schema) {
   }
 }
 
+export const isCount = (count) => Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
+
+/** Whether there are cells from one end of an axis to the other. */
+export const isAxis = ({ low, high, count }) => high > low && isCount(count);
+
 const axisToText = ({ key, low, high, count }) => [key, low, high, count].join(",");
 const mapToText = ({ x, y, colour }) => [axisToText(x), axisToText(y), colour].join(",");
 
@@ -225,8 +230,7 @@ const basinToText = ({ x, y, over }) => [x, y, over].map(axisToText).join(",");
 function axisFromParts([key, ...rest], schema) {
   const [low, high, count] = rest.map(finite);
   const numeric = schema.keys.some((one) => one.name === key && one.kind.type === "number");
-  const legal = numeric && high > low && Number.isInteger(count) && count >= 2 && count <= MOST_CELLS;
-  return legal ? { key, low, high, count } : undefined;
+  return numeric && isAxis({ low, high, count }) ? { key, low, high, count } : undefined;
 }
 
 function basinFromText(text, schema) {
