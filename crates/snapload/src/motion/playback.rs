@@ -131,6 +131,23 @@ impl Kernel for MotionAt<'_, '_> {
     }
 }
 
+/// A motion to be expanded from the start of a segment, which is large and asked for in several
+/// places.
+struct Expanding<'p, 'a>(&'p mut Playback<'a>, &'p Segment);
+
+impl Kernel for Expanding<'_, '_> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Self(playback, segment) = self;
+        segment.expand(
+            playback.run.system(),
+            &mut playback.waves,
+            &mut playback.series,
+        );
+    }
+}
+
 impl<'a> Playback<'a> {
     /// Of a run.
     pub fn new(run: &'a Trajectory) -> Self {
@@ -230,7 +247,7 @@ impl<'a> Playback<'a> {
             let mut later = segment.t + self.series.step();
             while segment.t < later && later <= t && later < next {
                 segment = segment.following(system, &self.series);
-                segment.expand(system, &mut self.waves, &mut self.series);
+                dispatch(Expanding(self, &segment));
                 later = segment.t + self.series.step();
             }
         }
@@ -246,7 +263,7 @@ impl<'a> Playback<'a> {
             let contacts = [Contact::RESTING; MAX_CABLES];
             self.flight.begin(system, t, start, start, &contacts);
         } else {
-            segment.expand(system, &mut self.waves, &mut self.series);
+            dispatch(Expanding(self, segment));
         }
     }
 }

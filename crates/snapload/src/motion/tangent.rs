@@ -48,7 +48,8 @@ pub struct Tangent {
     system: System<Number>,
 }
 
-/// The map of a step, by the best instructions for it.
+/// The map of a step, by the best instructions for it. It is large, and compiled once for all who
+/// ask for it.
 struct Mapping<'a>(&'a Tangent, &'a Simulation, &'a Step);
 
 impl Kernel for Mapping<'_> {
@@ -57,6 +58,18 @@ impl Kernel for Mapping<'_> {
     fn run(self) -> StepMap {
         let Self(tangent, simulation, step) = self;
         tangent.of_step_here(simulation, step)
+    }
+}
+
+/// The derivatives a time into a step, which are asked for in several places.
+struct Sloping<'a>(&'a Tangent, &'a Simulation, &'a Step, f64);
+
+impl Kernel for Sloping<'_> {
+    type Output = [[f64; 6]; 3];
+    #[inline(always)]
+    fn run(self) -> [[f64; 6]; 3] {
+        let Self(tangent, simulation, step, s) = self;
+        tangent.slopes_within_here(simulation, step, s)
     }
 }
 
@@ -81,9 +94,8 @@ impl Tangent {
         dispatch(Mapping(self, simulation, step))
     }
 
-    /// The same, for work that is compiled for a kind of processor.
     #[inline(always)]
-    pub(crate) fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
+    fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
         let flow = self.flow(simulation, step);
         let pull = simulation.memory_force_within(step, 0.0);
@@ -224,8 +236,12 @@ impl Tangent {
     }
 
     /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.
-    #[inline(always)]
     fn slopes_within(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
+        dispatch(Sloping(self, simulation, step, s))
+    }
+
+    #[inline(always)]
+    fn slopes_within_here(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
         let around = simulation.surroundings(step.t_start + s);
         let state = simulation.within(step, s);
         match slopes_of_acceleration(simulation.system(), &around, &state, step.taut) {

@@ -340,7 +340,7 @@ impl SpreadMonitor {
     /// Carries the spread through any step, as long as there is any knowledge of it.
     #[inline(always)]
     fn carry(&mut self, simulation: &Simulation, step: &Step, observer: &mut dyn Observer) -> f64 {
-        let map = self.tangent(simulation).of_step_here(simulation, step);
+        let map = self.tangent(simulation).of_step(simulation, step);
         observer.see_step(&map);
         if self.is_lost() {
             return f64::INFINITY;
