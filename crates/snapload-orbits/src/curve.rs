@@ -161,6 +161,16 @@ impl Side {
             closed: false,
         }
     }
+
+    /// Ends on a border that is passed after so long a curve, in its last point if that was found.
+    fn end_on<F: Family>(&mut self, border: Border<F>, arclength: f64) {
+        self.end.because = BORDERS[border.number].to_owned();
+        if let Some(last) = border.place {
+            self.end.at = last.here.at;
+            let arclength = arclength + border.sigma;
+            self.points.push(point(&last, last.orbit(), arclength));
+        }
+    }
 }
 
 /// What the multipliers say besides the one nearest to 1 or to −1, or the pair nearest to the circle.
@@ -256,12 +266,7 @@ impl Walk<'_> {
                 continue;
             };
             if let Some(border) = border {
-                side.end.because = BORDERS[border.number].to_owned();
-                if let Some(last) = border.place {
-                    side.end.at = last.here.at;
-                    let arclength = arclength + border.sigma;
-                    side.points.push(point(&last, last.orbit(), arclength));
-                }
+                side.end_on(border, arclength);
                 break;
             }
             arclength += step;
@@ -286,13 +291,18 @@ impl Walk<'_> {
             self.done += 1;
             let of = (2 * self.across.most) as f64;
             Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
-            step = match steps {
-                MANY.. => step * 0.6,
-                0..=FEW => (step * 1.4).min(self.across.step * LONGER),
-                _ => step,
-            };
+            step = self.next_length(step, steps);
         }
         Ok(side)
+    }
+
+    /// The length of the next step, by how many of Newton's steps the one before took.
+    fn next_length(&self, step: f64, steps: usize) -> f64 {
+        match steps {
+            MANY.. => step * 0.6,
+            0..=FEW => (step * 1.4).min(self.across.step * LONGER),
+            _ => step,
+        }
     }
 
     /// How far it is to each border.
