@@ -9,6 +9,9 @@
 //! would be compiled for every processor, without the instruction. Over numbers that have no
 //! instructions of their own, what is large or called from many places is compiled by itself
 //! (`apart!`); numbers with derivatives, which are many doubles side by side, twice there, too.
+//! Over doubles what is large and called from several places is a [`Kernel`] of its own, which another
+//! one dispatches: inlined at each, it makes functions on which the compiler takes more than linear
+//! time.
 #![cfg_attr(
     target_arch = "x86_64",
     expect(

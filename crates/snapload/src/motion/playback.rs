@@ -131,8 +131,7 @@ impl Kernel for MotionAt<'_, '_> {
     }
 }
 
-/// A motion to be expanded from the start of a segment, which is large and asked for in several
-/// places.
+/// A motion to be expanded from the start of a segment, by the best instructions for it.
 struct Expanding<'p, 'a>(&'p mut Playback<'a>, &'p Segment);
 
 impl Kernel for Expanding<'_, '_> {

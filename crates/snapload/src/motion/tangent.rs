@@ -48,8 +48,7 @@ pub struct Tangent {
     system: System<Number>,
 }
 
-/// The map of a step, by the best instructions for it. It is large, and compiled once for all who
-/// ask for it.
+/// The map of a step, by the best instructions for it.
 struct Mapping<'a>(&'a Tangent, &'a Simulation, &'a Step);
 
 impl Kernel for Mapping<'_> {
@@ -57,47 +56,8 @@ impl Kernel for Mapping<'_> {
     #[inline(always)]
     fn run(self) -> StepMap {
         let Self(tangent, simulation, step) = self;
-        tangent.of_step_here(simulation, step)
-    }
-}
-
-/// The derivatives a time into a step, which are asked for in several places.
-struct Sloping<'a>(&'a Tangent, &'a Simulation, &'a Step, f64);
-
-impl Kernel for Sloping<'_> {
-    type Output = [[f64; 6]; 3];
-    #[inline(always)]
-    fn run(self) -> [[f64; 6]; 3] {
-        let Self(tangent, simulation, step, s) = self;
-        tangent.slopes_within_here(simulation, step, s)
-    }
-}
-
-impl Tangent {
-    /// Of the motions of a system.
-    pub fn new(system: &System) -> Self {
-        Self {
-            system: system.map(Number::constant),
-        }
-    }
-
-    /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
-    pub fn of_start(&self, simulation: &Simulation) -> Matrix {
-        let mut state = variables(simulation.state());
-        project_position(&self.system, &mut state, simulation.closed());
-        project_velocity(&self.system, &mut state, simulation.resting());
-        state.components().map(|component| component.slope)
-    }
-
-    /// Of the step that `simulation` has just made.
-    pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
-        dispatch(Mapping(self, simulation, step))
-    }
-
-    #[inline(always)]
-    fn of_step_here(&self, simulation: &Simulation, step: &Step) -> StepMap {
         let system = simulation.system();
-        let flow = self.flow(simulation, step);
+        let flow = tangent.flow(simulation, step);
         let pull = simulation.memory_force_within(step, 0.0);
         let around = simulation.surroundings(step.t_start);
         let first = rate(system, &around, &step.start, pull, step.taut);
@@ -138,14 +98,58 @@ impl Tangent {
             lag: add_scaled(&last, &split(&begun.map(|[component]| component)).0, -1.0),
             memory,
             rate: last,
-            delay: self.delay(system, step, &last),
+            delay: tangent.delay(system, step, &last),
             law: if step.event.reached.gaps.is_empty() {
                 None
             } else {
-                Some(self.law(system, step))
+                Some(tangent.law(system, step))
             },
             rate_after,
         }
+    }
+}
+
+/// The derivatives of (ẍ, ÿ, θ̈) a time into a step, by the best instructions for them.
+struct Differentiating<'a>(&'a Tangent, &'a Simulation, &'a Step, f64);
+
+impl Kernel for Differentiating<'_> {
+    type Output = [[f64; 6]; 3];
+    #[inline(always)]
+    fn run(self) -> [[f64; 6]; 3] {
+        let Self(tangent, simulation, step, s) = self;
+        let around = simulation.surroundings(step.t_start + s);
+        let state = simulation.within(step, s);
+        match slopes_of_acceleration(simulation.system(), &around, &state, step.taut) {
+            Some(slopes) => slopes,
+            None => {
+                let around = around.map(Number::constant);
+                let held = simulation.memory_force_within(step, s);
+                let (held, state) = (held.map(Number::constant), variables(&state));
+                acceleration(&tangent.system, &around, &state, held, step.taut).map(|a| a.slope)
+            }
+        }
+    }
+}
+
+impl Tangent {
+    /// Of the motions of a system.
+    pub fn new(system: &System) -> Self {
+        Self {
+            system: system.map(Number::constant),
+        }
+    }
+
+    /// ∂(the state that a run begins with)/∂(the start given): the projection onto closed cables.
+    pub fn of_start(&self, simulation: &Simulation) -> Matrix {
+        let mut state = variables(simulation.state());
+        project_position(&self.system, &mut state, simulation.closed());
+        project_velocity(&self.system, &mut state, simulation.resting());
+        state.components().map(|component| component.slope)
+    }
+
+    /// Of the step that `simulation` has just made.
+    pub fn of_step(&self, simulation: &Simulation, step: &Step) -> StepMap {
+        dispatch(Mapping(self, simulation, step))
     }
 
     /// Φ along the stretch of a step.
@@ -237,22 +241,7 @@ impl Tangent {
 
     /// The derivatives of (ẍ, ÿ, θ̈) a time `s` into a step.
     fn slopes_within(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
-        dispatch(Sloping(self, simulation, step, s))
-    }
-
-    #[inline(always)]
-    fn slopes_within_here(&self, simulation: &Simulation, step: &Step, s: f64) -> [[f64; 6]; 3] {
-        let around = simulation.surroundings(step.t_start + s);
-        let state = simulation.within(step, s);
-        match slopes_of_acceleration(simulation.system(), &around, &state, step.taut) {
-            Some(slopes) => slopes,
-            None => {
-                let around = around.map(Number::constant);
-                let held = simulation.memory_force_within(step, s);
-                let (held, state) = (held.map(Number::constant), variables(&state));
-                acceleration(&self.system, &around, &state, held, step.taut).map(|a| a.slope)
-            }
-        }
+        dispatch(Differentiating(self, simulation, step, s))
     }
 
     /// −∇h/ḣ of what was reached: a gap, or what a limit bounds. A tension that is lost changes
