@@ -189,6 +189,20 @@ mod tests {
     }
 
     #[test]
+    fn values_between_decimals_are_told_in_six_digits() {
+        let mut erosion = eroded(false, &[[90, 0, 0], [85, 0, 0], [40, 0, 0]]);
+        for (row, (value, _)) in erosion.points.iter_mut().enumerate() {
+            *value = row as f64 / 3.0 - 1.0;
+        }
+        let text = crate::erosion_in_words(&erosion);
+        assert!(text.contains("\n-0.666667    0.8500"), "{text}");
+        assert!(
+            text.contains("at f_o = -0.666667, up to which") && !text.contains("6666666"),
+            "{text}"
+        );
+    }
+
+    #[test]
     fn why_there_is_no_knee_is_told() {
         let told = |counts: &[[usize; 3]]| words(&eroded(false, counts));
         for (counts, why) in [

@@ -9,6 +9,10 @@ use crate::section::Section;
 use crate::sequence::words;
 use std::fmt::Write;
 
+/// Why a window has no legal cell.
+const NO_START: &str =
+    "each start of the window is beyond a cable or a limit; choose another window";
+
 /// An orbit.
 pub fn orbit_in_words(orbit: &Orbit) -> String {
     let stability = orbit.stability().name();
@@ -117,9 +121,10 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
             .map_or("-".to_owned(), |snaps| format!("{snaps:.3}"));
         let exponent = at.section.exponents.first();
         let exponent = exponent.map_or("-".to_owned(), |[m, e]| format!("{m:.4} +- {e:.4}"));
+        let value = six_digits(at.value);
         let _ = match at.stop() {
-            Some(stop) => writeln!(text, "{:<12} {}", at.value, stop.words()),
-            None => writeln!(text, "{:<12} {period:<7} {snaps:<8} {exponent}", at.value),
+            Some(stop) => writeln!(text, "{value:<12} {}", stop.words()),
+            None => writeln!(text, "{value:<12} {period:<7} {snaps:<8} {exponent}"),
         };
     }
     text
@@ -129,9 +134,7 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
 pub fn basin_in_words(basin: &Basin) -> String {
     let m = &basin.measures;
     if m.legal == 0 {
-        return "Safe      none, as no cell is legal: each start of the window is beyond a cable or a \
-                limit; choose another window\n"
-            .to_owned();
+        return format!("Safe      none, as no cell is legal: {NO_START}\n");
     }
     let mut text = format!(
         "Safe      {} of {} legal cells: {:.4} ({:.4} to {:.4})\n",
@@ -176,11 +179,12 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         let m = &basin.measures;
         let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
         let safe = maybe((m.legal > 0).then_some(m.gim));
+        let value = six_digits(*value);
         let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
     }
     let part = |(value, basin): &(f64, Basin)| {
         let [low, high] = basin.measures.interval;
-        let safe = basin.measures.gim;
+        let (safe, value) = (basin.measures.gim, six_digits(*value));
         format!(
             "{safe:.4} ({low:.4} to {high:.4}) at {} = {value}",
             erosion.key
@@ -201,6 +205,12 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
     text
 }
 
+/// A value of a grid with six digits at most, as a third between two of them has seventeen.
+fn six_digits(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
 /// Where the knee is and what it says, or why there is none.
 fn knee_in_words(erosion: &Erosion) -> String {
     let key = erosion.key;
@@ -209,8 +219,7 @@ fn knee_in_words(erosion: &Erosion) -> String {
         .iter()
         .all(|(_, basin)| basin.measures.legal == 0)
     {
-        return "none, as no start is legal at any value: each of the window is beyond a cable or a limit"
-            .to_owned();
+        return format!("none, as no start is legal at any value: {NO_START}");
     }
     let (cell, safe) = match erosion.looked_beside() {
         true => ("decided cell", "safe part of the decided cells"),
@@ -219,23 +228,27 @@ fn knee_in_words(erosion: &Erosion) -> String {
     let knee = erosion.knee();
     let told = match (knee, erosion.decided().as_slice()) {
         (Some(knee), [(first, _), ..]) => {
+            let (knee, first) = (six_digits(knee), six_digits(*first));
             format!(
                 "at {key} = {knee}, up to which at least {KNEE} of the {safe} at {key} = {first} is left"
             )
         }
         (_, []) => format!("none, as no value has a {cell}"),
         (None, [(first, 0.0), ..]) => {
+            let first = six_digits(*first);
             format!("none, as no {cell} is safe at the first value, {key} = {first}")
         }
         (None, [(only, _)]) => {
+            let only = six_digits(*only);
             format!("none, as {key} = {only} alone has a {cell}, with nothing to compare it with")
         }
         (None, [(first, _), ..]) => {
+            let first = six_digits(*first);
             format!("none, as the {safe} never falls below {KNEE} of that at {key} = {first}")
         }
     };
     let beyond = || "beyond the last value".to_owned();
-    let place = |value: Option<f64>| value.map_or_else(beyond, |value| value.to_string());
+    let place = |value: Option<f64>| value.map_or_else(beyond, six_digits);
     match erosion.knee_between() {
         Some([low, high]) if [low, high] != [knee; 2] => {
             let (low, high) = (place(low), place(high));
