@@ -19,7 +19,7 @@ R, A, B, X, Y, THETA = 1.5, 0.3, 0.17, 0.36, 0.3, 0.35
 BESIDE = (
     "body: rigid or point (a = b = 0); inertia: of the body about its centre\n"
     "e: a snap leaves −e times v_n; v_stick: a slower snap may stick\n"
-    "stop_when_settled, stop_when_sliding, t_end, max_impacts: when a run ends"
+    "t_end, and the other keys of the stops: when a run ends"
 )
 
 

@@ -1,6 +1,6 @@
-"""Writes ``snapload/_keys.py``: the keys of a case as Python's types, from the one schema of the engine.
+"""Writes ``snapload/_keys.py``: the keys of a case and the ends of a run as Python's types, as the engine has them.
 
-Run ``python python/generate_keys.py`` after a key was added; a test fails where that was forgotten.
+Run ``python python/generate_keys.py`` after a key or a stop rule was added; a test fails where that was forgotten.
 """
 
 from pathlib import Path
@@ -10,14 +10,13 @@ from snapload import _engine
 
 TARGET = Path(__file__).parent / "snapload" / "_keys.py"
 
-HEAD = '''"""The keys of a case. Written by ``generate_keys.py`` from the schema of the engine; do not edit."""
+HEAD = '''"""Keys of a case, ends of a run. Written by ``generate_keys.py`` from the engine; do not edit."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal, TypedDict, get_args
 
 from numpy.typing import ArrayLike
-
 
 '''
 
@@ -42,9 +41,27 @@ def unit_of(key: dict) -> str:
     return f" [{key['unit']}]" if key["unit"] not in ("", "1") else ""
 
 
+def ends() -> str:
+    """Why a run ends, as a type and as names."""
+    stops = _engine.stops()
+    reasons = ", ".join(f'"{name}"' for name, _ in stops)
+    limits = "".join(f'"{name}", ' for name, is_limit in stops if is_limit)
+    return f"""#: Why a run ends.
+Reason = Literal[{reasons}]
+
+#: The same as names.
+REASONS: tuple[Reason, ...] = get_args(Reason)
+
+#: Those of them that are limits of the motion.
+LIMITS: tuple[Reason, ...] = ({limits.removesuffix(" ") if limits.count(",") == 1 else limits.removesuffix(", ")})
+
+
+"""
+
+
 def generate() -> str:
     keys = _engine.keys()
-    text = HEAD
+    text = HEAD + ends()
     text += 'class Keys(TypedDict, total=False):\n    """The keys that a case takes."""\n\n'
     text += "".join(f"    {key['name']}: {given_type_of(key)}\n" for key in keys)
     text += '\n\nclass Axes(TypedDict, total=False):\n    """The keys that a study varies."""\n\n'

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._branch_plot import key_label
+from ._keys import REASONS
 from ._orbit_plot import label, legend_above, new_axes
 from ._plot import BLUE, GREEN, ORANGE, REFERENCE, VERMILION
 
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: The colour of each end of a run: light where it is safe, dark where a limit is reached.
+#: The colour of each end of a run: light where it is safe, dark where a limit is reached. What is not here is another
+#: limit.
 _ENDS = {
     "settled": ("#9AD0F3", "settled"),
     "end_time": ("#56B4E9", "goes on"),
@@ -24,6 +26,7 @@ _ENDS = {
     "rotation_limit": (VERMILION, "rotation limit"),
     "upper_bound": ("#7A3B00", "upper bound"),
 }
+_OTHER_LIMIT = "#5D3A9B"
 
 #: The colours of attractors, in their order; more of them begin anew.
 _ATTRACTORS = ("#9AD0F3", ORANGE, GREEN, "#CC79A7", "#F0E442", BLUE)
@@ -69,13 +72,18 @@ def _of_ends(outcomes: NDArray[Any]) -> tuple[NDArray[np.int64], list[tuple[str,
     """The cells by how they end, as numbers from 1, and how each number is drawn; 0 is no start."""
     numbers = np.zeros(outcomes.shape, dtype=np.int64)
     looks: list[tuple[str, str]] = []
-    for word, look in _ENDS.items():
-        there = outcomes == word
+    for word in REASONS:
+        look, there = _look_of(word), outcomes == word
         if there.any():
             if look not in looks:
                 looks.append(look)
             numbers[there] = looks.index(look) + 1
     return numbers, looks
+
+
+def _look_of(reason: str) -> tuple[str, str]:
+    """The colour and the words of an end."""
+    return _ENDS.get(reason, (_OTHER_LIMIT, reason.replace("_", " ")))
 
 
 def _of_labels(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tuple[str, str]]]:
@@ -88,7 +96,7 @@ def _of_labels(labels: xarray.DataArray) -> tuple[NDArray[np.int64], list[tuple[
         if value > 0:
             look = _ATTRACTORS[(value - 1) % len(_ATTRACTORS)], f"attractor {value}"
         else:
-            look = (_APERIODIC, "no period") if value == 0 else _ENDS[words[value]]
+            look = (_APERIODIC, "no period") if value == 0 else _look_of(words[value])
         looks.append(look)
         numbers[values == value] = len(looks)
     return numbers, looks

@@ -24,7 +24,7 @@ _LOOKS: dict[str, dict[str, Any]] = {
     "not a motion": {"color": GREY, "linewidth": 1.0, "linestyle": (0, (1, 1.2))},
 }
 
-#: The sign of each kind of event.
+#: The sign of each kind of event; what is not here is another limit.
 _MARKERS = {
     "fold": "o",
     "period_doubling": "s",
@@ -35,6 +35,7 @@ _MARKERS = {
     "rotation_limit": "*",
     "upper_bound": "P",
 }
+_OTHER_LIMIT = "H"
 
 
 def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) -> Axes:
@@ -69,10 +70,10 @@ def draw_branch(branch: Branch, y: str, ax: Axes | None, style: dict[str, Any]) 
         ax.plot(values[part], heights[part], **{"label": None if name in seen else name, **_LOOKS[kind], **style})
         seen.add(name)
     look: dict[str, Any] = {"linestyle": "none", "color": "black", "markerfacecolor": "white", "markersize": 5}
-    for kind, marker in _MARKERS.items():
+    for kind in dict.fromkeys([*_MARKERS, *events["kind"]]):
         of_kind = events["kind"] == kind
         if of_kind.any():
-            name = kind.replace("_", " ")
+            name, marker = kind.replace("_", " "), _MARKERS.get(kind, _OTHER_LIMIT)
             ax.plot(events["value"][of_kind], events[y][of_kind], label=name, marker=marker, zorder=5, **look)
     ax.set_xlabel(str(key_label(branch.along)))
     ax.set_ylabel("largest |multiplier|" if y == "largest_multiplier" else label(y))

@@ -1,10 +1,19 @@
-"""The keys of a case. Written by ``generate_keys.py`` from the schema of the engine; do not edit."""
+"""Keys of a case, ends of a run. Written by ``generate_keys.py`` from the engine; do not edit."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, TypedDict
+from typing import Any, Literal, TypedDict, get_args
 
 from numpy.typing import ArrayLike
+
+#: Why a run ends.
+Reason = Literal["settled", "rotation_limit", "upper_bound", "sliding_start", "end_time", "impact_limit"]
+
+#: The same as names.
+REASONS: tuple[Reason, ...] = get_args(Reason)
+
+#: Those of them that are limits of the motion.
+LIMITS: tuple[Reason, ...] = ("rotation_limit", "upper_bound")
 
 
 class Keys(TypedDict, total=False):

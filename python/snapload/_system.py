@@ -15,6 +15,7 @@ from ._base_orbit import Start
 from ._base_run import BaseRun
 from ._check import Uncertainty, number, whole
 from ._geometry import Geometry
+from ._keys import LIMITS
 from ._later import Later
 from ._parts import Body, Cable, Forcing, put, several, within
 from ._system_keys import changed
@@ -31,7 +32,7 @@ else:
 START = ("x", "y", "theta", "vx", "vy", "vtheta")
 
 #: The rules that may be left out.
-_LIMITS = ("rotation_limit", "upper_bound", "settled_below", "sliding_above")
+_RULES = (*LIMITS, "settled_below", "sliding_above")
 
 
 @dataclass(frozen=True, repr=False)
@@ -128,7 +129,7 @@ class System:
         put(self, restitution=within("restitution", self.restitution, 0.0, 1.0))
         put(self, **{name: within(name, getattr(self, name)) for name in START})
         put(self, t_end=within("t_end", self.t_end, 0.0, above=True))
-        for name in _LIMITS:
+        for name in _RULES:
             if getattr(self, name) is not None:
                 put(self, **{name: within(name, getattr(self, name))})
         put(self, max_impacts=whole("max_impacts", self.max_impacts, 1, 10**7))
@@ -155,6 +156,12 @@ class System:
         """The system at its start."""
         start = [getattr(self, name) for name in START]
         return _engine.System(self.body, list(self.cables), self.forcing, self.restitution, start, self)
+
+    @property
+    def _limits(self) -> dict[str, float]:
+        """The bounds of the limits that are given."""
+        bounds = {name: getattr(self, name) for name in LIMITS}
+        return {name: bound for name, bound in bounds.items() if bound is not None}
 
     def replace(self, **keys: Any) -> System:
         """Change some keys.

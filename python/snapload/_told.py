@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
+from ._keys import LIMITS, Reason
 from ._neighbours import Ensemble
 from ._result import Result
-
-#: Why a run ends.
-Reason = Literal["settled", "rotation_limit", "upper_bound", "sliding_start", "end_time", "impact_limit"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +17,7 @@ class End:
     Attributes
     ----------
     reason : str
-        ``settled``, ``rotation_limit``, ``upper_bound``, ``sliding_start``, ``end_time`` or ``impact_limit``.
+        Why: ``settled``, ``rotation_limit``, ``end_time`` or another name of docs/model.md, section 7.
     t : float
         When [T].
     t_limit : float or None
@@ -46,7 +44,7 @@ class End:
 
     @property
     def exceeds(self) -> bool:
-        """Whether the run left the range of the mooring: it reached the rotation limit or the upper bound.
+        """Whether the run left the range of the mooring: it reached a limit, such as that of the rotation.
 
         See Also
         --------
@@ -58,7 +56,7 @@ class End:
         >>> snapload.Case(f_o=0.31).run().end.exceeds
         True
         """
-        return self.reason in ("rotation_limit", "upper_bound")
+        return self.reason in LIMITS
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,7 @@ mod _engine {
     #[pymodule_export]
     use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
     #[pymodule_export]
-    use super::schema::{columns, keys, named_case, named_cases};
+    use super::schema::{columns, keys, named_case, named_cases, stops};
     #[pymodule_export]
     use super::structure::{Assessment, Elastic, Structure};
     #[pymodule_export]

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use snapload::{KEYS, Kind, Parameters};
+use snapload::{KEYS, Kind, Parameters, Stop};
 use snapload::{named_cases as all_named_cases, title_of};
 
 /// A unit as metadata after CF. A number in units of the case's own scales has no dimension: its
@@ -23,6 +23,7 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let entries = KEYS.iter().map(|key| {
         let entry = PyDict::new(py);
         entry.set_item("name", key.name)?;
+        entry.set_item("group", key.group)?;
         entry.set_item("symbol", key.symbol)?;
         entry.set_item("unit", key.unit)?;
         entry.set_item("cf", in_cf(key.unit).to_vec())?;
@@ -50,6 +51,13 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         Ok(entry)
     });
     entries.collect()
+}
+
+/// Why a run may end, and whether that is a limit of the motion.
+#[pyfunction]
+pub(crate) fn stops() -> Vec<(&'static str, bool)> {
+    let told = |stop: Stop| (stop.name(), stop.limit().is_some());
+    Stop::ALL.map(told).to_vec()
 }
 
 /// The columns that tell what the runs of a study come to.

@@ -10,10 +10,12 @@ use snapload::analysis::{
     Cancelled, Certainty, Counter, Progress, TrustMonitor, Uncertainty, in_parallel, record,
 };
 use snapload::{
-    CaseError, Forcing, Harmonic, Outcome, Rules, Shape, Simulation, StartError, State, Stop, Value,
+    CaseError, Forcing, Harmonic, Limit, LimitBounds, Outcome, Rules, Shape, Simulation,
+    StartError, State, Value,
 };
 use snapload_report::Trusted;
 use snapload_study::{Column, StudyError, Values, columns};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// `snapload.Body`.
@@ -52,8 +54,9 @@ struct Forces {
 #[derive(FromPyObject)]
 struct Stops {
     t_end: f64,
-    rotation_limit: Option<f64>,
-    upper_bound: Option<f64>,
+    /// The bounds of the limits that are given, by their names.
+    #[pyo3(attribute("_limits"))]
+    limits: HashMap<String, f64>,
     settled_below: Option<f64>,
     sliding_above: Option<f64>,
     max_impacts: u64,
@@ -102,8 +105,11 @@ impl Forces {
 impl Stops {
     fn in_engine(&self) -> Rules {
         Rules {
-            rotation_limit: self.rotation_limit,
-            upper_bound: self.upper_bound,
+            limits: Limit::ALL
+                .into_iter()
+                .fold(LimitBounds::none(), |bounds, limit| {
+                    bounds.with(limit, self.limits.get(limit.stop().name()).copied())
+                }),
             settled_below: self.settled_below,
             sliding_above: self.sliding_above,
             t_end: self.t_end,
@@ -175,10 +181,7 @@ fn explain(error: StartError, start: &State, lengths: &[f64]) -> CaseError {
             CaseError::value("x, y, theta", place, allowed).with_hint(hint)
         }
         StartError::BeyondLimit { stop, value, bound } => {
-            let (key, what) = match stop {
-                Stop::RotationLimit => ("rotation_limit", "rotation"),
-                _ => ("upper_bound", "highest point"),
-            };
+            let (key, what) = (stop.name(), stop.limit().map_or("place", Limit::bounded));
             let allowed = format!("a bound beyond the start, whose {what} is {value}");
             CaseError::value(key, Value::Number(bound), allowed)
         }

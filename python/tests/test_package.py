@@ -34,9 +34,11 @@ def test_keys_are_those_of_the_schema():
 
 
 def test_the_drawing_of_the_mooring_has_every_key():
+    """Those of how a run ends are no part of a mooring."""
     drawn = (ROOT / "docs" / "images" / "mooring.svg").read_text(encoding="utf-8")
     words = set(re.findall(r"\w+", " ".join(re.findall(r">([^<>]+)<", drawn))))
-    assert {key["name"] for key in snapload._engine.keys()} <= words
+    keys = {key["name"] for key in snapload._engine.keys() if key["group"] != "stops"}
+    assert len(keys) > 10 and keys <= words
 
 
 def test_types_hold():

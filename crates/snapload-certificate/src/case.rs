@@ -1,13 +1,16 @@
 //! The case that a theorem is about: decimals, each an exact rational number.
 
 use crate::arithmetic::decimal::Decimal;
-use snapload::Parameters;
+use snapload::{Limit, Parameters};
 
 /// The keys that hold a number, in the order in which a certificate has them.
 pub const NUMBERS: [&str; 15] = [
     "r", "e", "a", "b", "f_o", "nu", "omega", "x", "y", "theta", "vx", "vy", "vtheta", "t_end",
     "v_stick",
 ];
+
+/// The limits that a proof knows.
+const PROVABLE: [Limit; 2] = [Limit::Rotation, Limit::UpperBound];
 
 /// A case of decimals.
 #[derive(Clone, Debug)]
@@ -50,11 +53,16 @@ impl ExactCase {
     /// `typed` knows to have been written for it.
     ///
     /// # Errors
-    /// What the model does not allow, in words.
+    /// What the model does not allow, or a proof does not know, in words.
     pub fn of(
         parameters: &Parameters,
         mut typed: impl FnMut(&str) -> Option<Decimal>,
     ) -> Result<Self, String> {
+        let unknown = |(limit, _): &(Limit, f64)| !PROVABLE.contains(limit);
+        if let Some((limit, _)) = parameters.rules().limits.iter().find(unknown) {
+            let name = limit.stop().words();
+            return Err(format!("no proof knows of a {name}; leave it out"));
+        }
         let mut decimal = |key: &str, value: f64| {
             typed(key)
                 .or_else(|| Decimal::shortest(value))

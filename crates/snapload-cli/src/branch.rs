@@ -192,8 +192,8 @@ fn kinds(text: &str) -> Result<Vec<&'static str>, Failure> {
         return Ok(Vec::new());
     }
     let kind = |word: &str| {
-        let names = Kind::ALL.map(Kind::name);
-        let known = names.into_iter().find(|name| *name == word.trim());
+        let names = Kind::all().map(Kind::name).collect::<Vec<_>>();
+        let known = names.iter().copied().find(|name| *name == word.trim());
         known.ok_or_else(|| {
             Failure::BadInput(format!(
                 "--events {word:?}: all, or some of {}",

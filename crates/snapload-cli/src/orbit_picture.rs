@@ -204,7 +204,6 @@ fn short(kind: Kind) -> &'static str {
         Kind::Graze => "graze",
         Kind::Corner => "corner",
         Kind::TensionLost => "slack",
-        Kind::RotationLimit => "rotation",
-        Kind::UpperBound => "bound",
+        Kind::Limit(limit) => limit.stop().words(),
     }
 }

@@ -19,6 +19,7 @@ import { $, put } from "./dom.js";
 import { mapCsv, sweepLine } from "./map-files.js";
 import { prepare } from "./plot.js";
 import { copy, save } from "./take.js";
+import { endColour } from "./theme.js";
 import { number, prose, reasonText } from "./words.js";
 
 /** Values that change while the map is open set it going again after so long a rest. */
@@ -327,7 +328,7 @@ export class SweepMap {
     const { cells } = this;
     const { colour } = this.state.map;
     const other = (k) => (cells.error[k] ? colours.faint : null);
-    if (colour === "reason") return (k) => (cells.reason[k] ? colours[`end-${cells.reason[k]}`] : other(k));
+    if (colour === "reason") return (k) => (cells.reason[k] ? endColour(colours, cells.reason[k]) : other(k));
     const { low, high, log } = this.#scale(colour);
     const along = log ? (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low) : null;
     const linear = (value) => (value - low) / (high - low || 1);
@@ -358,7 +359,7 @@ export class SweepMap {
       parts.unshift(
         ...counts
           .filter(([, n]) => n)
-          .map(([reason, n]) => swatch(colours[`end-${reason}`], `${reasonText(reason)} (${n})`)),
+          .map(([reason, n]) => swatch(endColour(colours, reason), `${reasonText(reason)} (${n})`)),
       );
     } else {
       const { low, high, log } = this.#scale(colour);

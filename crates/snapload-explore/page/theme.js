@@ -33,6 +33,9 @@ export function colours(scheme = "") {
 /** Lines have colours of their own, up to six; more begin again. */
 export const lineColour = (paints, line) => paints[`cable-${((line - 1) % 6) + 1}`];
 
+/** What an end of a run is painted with; one without a colour of its own is another limit. */
+export const endColour = (paints, reason) => paints[`end-${reason}`] ?? paints["end-other"];
+
 /** Between two colours: `part` of the way from the first to the second. */
 export function mix(from, to, part) {
   const channels = (colour) =>

@@ -8,7 +8,7 @@ use crate::multipliers::Stability;
 use crate::orbit::{NoOrbit, Orbit, Wanted};
 use crate::section::{LONGEST_PERIOD, Section, Stretch, period_of};
 use snapload::analysis::{Counter, OnProgress, Unfinished, on_all_threads};
-use snapload::{Case, Parameters};
+use snapload::{Case, Limit, Parameters};
 
 /// Periods that are left out before the attractor is looked at, and periods that are looked at.
 pub const TRANSIENT: u64 = 400;
@@ -156,7 +156,7 @@ fn random_start(p: &Parameters, seed: u64, k: u64) -> Option<Point> {
     let mut within = |low: f64, high: f64| low + (high - low) * uniform(&mut state);
     let wide = (0.5 * p.r).min(0.6);
     let turns = f64::from(u8::from(!p.is_point()));
-    let top = p.rules().upper_bound.unwrap_or(wide);
+    let top = p.rules().limits.of(Limit::UpperBound).unwrap_or(wide);
     let start = Parameters {
         x: within(-wide, wide),
         y: within(-0.1, top),

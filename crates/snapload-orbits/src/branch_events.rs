@@ -5,6 +5,7 @@ use crate::orbit::Orbit;
 use crate::survey::{Extreme, root};
 use crate::tracer::Segment;
 use nalgebra::DVector;
+use snapload::Limit;
 
 /// What happens at a point of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,24 +22,23 @@ pub enum Kind {
     Corner,
     /// The tension of a held surface is zero.
     TensionLost,
-    /// The rotation limit is reached.
-    RotationLimit,
-    /// The upper bound is reached.
-    UpperBound,
+    /// A limit is reached.
+    Limit(Limit),
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 8] = [
-        Self::Fold,
-        Self::PeriodDoubling,
-        Self::NeimarkSacker,
-        Self::Graze,
-        Self::Corner,
-        Self::TensionLost,
-        Self::RotationLimit,
-        Self::UpperBound,
-    ];
+    pub fn all() -> impl Iterator<Item = Self> {
+        let events = [
+            Self::Fold,
+            Self::PeriodDoubling,
+            Self::NeimarkSacker,
+            Self::Graze,
+            Self::Corner,
+            Self::TensionLost,
+        ];
+        events.into_iter().chain(Limit::ALL.map(Self::Limit))
+    }
 
     /// Its name in files.
     pub fn name(self) -> &'static str {
@@ -49,8 +49,7 @@ impl Kind {
             Self::Graze => "graze",
             Self::Corner => "corner",
             Self::TensionLost => "tension_lost",
-            Self::RotationLimit => "rotation_limit",
-            Self::UpperBound => "upper_bound",
+            Self::Limit(limit) => limit.stop().name(),
         }
     }
 }
@@ -130,21 +129,24 @@ pub(crate) enum Test {
     Gap,
     Corner,
     Tension,
-    Rotation,
-    UpperBound,
+    Limit(Limit),
 }
 
-const TESTS: [Test; 9] = [
-    Test::Fold,
-    Test::PeriodDoubling,
-    Test::NeimarkSacker,
-    Test::Speed,
-    Test::Gap,
-    Test::Corner,
-    Test::Tension,
-    Test::Rotation,
-    Test::UpperBound,
-];
+impl Test {
+    /// All of them.
+    fn all() -> impl Iterator<Item = Self> {
+        let tests = [
+            Self::Fold,
+            Self::PeriodDoubling,
+            Self::NeimarkSacker,
+            Self::Speed,
+            Self::Gap,
+            Self::Corner,
+            Self::Tension,
+        ];
+        tests.into_iter().chain(Limit::ALL.map(Self::Limit))
+    }
+}
 
 /// A test function that is smaller than this is zero throughout, as on a family of neutral orbits.
 const NOTHING: f64 = 1e-9;
@@ -153,9 +155,9 @@ const ZERO: f64 = 1e-6;
 
 /// The values of all test functions; NaN where there is none.
 pub(crate) fn tests_of(orbit: &Orbit, tangent: &DVector<f64>) -> Vec<(Test, f64)> {
-    TESTS
+    Test::all()
         .map(|test| (test, value(test, orbit, tangent)))
-        .to_vec()
+        .collect()
 }
 
 fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
@@ -179,8 +181,7 @@ fn value(test: Test, orbit: &Orbit, tangent: &DVector<f64>) -> f64 {
         Test::Gap => extreme(survey.largest_gap, -1.0),
         Test::Corner => extreme(survey.corner_gap, -1.0),
         Test::Tension => extreme(survey.least_tension, f64::NAN),
-        Test::Rotation => survey.limits[0],
-        Test::UpperBound => survey.limits[1],
+        Test::Limit(limit) => survey.limits[limit as usize],
     }
 }
 
@@ -233,8 +234,7 @@ pub(crate) fn located<F: Family>(
         Test::Gap => (Kind::Graze, survey.largest_gap),
         Test::Corner => (Kind::Corner, survey.corner_gap),
         Test::Tension => (Kind::TensionLost, survey.least_tension),
-        Test::Rotation => (Kind::RotationLimit, None),
-        Test::UpperBound => (Kind::UpperBound, None),
+        Test::Limit(limit) => (Kind::Limit(limit), None),
     };
     let grazes = extreme.filter(|_| kind == Kind::Graze);
     let bend = grazes.map(|extreme| normal_acceleration(segment, &orbit, &extreme));

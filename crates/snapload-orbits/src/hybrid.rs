@@ -5,7 +5,7 @@
 //! doubles and over [`Jet`]s, whose derivatives by state, time and parameters make Newton's method
 //! and the saltation matrices.
 
-use snapload::{Dual, PerCable, Real, Stop, TautSet};
+use snapload::{Dual, Limit, PerCable, Real, Stop, TautSet};
 
 /// Six numbers: x, y, θ, ẋ, ẏ, θ̇, of which a system may use fewer.
 pub type Point<T = f64> = [T; 6];
@@ -54,9 +54,9 @@ pub trait Hybrid<T: Real> {
     fn placed(&self, closed: TautSet, still: TautSet, z: &Point<T>) -> Point<T>;
 }
 
-/// What limits the motion, as quantity − bound, in this order: |θ|, height; −∞ where there is no
+/// What limits the motion, as quantity − bound, in the order of [`Limit::ALL`]; −∞ where there is no
 /// such limit.
-pub type Limits = [f64; 2];
+pub type Limits = [f64; Limit::ALL.len()];
 
 /// Hybrid systems with two parameters, forced periodically.
 pub trait Family: Sync {

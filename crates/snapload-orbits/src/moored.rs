@@ -3,7 +3,7 @@
 use crate::hybrid::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
 use crate::sequence::{Event, Happening, Sequence, Timed};
 use snapload::{
-    Held, Parameters, PerCable, Real, Rules, Simulation, State, System, TautSet, Value,
+    Held, Limit, Parameters, PerCable, Real, Rules, Simulation, State, System, TautSet, Value,
 };
 use std::sync::Arc;
 
@@ -196,12 +196,12 @@ impl Family for Moored {
 
     fn limits(&self, system: &Cables<f64>, z: &Point) -> Limits {
         let state = State::from_components(*z);
-        let beyond =
-            |bound: Option<f64>, value: f64| bound.map_or(f64::NEG_INFINITY, |b| value - b);
-        [
-            beyond(system.rules.rotation_limit, state.theta.abs()),
-            beyond(system.rules.upper_bound, system.system().top(&state)),
-        ]
+        Limit::ALL.map(|limit| {
+            let bound = system.rules.limits.of(limit);
+            bound.map_or(f64::NEG_INFINITY, |bound| {
+                limit.quantity(system.system(), &state) - bound
+            })
+        })
     }
 
     /// g = |P − A|² − r².

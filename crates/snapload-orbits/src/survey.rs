@@ -6,7 +6,7 @@
 
 use crate::hybrid::{Family, Hybrid, Limits, Point};
 use crate::lap::{Lap, Leg};
-use snapload::TautSet;
+use snapload::{Limit, TautSet};
 
 /// Samples of a leg for each period of the forcing, at least so many a leg.
 const SAMPLES: f64 = 160.0;
@@ -90,13 +90,10 @@ impl Survey {
         if durations.iter().any(|s| *s < -ROUNDING) {
             why.push("two events would have to come in the other order".to_owned());
         }
-        let names = [
-            "the rotation limit is exceeded",
-            "the upper bound is exceeded",
-        ];
-        for (beyond, name) in self.limits.iter().zip(names) {
+        for (beyond, limit) in self.limits.iter().zip(Limit::ALL) {
             if *beyond > ROUNDING {
-                why.push(format!("{name} by {beyond:.3e}"));
+                let name = limit.stop().words();
+                why.push(format!("the {name} is exceeded by {beyond:.3e}"));
             }
         }
         why
@@ -113,7 +110,7 @@ pub fn survey<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg]) -> Surve
         shortest: None,
         y_max: f64::NEG_INFINITY,
         theta_max: 0.0,
-        limits: [f64::NEG_INFINITY; 2],
+        limits: [f64::NEG_INFINITY; Limit::ALL.len()],
     };
     let period = lap.family.forcing_period(lap.at).value;
     let watch = Watch {
@@ -211,7 +208,7 @@ impl<F: Family> Watch<'_, F> {
         };
         found.y_max = found.y_max.max(height);
         found.theta_max = found.theta_max.max(turned);
-        for limit in 0..2 {
+        for limit in 0..Limit::ALL.len() {
             let beyond = |_: f64, z: &Point| self.family.limits(self.system, z)[limit];
             if beyond(0.0, &leg.start).is_finite() {
                 let rough = sampled

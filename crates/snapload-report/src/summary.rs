@@ -177,11 +177,6 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
         Stop::UpperBound => {
             format!("upper bound at t = {t}: the body reached the level of the anchors")
         }
-        Stop::SlidingStart => {
-            format!(
-                "sliding starts at t = {t}: a cable stays taut at or above y = {SETTLING_HEIGHT}"
-            )
-        }
         Stop::EndTime => format!("end of the time asked for, t = {t}"),
         Stop::ImpactLimit => {
             format!(
@@ -189,6 +184,7 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
                 parameters.max_impacts
             )
         }
+        other => format!("{} at t = {t}: {}", other.words(), other.meaning()),
     }
 }
 

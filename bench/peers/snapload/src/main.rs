@@ -1,22 +1,11 @@
 //! The standard case in snapload; with the argument `truth`, the same with 76 digits.
 
-use snapload::{Case, Impact, Parameters, Precise, Real, Stop};
+use snapload::{Case, Impact, Parameters, Precise, Real};
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
 const REPEATS: usize = 200;
-
-fn name(stop: Stop) -> &'static str {
-    match stop {
-        Stop::Settled => "settled",
-        Stop::RotationLimit => "rotation_limit",
-        Stop::UpperBound => "upper_bound",
-        Stop::SlidingStart => "sliding_start",
-        Stop::EndTime => "end_time",
-        Stop::ImpactLimit => "impact_limit",
-    }
-}
 
 fn row<T: Real>(impact: &Impact<T>) -> (f64, usize, f64) {
     (impact.t.to_f64(), impact.cable + 1, impact.v_n.to_f64())
@@ -47,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let report = serde_json::json!({
         "version": "0.2.0",
         "impacts": rows,
-        "end": { "kind": name(kind), "t": t },
+        "end": { "kind": kind.name(), "t": t },
         "seconds": seconds,
     });
     println!("{report}");

@@ -240,7 +240,7 @@ fn sections_and_branches_are_drawn() {
         "no body has it",
         "fold",
         "corner",
-        "bound",
+        "upper bound",
         "y max",
     ] {
         assert!(picture.contains(&format!(">{word}<")), "{word}");

@@ -103,11 +103,9 @@ pub(super) fn ending(end: &End) -> String {
 fn how(reason: Stop) -> &'static str {
     match reason {
         Stop::Settled => "settles",
-        Stop::RotationLimit => "rotation limit",
-        Stop::UpperBound => "upper bound",
         Stop::SlidingStart => "slides",
         Stop::EndTime => "goes on",
-        Stop::ImpactLimit => "impact limit",
+        other => other.words(),
     }
 }
 

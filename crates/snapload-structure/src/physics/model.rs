@@ -8,7 +8,9 @@ use super::sea::components;
 use super::wave::LinearWave;
 use crate::structure::{Outline, Structure, Water};
 use serde::Serialize;
-use snapload::{Body, Cable, Drag, Forcing, Harmonic, Rules, Shape, State, System};
+use snapload::{
+    Body, Cable, Drag, Forcing, Harmonic, Limit, LimitBounds, Rules, Shape, State, System,
+};
 use std::f64::consts::FRAC_PI_2;
 
 /// An impact slower than this lets its line stay taut, in the engine's units
@@ -212,8 +214,10 @@ pub(super) fn shape(structure: &Structure, groups: &Groups) -> Shape {
 /// When a run ends.
 pub(super) fn rules(structure: &Structure, scales: &Scales) -> Rules {
     Rules {
-        rotation_limit: Some(FRAC_PI_2),
-        upper_bound: Some((scales.origin_m[1] + structure.site.depth_m) / scales.length_m),
+        limits: LimitBounds::none().with(Limit::Rotation, FRAC_PI_2).with(
+            Limit::UpperBound,
+            (scales.origin_m[1] + structure.site.depth_m) / scales.length_m,
+        ),
         max_impacts: structure.max_snaps,
         v_stick: V_STICK,
         ..Rules::until(structure.duration_s / scales.time_s)

@@ -1,6 +1,7 @@
 //! Lines that stretch: motions that are known, and the limit in which they do not.
 
 use serde_json::Value;
+use snapload::Limit;
 use snapload::analysis::unwatched;
 use snapload_structure::{
     ElasticRun, Prepared, STRUCTURE, Spring, Standing, Structure, both_models, damping_ratio,
@@ -324,7 +325,12 @@ fn the_floor_ends_a_run() {
     let motion = run(&prepared, &law);
     let stop = motion.stop.expect("an end before the time");
     assert!(stop.exceeds() && motion.end_s < 200.0, "{stop:?}");
-    let bound = prepared.model.rules.upper_bound.expect("a floor");
+    let bound = prepared
+        .model
+        .rules
+        .limits
+        .of(Limit::UpperBound)
+        .expect("a floor");
     let system = &prepared.model.system;
     let below = motion
         .looks

@@ -2,7 +2,9 @@
 
 use crate::calibration::{Digits, compared};
 use snapload::analysis::{HorizonCause, TrustMonitor, Uncertainty, trusted_run, unwatched};
-use snapload::{Case, Parameters, Real, Rules, Simulation, Stop, Value, named_case};
+use snapload::{
+    Case, Limit, LimitBounds, Parameters, Real, Rules, Simulation, Stop, Value, named_case,
+};
 use snapload_verify::verify;
 
 fn case(entries: impl IntoIterator<Item = (&'static str, Value)>) -> Case {
@@ -53,7 +55,7 @@ fn a_limit_that_taut_motion_all_but_reaches_ends_trust() {
     let (theta_max, t_end) = farthest.expect("a maximum within taut motion");
     let cause = |above: f64| {
         let rules = Rules {
-            rotation_limit: Some(theta_max + above),
+            limits: LimitBounds::none().with(Limit::Rotation, theta_max + above),
             t_end: t_end + 1e-3,
             ..*sliding.rules()
         };

@@ -15,13 +15,13 @@ pub(crate) mod value;
 use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
-use crate::case::parameters::{Parameters, SETTLING_HEIGHT, natural_inertia};
+use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
 use crate::model::forcing::Harmonic;
-use crate::model::rules::{Rules, Stop};
+use crate::model::rules::Stop;
 use crate::model::state::State;
-use crate::model::system::{System, anchor_height};
+use crate::model::system::System;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
 use crate::motion::start::StartError;
@@ -138,11 +138,6 @@ impl<T: Real> Parameters<T> {
     pub fn system(&self) -> System<T> {
         system(self)
     }
-
-    /// The rules that end its runs.
-    pub fn rules(&self) -> Rules<T> {
-        rules(self)
-    }
 }
 
 impl Outcome {
@@ -174,7 +169,7 @@ impl Kernel for Begin<'_> {
 
 #[inline(always)]
 fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
-    Simulation::new(system(p), rules(p), T::ZERO, start(p))
+    Simulation::new(system(p), p.rules(), T::ZERO, start(p))
 }
 
 fn system<T: Real>(p: &Parameters<T>) -> System<T> {
@@ -184,19 +179,6 @@ fn system<T: Real>(p: &Parameters<T>) -> System<T> {
     };
     let wave = Harmonic::ellipse(p.f_o, p.nu, p.omega);
     System::moored_breakwater(body, [p.a, p.b], p.r, p.e, wave)
-}
-
-fn rules<T: Real>(p: &Parameters<T>) -> Rules<T> {
-    let settling_height = T::from_decimal(SETTLING_HEIGHT);
-    Rules {
-        rotation_limit: (!p.is_point()).then(T::half_pi),
-        upper_bound: Some(anchor_height(p.r, p.a) + p.b),
-        settled_below: p.stop_when_settled.then_some(settling_height),
-        sliding_above: p.stop_when_sliding.then_some(settling_height),
-        t_end: p.t_end,
-        max_impacts: p.max_impacts,
-        v_stick: p.v_stick,
-    }
 }
 
 fn start<T: Real>(p: &Parameters<T>) -> State<T> {

@@ -2,6 +2,8 @@
 
 use crate::arithmetic::real::Real;
 use crate::case::value::Value;
+use crate::model::rules::{Limit, LimitBounds, Rules};
+use crate::model::system::anchor_height;
 
 /// Below this y a cable that sticks, or two that are taut, settle the run (chapter 6.3.1).
 pub const SETTLING_HEIGHT: f64 = 0.05;
@@ -87,6 +89,23 @@ impl<T: Copy> Parameters<T> {
     /// Whether the body is a point mass.
     pub fn is_point(&self) -> bool {
         self.inertia.is_none()
+    }
+}
+
+impl<T: Real> Parameters<T> {
+    /// The rules that end its runs.
+    pub fn rules(&self) -> Rules<T> {
+        let settling_height = T::from_decimal(SETTLING_HEIGHT);
+        Rules {
+            limits: LimitBounds::none()
+                .with(Limit::Rotation, (!self.is_point()).then(T::half_pi))
+                .with(Limit::UpperBound, anchor_height(self.r, self.a) + self.b),
+            settled_below: self.stop_when_settled.then_some(settling_height),
+            sliding_above: self.stop_when_sliding.then_some(settling_height),
+            t_end: self.t_end,
+            max_impacts: self.max_impacts,
+            v_stick: self.v_stick,
+        }
     }
 }
 

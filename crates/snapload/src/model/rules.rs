@@ -6,13 +6,12 @@ use crate::arithmetic::real::Real;
 /// rest.
 ///
 /// Whatever has to know all of them takes this apart without `..`, so that a rule which is added is
-/// known everywhere or does not compile.
+/// known everywhere or does not compile. The limits are one field: whoever has to know them goes
+/// through [`Limit::ALL`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules<T = f64> {
-    /// Stop when |θ| reaches this angle \[rad\].
-    pub rotation_limit: Option<T>,
-    /// Stop when the highest point of the body reaches this level \[L\].
-    pub upper_bound: Option<T>,
+    /// Stop where a limit of the motion is reached.
+    pub limits: LimitBounds<T>,
     /// Stop when a cable sticks, or two are taut, while y is below this height \[L\].
     pub settled_below: Option<T>,
     /// Stop when a cable sticks at or above this height \[L\].
@@ -30,8 +29,7 @@ impl<T: Real> Rules<T> {
     /// Every rule off but the end of time; nothing sticks that does not come to rest.
     pub fn until(t_end: T) -> Self {
         Self {
-            rotation_limit: None,
-            upper_bound: None,
+            limits: LimitBounds::none(),
             settled_below: None,
             sliding_above: None,
             t_end,
@@ -69,49 +67,62 @@ impl Stop {
         Self::ImpactLimit,
     ];
 
+    /// Its name in files and in programs; the same for people to read; what ended the run.
+    const fn told(self) -> [&'static str; 3] {
+        match self {
+            Self::Settled => [
+                "settled",
+                "settled",
+                "a cable stuck, or two were taut, below the settling height",
+            ],
+            Self::RotationLimit => [
+                "rotation_limit",
+                "rotation limit",
+                "the rotation reached its limit",
+            ],
+            Self::UpperBound => [
+                "upper_bound",
+                "upper bound",
+                "the highest point of the body reached the upper bound",
+            ],
+            Self::SlidingStart => [
+                "sliding_start",
+                "sliding start",
+                "a cable stuck at or above the settling height",
+            ],
+            Self::EndTime => ["end_time", "end time", "the time asked for was over"],
+            Self::ImpactLimit => [
+                "impact_limit",
+                "impact limit",
+                "there were more impacts than allowed",
+            ],
+        }
+    }
+
     /// Its name in files and in programs.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Settled => "settled",
-            Self::RotationLimit => "rotation_limit",
-            Self::UpperBound => "upper_bound",
-            Self::SlidingStart => "sliding_start",
-            Self::EndTime => "end_time",
-            Self::ImpactLimit => "impact_limit",
-        }
+        self.told()[0]
     }
 
     /// The same for people to read.
     pub const fn words(self) -> &'static str {
-        match self {
-            Self::Settled => "settled",
-            Self::RotationLimit => "rotation limit",
-            Self::UpperBound => "upper bound",
-            Self::SlidingStart => "sliding start",
-            Self::EndTime => "end time",
-            Self::ImpactLimit => "impact limit",
-        }
+        self.told()[1]
     }
 
     /// What ended the run, as a sentence's end: "the run stopped because ...".
     pub const fn meaning(self) -> &'static str {
-        match self {
-            Self::Settled => "a cable stuck, or two were taut, below the settling height",
-            Self::RotationLimit => "the rotation reached its limit",
-            Self::UpperBound => "the highest point of the body reached the upper bound",
-            Self::SlidingStart => "a cable stuck at or above the settling height",
-            Self::EndTime => "the time asked for was over",
-            Self::ImpactLimit => "there were more impacts than allowed",
-        }
+        self.told()[2]
     }
 
-    /// Whether the run left the range in which the mooring is taken to hold: it stopped at the
-    /// rotation limit or the upper bound (chapter 6.4.2).
+    /// The limit that was reached, if it was one.
+    pub fn limit(self) -> Option<Limit> {
+        Limit::ALL.into_iter().find(|limit| limit.stop() == self)
+    }
+
+    /// Whether the run left the range in which the mooring is taken to hold: it stopped at a limit
+    /// (chapter 6.4.2: the rotation limit or the upper bound).
     pub fn exceeds(self) -> bool {
-        match self {
-            Self::RotationLimit | Self::UpperBound => true,
-            Self::Settled | Self::SlidingStart | Self::EndTime | Self::ImpactLimit => false,
-        }
+        self.limit().is_some()
     }
 }
 
@@ -119,42 +130,63 @@ impl Stop {
 /// for each corner below the upper bound.
 pub(crate) const LIMIT_FUNCTIONS: usize = 6;
 
-/// A limit of the motion, those first that count where several are reached at one instant.
+/// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. Those
+/// first count that are first here where several are reached at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Limit {
-    /// |θ| stays below the rotation limit.
+pub enum Limit {
+    /// |θ| stays below the rotation limit \[rad\].
     Rotation,
-    /// The highest point of the body stays below the upper bound.
+    /// The highest point of the body stays below the upper bound \[L\].
     UpperBound,
 }
 
 impl Limit {
     /// All of them.
-    pub(crate) const ALL: [Self; 2] = [Self::Rotation, Self::UpperBound];
+    pub const ALL: [Self; 2] = [Self::Rotation, Self::UpperBound];
 
-    /// Why a run stops that reaches it.
-    pub(crate) fn stop(self) -> Stop {
+    /// Why a run stops that reaches it; that is its name, too.
+    pub const fn stop(self) -> Stop {
         match self {
             Self::Rotation => Stop::RotationLimit,
             Self::UpperBound => Stop::UpperBound,
         }
     }
 
-    /// Its bound by the rules of a run; none where they do not ask for it.
-    pub(crate) fn bound<T: Real>(self, rules: &Rules<T>) -> Option<T> {
-        let Rules {
-            rotation_limit,
-            upper_bound,
-            settled_below: _,
-            sliding_above: _,
-            t_end: _,
-            max_impacts: _,
-            v_stick: _,
-        } = rules;
+    /// What it bounds, for people to read.
+    pub const fn bounded(self) -> &'static str {
         match self {
-            Self::Rotation => *rotation_limit,
-            Self::UpperBound => *upper_bound,
+            Self::Rotation => "rotation",
+            Self::UpperBound => "highest point",
         }
+    }
+}
+
+/// The bound of each limit; none of one that ends no run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitBounds<T = f64>([Option<T>; Limit::ALL.len()]);
+
+impl<T: Copy> LimitBounds<T> {
+    /// No limit ends a run.
+    pub const fn none() -> Self {
+        Self([None; Limit::ALL.len()])
+    }
+
+    /// The same with this bound of a limit.
+    #[must_use]
+    pub fn with(mut self, limit: Limit, bound: impl Into<Option<T>>) -> Self {
+        self.0[limit as usize] = bound.into();
+        self
+    }
+
+    /// The bound of a limit.
+    pub fn of(&self, limit: Limit) -> Option<T> {
+        self.0[limit as usize]
+    }
+
+    /// Those that end a run, with their bounds.
+    pub fn iter(&self) -> impl Iterator<Item = (Limit, T)> {
+        let bounds = Limit::ALL.into_iter().zip(self.0);
+        bounds.filter_map(|(limit, bound)| Some((limit, bound?)))
     }
 }
 

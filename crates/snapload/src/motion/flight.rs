@@ -26,8 +26,6 @@ pub(crate) struct Flight<T> {
     /// The cables that are known to be closed and at rest at the start.
     resting: TautSet,
     limits: Limits<T>,
-    /// A bound on |ḟ|.
-    force_rate: T,
 }
 
 impl<T: Real> Flight<T> {
@@ -42,7 +40,6 @@ impl<T: Real> Flight<T> {
             attachments: Vec::with_capacity(system.cables.len()),
             resting: TautSet::SLACK,
             limits: Limits::of(system, rules),
-            force_rate: T::ZERO,
         }
     }
 
@@ -81,7 +78,6 @@ impl<T: Real> Flight<T> {
                 }
                 self.attachments.push(attachment);
             }
-            self.force_rate = force[1];
         })
     }
 
@@ -169,8 +165,7 @@ impl<T: Real> Flight<T> {
                 state: &now.state(&self.start, s),
                 sine: self.sine * cosine + self.cosine * sine,
                 cosine: self.cosine * cosine - self.sine * sine,
-                force: now.push.force,
-                force_rate: self.force_rate,
+                push: &now.push,
             },
             jets,
         );

@@ -3,60 +3,149 @@
 //!
 //! A limit bounds a quantity q of the state: the run ends where q reaches its bound. That instant
 //! is located like any other event, so a limit tells its event function h = q − bound with its
-//! derivatives in flight, its power series in taut motion, and what a deviation of the state
-//! changes it by. Whoever adds a limit adds a variant to [`Limit`] and is led by the compiler
-//! through every match below.
+//! derivatives in flight, its power series in taut motion, what a deviation of the state changes it
+//! by, how large it is within a step, and what flights side by side compare it with. Whoever adds
+//! one adds a variant to [`Limit`] and is led by the compiler through every match below.
 
 use crate::arithmetic::plane::Vector2;
 use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::arithmetic::vector_series::VectorSeries;
-use crate::model::body::Outline;
-use crate::model::rules::{Limit, Rules};
+use crate::model::body::{Body, Outline};
+use crate::model::forcing::Push;
+use crate::model::rules::{Limit, LimitBounds, Rules};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::motion::attachment::INFLATION;
 use crate::motion::events::{EventFunction, Jet, Jets};
 
+/// A limit that is never reached.
+pub(crate) const NEVER: f64 = 1e300;
+/// Where a bound on a quantity has to be close, a step is looked at in this many equal parts.
+const LOOKS: usize = 64;
+
 impl Limit {
     /// The quantity that it bounds: |θ|, or y of the highest point of the body.
-    pub(crate) fn quantity<T: Real>(self, system: &System<T>, state: &State<T>) -> T {
+    pub fn quantity<T: Real>(self, system: &System<T>, state: &State<T>) -> T {
         match self {
             Self::Rotation => state.theta.abs(),
             Self::UpperBound => system.top(state),
         }
     }
 
-    /// Bounds on |∂q/∂z|, z = (x, y, θ, ẋ, ẏ, θ̇), wherever the body is.
-    pub(crate) fn slope_bounds(self, system: &System) -> [f64; 6] {
+    /// Bounds on |∂q/∂z|, z = (x, y, θ, ẋ, ẏ, θ̇), wherever q is below `_bound`.
+    pub(crate) fn slope_bounds(self, system: &System, _bound: f64) -> [f64; 6] {
         match self {
             Self::Rotation => [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
             Self::UpperBound => [0.0, 1.0, system.body.reach(), 0.0, 0.0, 0.0],
         }
     }
 
-    /// What q̈ holds beside ∇q·z̈: that of a point which turns about the centre.
-    pub(crate) fn centripetal(self, system: &System, state: &State) -> f64 {
+    /// A bound on q along a step, close where it is above `floor`.
+    #[inline(always)]
+    pub(crate) fn largest_along<T: Real>(
+        self,
+        system: &System<T>,
+        step: &impl Along<T>,
+        floor: T,
+    ) -> T {
         match self {
-            Self::Rotation => 0.0,
-            Self::UpperBound => {
-                let height = system.top(state) - state.y;
-                -(height * state.vtheta * state.vtheta)
+            Self::Rotation => farthest_turned(step, floor),
+            Self::UpperBound => highest(system, step, floor),
+        }
+    }
+}
+
+/// A step of the motion, as far as a bound on a quantity within it asks.
+pub(crate) trait Along<T> {
+    /// How long it takes.
+    fn duration(&self) -> T;
+    /// The states at its start and just before the event at its end.
+    fn ends(&self) -> [&State<T>; 2];
+    /// The state a time `s` into it.
+    fn state(&self, s: T) -> State<T>;
+    /// Bounds on |ÿ| and |θ̈| within it; the latter is zero in flight.
+    fn acceleration_bounds(&self) -> [T; 2];
+}
+
+/// A bound on |θ|. In a flight it is largest at an end.
+#[inline(always)]
+fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
+    let [start, end] = step.ends();
+    let ends = start.theta.abs().max(end.theta.abs());
+    let [_, bend] = step.acceleration_bounds();
+    if bend == T::ZERO {
+        return ends;
+    }
+    let s = step.duration();
+    let rough = ends + bend * s * s * 0.125;
+    if rough < floor {
+        return rough;
+    }
+    let width = s / LOOKS as f64;
+    (0..=LOOKS)
+        .map(|k| step.state(width * k as f64).theta.abs())
+        .fold(ends, T::max)
+        + bend * width * width * 0.125
+}
+
+/// A bound on y of the highest point of the body.
+#[inline(always)]
+fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
+    let ([start, end], s) = (step.ends(), step.duration());
+    let [y_bend, theta_bend] = step.acceleration_bounds();
+    let reach = system.body.reach();
+    let rough = start.y.max(end.y) + y_bend * s * s * 0.125 + reach;
+    if rough < floor {
+        return rough;
+    }
+    let width = s / LOOKS as f64;
+    let spin = start.vtheta.abs() + theta_bend * s;
+    let bend = y_bend + (spin * spin + theta_bend) * reach;
+    (0..=LOOKS)
+        .map(|k| system.top(&step.state(width * k as f64)))
+        .fold(start.y, T::max)
+        + bend * width * width * 0.125
+}
+
+/// What flights side by side compare with.
+pub(crate) struct LaneLimits<T> {
+    /// Of |θ|.
+    pub(crate) rotation: T,
+    /// Of y of the centre: the upper bound, less what the outline reaches above it at most.
+    pub(crate) level: T,
+}
+
+impl<T: Real> LaneLimits<T> {
+    /// Of the limits of a run; none where there is one among them that flights side by side do not
+    /// know, so that the run is left to the general loop.
+    pub(crate) fn of(limits: &LimitBounds<T>, body: &Body<T>) -> Option<Self> {
+        let never = T::from_f64(NEVER);
+        let mut known = Self {
+            rotation: never,
+            level: never - body.reach(),
+        };
+        for (limit, bound) in limits.iter() {
+            match limit {
+                Limit::Rotation => known.rotation = bound,
+                Limit::UpperBound => known.level = bound - body.reach(),
             }
         }
+        Some(known)
     }
 }
 
 /// The limits of a run, as event functions.
 #[derive(Clone, Debug)]
 pub(crate) struct Limits<T> {
-    rotation: Option<T>,
-    upper_bound: Option<T>,
+    bounds: LimitBounds<T>,
     outline: Outline<T>,
     /// Radius of the disc about each point of the outline.
     radius: T,
     /// How far the points of the outline are from the centre.
     reach: T,
+    /// Bounds on the force and its derivatives.
+    force: [T; 3],
 }
 
 /// A flight at one instant, as far as limits ask.
@@ -65,60 +154,59 @@ pub(crate) struct Flying<'a, T> {
     /// sin θ and cos θ.
     pub(crate) sine: T,
     pub(crate) cosine: T,
-    /// The force, which is the acceleration of the centre.
-    pub(crate) force: Vector2<T>,
-    /// A bound on |ḟ| over the flight.
-    pub(crate) force_rate: T,
+    /// The force, which is the acceleration of the centre, and its rate.
+    pub(crate) push: &'a Push<T>,
 }
 
-/// Every limit has its event functions in [`Limits::in_flight`] and in [`Limits::watch_series`], which
-/// ask for each in turn. Whoever adds a limit is stopped here until it has them.
-const _: fn(Limit) = |limit| match limit {
-    Limit::Rotation | Limit::UpperBound => {}
-};
+/// A step of taut motion as power series.
+pub(crate) struct TautMotion<'a, T> {
+    /// x, y and θ.
+    pub(crate) place: [&'a Polynomial<T>; 3],
+    /// cos θ and sin θ.
+    pub(crate) circle: &'a VectorSeries<T, 2>,
+    /// How long the step is.
+    pub(crate) step: T,
+}
 
 impl<T: Real> Limits<T> {
     /// Those of a system under the rules of a run.
     pub(crate) fn of(system: &System<T>, rules: &Rules<T>) -> Self {
         let (outline, radius) = system.body.outline();
         Self {
-            rotation: Limit::Rotation.bound(rules),
-            upper_bound: Limit::UpperBound.bound(rules),
+            bounds: rules.limits,
             reach: outline.points()[0].length(),
             outline,
             radius,
+            force: system.forcing.bounds(),
         }
     }
 
-    /// Their event functions in flight. With ÿ = f_y a point p of the outline is at the height
-    /// y + p_x sin θ + p_y cos θ, whose third derivative is at most |ḟ| + |θ̇|³ |p|.
+    /// Their event functions in flight.
     #[inline(always)]
     pub(crate) fn in_flight(&self, now: &Flying<T>, jets: &mut Jets<T>) {
-        let state = now.state;
-        if let Some(limit) = self.rotation {
-            let side = if state.vtheta < T::ZERO {
-                -T::ONE
-            } else {
-                T::ONE
-            };
-            jets.push(Jet {
-                noise: limit * T::EPSILON,
-                ..Jet::new(
-                    EventFunction::Limit(Limit::Rotation),
-                    side * state.theta - limit,
-                    side * state.vtheta,
-                    T::ZERO,
-                )
-            });
+        for (limit, bound) in self.bounds.iter() {
+            match limit {
+                Limit::Rotation => rotation_in_flight(now, bound, jets),
+                Limit::UpperBound => self.height_in_flight(now, bound, jets),
+            }
         }
-        let Some(level) = self.upper_bound else {
-            return;
-        };
+    }
+
+    /// With ÿ = f_y a point p of the outline is at the height y + p_x sin θ + p_y cos θ, whose third
+    /// derivative is at most |ḟ| + |θ̇|³ |p|.
+    #[inline(always)]
+    fn height_in_flight(&self, now: &Flying<T>, level: T, jets: &mut Jets<T>) {
+        let &Flying {
+            state,
+            sine,
+            cosine,
+            push,
+        } = now;
         let spin = state.vtheta.abs();
-        let third = (now.force_rate + spin * spin * spin * self.reach) * INFLATION;
+        let third = (self.force[1] + spin * spin * spin * self.reach) * INFLATION;
         for &Vector2 { x: px, y: py } in self.outline.points() {
-            let height = px * now.sine + py * now.cosine;
-            let swing = px * now.cosine - py * now.sine;
+            let height = px * sine + py * cosine;
+            let swing = px * cosine - py * sine;
             jets.push(Jet {
                 third,
                 noise: (level.abs() + state.y.abs() + height.abs()) * T::EPSILON * 4.0,
@@ -126,44 +214,66 @@ impl<T: Real> Limits<T> {
                     EventFunction::Limit(Limit::UpperBound),
                     state.y + height + self.radius - level,
                     state.vy + state.vtheta * swing,
-                    now.force.y - state.vtheta.squared() * height,
+                    push.force.y - state.vtheta.squared() * height,
                 )
             });
         }
     }
 
-    /// Their event functions in taut motion, as power series of y, θ, and cos θ and sin θ, added to
-    /// those that are watched; the ones that provably are not reached within `step` are left out.
+    /// Their event functions in taut motion, as power series added to those that are watched; the
+    /// ones that provably are not reached within the step are left out.
     #[inline(always)]
     pub(crate) fn watch_series(
         &self,
-        y: &Polynomial<T>,
-        theta: &Polynomial<T>,
-        circle: &VectorSeries<T, 2>,
-        step: T,
+        motion: &TautMotion<T>,
         watched: &mut Vec<(EventFunction, Polynomial<T>, usize)>,
     ) {
-        if let Some(limit) = self.rotation {
-            for mut side in [*theta, theta.negated()] {
-                side[0] -= limit;
-                if !side.stays_negative(step, ORDER, T::ZERO) {
-                    watched.push((EventFunction::Limit(Limit::Rotation), side, ORDER));
+        let [_, y, theta] = motion.place;
+        for (limit, bound) in self.bounds.iter() {
+            let mut watch = |series: Polynomial<T>| {
+                if !series.stays_negative(motion.step, ORDER, T::ZERO) {
+                    watched.push((EventFunction::Limit(limit), series, ORDER));
+                }
+            };
+            match limit {
+                Limit::Rotation => {
+                    for mut side in [*theta, theta.negated()] {
+                        side[0] -= bound;
+                        watch(side);
+                    }
+                }
+                Limit::UpperBound => {
+                    for &Vector2 { x: px, y: py } in self.outline.points() {
+                        let mut top = Polynomial::default();
+                        for k in 0..=ORDER {
+                            let [cosine, sine] = motion.circle[k];
+                            top[k] = y[k] + px * sine + py * cosine;
+                        }
+                        top[0] = top[0] + self.radius - bound;
+                        watch(top);
+                    }
                 }
             }
         }
-        let Some(level) = self.upper_bound else {
-            return;
-        };
-        for &Vector2 { x: px, y: py } in self.outline.points() {
-            let mut top = Polynomial::default();
-            for k in 0..=ORDER {
-                let [cosine, sine] = circle[k];
-                top[k] = y[k] + px * sine + py * cosine;
-            }
-            top[0] = top[0] + self.radius - level;
-            if !top.stays_negative(step, ORDER, T::ZERO) {
-                watched.push((EventFunction::Limit(Limit::UpperBound), top, ORDER));
-            }
-        }
     }
+}
+
+/// θ changes evenly in flight.
+#[inline(always)]
+fn rotation_in_flight<T: Real>(now: &Flying<T>, limit: T, jets: &mut Jets<T>) {
+    let state = now.state;
+    let side = if state.vtheta < T::ZERO {
+        -T::ONE
+    } else {
+        T::ONE
+    };
+    jets.push(Jet {
+        noise: limit * T::EPSILON,
+        ..Jet::new(
+            EventFunction::Limit(Limit::Rotation),
+            side * state.theta - limit,
+            side * state.vtheta,
+            T::ZERO,
+        )
+    });
 }

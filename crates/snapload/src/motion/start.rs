@@ -2,7 +2,7 @@
 
 use crate::arithmetic::real::Real;
 use crate::model::cable::Cable;
-use crate::model::rules::{Limit, Rules, Stop};
+use crate::model::rules::{Rules, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
@@ -137,17 +137,19 @@ fn check_numbers<T: Real>(
         return Err(StartError::TooManyCables);
     }
     let Rules {
-        rotation_limit,
-        upper_bound,
+        limits,
         settled_below,
         sliding_above,
         t_end,
         max_impacts: _,
         v_stick,
     } = *rules;
-    let bounds = [rotation_limit, upper_bound, settled_below, sliding_above];
-    let given = bounds.into_iter().flatten();
-    let numbers = given.chain([t, t_end, v_stick]).chain(state.components());
+    let heights = [settled_below, sliding_above].into_iter().flatten();
+    let bounds = limits.iter().map(|(_, bound)| bound);
+    let numbers = bounds
+        .chain(heights)
+        .chain([t, t_end, v_stick])
+        .chain(state.components());
     let finite = Cell::new(numbers.into_iter().all(|number| number.is_finite()));
     system.map(|number| {
         finite.set(finite.get() && number.is_finite());
@@ -191,10 +193,7 @@ fn stop_at_start<T: Real>(
     t: T,
     state: &State<T>,
 ) -> Result<Option<Stop>, StartError> {
-    for limit in Limit::ALL {
-        let Some(bound) = limit.bound(rules) else {
-            continue;
-        };
+    for (limit, bound) in rules.limits.iter() {
         let value = limit.quantity(system, state);
         if value > bound {
             return Err(StartError::BeyondLimit {

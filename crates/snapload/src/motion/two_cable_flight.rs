@@ -7,7 +7,8 @@ use crate::arithmetic::processor::apart;
 use crate::model::forcing::Harmonic;
 use crate::model::state::State;
 use crate::motion::attachment::{Attachment, GapJet, INFLATION, Instant, flown};
-use crate::motion::two_cables::{AfterImpact, NEVER, TwoCableSystem};
+use crate::motion::limits::NEVER;
+use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 
 /// The most trials of one search; one is usual.
 const MAX_TRIALS: usize = 10;

@@ -12,9 +12,7 @@ use crate::model::mass::Mass;
 use crate::model::rules::Rules;
 use crate::model::state::State;
 use crate::model::system::System;
-
-/// A limit that is never reached.
-pub(crate) const NEVER: f64 = 1e300;
+use crate::motion::limits::LaneLimits;
 
 /// What does not change along a run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -138,8 +136,7 @@ impl<T: Real> TwoCableSystem<T> {
             shape: _,
         } = body;
         let Rules {
-            rotation_limit,
-            upper_bound,
+            limits,
             // These two are asked where a cable sticks or two are taut, and that is no bounce.
             settled_below: _,
             sliding_above: _,
@@ -153,7 +150,7 @@ impl<T: Real> TwoCableSystem<T> {
         else {
             return None;
         };
-        let never = T::from_f64(NEVER);
+        let LaneLimits { rotation, level } = LaneLimits::of(&limits, body)?;
         Some(Self {
             cables: [*first, *second],
             reach: [first.fairlead().length(), second.fairlead().length()],
@@ -164,9 +161,9 @@ impl<T: Real> TwoCableSystem<T> {
             force: forcing.bounds(),
             upward_acceleration_bound: forcing.upward_acceleration_bound(),
             vertical_acceleration_bound: forcing.vertical_acceleration_bound(),
-            rotation_limit: rotation_limit.unwrap_or(never),
+            rotation_limit: rotation,
             outline: body.reach(),
-            level: upper_bound.unwrap_or(never) - body.reach(),
+            level,
             t_end,
             max_impacts: T::from_f64(max_impacts as f64),
             v_stick,

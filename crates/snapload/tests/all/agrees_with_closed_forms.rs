@@ -1,7 +1,10 @@
 //! Motions whose answers are known exactly. The formulas are derived or cited beside each test.
 
 use crate::common::{Breakwater, STANDARD};
-use snapload::{Body, Cable, Forcing, Rules, Simulation, State, Stop, System, TautSet, Trajectory};
+use snapload::{
+    Body, Cable, Forcing, Limit, LimitBounds, Rules, Simulation, State, Stop, System, TautSet,
+    Trajectory,
+};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A point mass on one cable anchored at the origin.
@@ -44,8 +47,9 @@ fn a_limit_that_is_hardly_approached_hides_nothing() {
     let (length, g) = (1.0, 2.0);
     for (rise, turn) in [(0.0, 0.0), (1e-17, 0.0), (1e-15, 0.0), (0.0, 1e-17)] {
         let rules = Rules {
-            upper_bound: Some(-0.5 + 2e-16),
-            rotation_limit: Some(1.0),
+            limits: LimitBounds::none()
+                .with(Limit::UpperBound, -0.5 + 2e-16)
+                .with(Limit::Rotation, 1.0),
             ..Rules::until(0.75)
         };
         let start = State {
@@ -362,7 +366,7 @@ fn the_rotation_limit_of_a_free_spin() {
     let mut system = string(5.0, 0.0, 0.5);
     system.body = Body::rigid(snapload::Shape::Circle { radius: 0.1 }, 0.01);
     let rules = Rules {
-        rotation_limit: Some(FRAC_PI_2),
+        limits: LimitBounds::none().with(Limit::Rotation, FRAC_PI_2),
         v_stick: 1e-6,
         ..Rules::until(100.0)
     };

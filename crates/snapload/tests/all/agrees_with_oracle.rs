@@ -1,7 +1,7 @@
 //! Trajectories computed to 60 digits and more by independent code (`tests/oracle/README.md`).
 
 use crate::common::{breakwater, distance, number, oracle, state};
-use snapload::{Rules, Simulation, Stop, Trajectory};
+use snapload::{Limit, Rules, Simulation, Stop, Trajectory};
 
 /// How far an ordinary double run may be from the truth at an impact: 1e-9 as long as the oracle's
 /// own double run is within 1e-10, after that a hundred times the largest difference that one has
@@ -70,12 +70,7 @@ fn ends_agree() {
         it.stop_when_sliding = true;
         let run = it.run();
         let kind = case["end"]["kind"].as_str().unwrap_or_default();
-        let reason = match run.end().reason {
-            Stop::Settled => "settled",
-            Stop::RotationLimit => "rotation_limit",
-            Stop::SlidingStart => "sliding_start",
-            _ => "other",
-        };
+        let reason = run.end().reason.name();
         let decided = case["horizon_double"]["first_impact_rel_gt_1e_6"].is_null();
         println!("{id}: {kind} / {reason} (decided: {decided})");
         if decided {
@@ -128,7 +123,7 @@ fn taut_motion_agrees() {
         // rule.
         let it = breakwater(&case);
         let rules = Rules {
-            upper_bound: None,
+            limits: it.rules().limits.with(Limit::UpperBound, None),
             settled_below: None,
             ..it.rules()
         };

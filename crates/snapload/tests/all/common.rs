@@ -2,7 +2,8 @@
 
 use serde_json::Value;
 use snapload::{
-    Body, Harmonic, Matrix, Rules, Shape, Simulation, State, StepMap, System, Trajectory,
+    Body, Harmonic, Limit, LimitBounds, Matrix, Rules, Shape, Simulation, State, StepMap, System,
+    Trajectory,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -70,8 +71,9 @@ impl Breakwater {
 
     pub fn rules(&self) -> Rules {
         Rules {
-            rotation_limit: Some(FRAC_PI_2),
-            upper_bound: Some(self.h() + self.b),
+            limits: LimitBounds::none()
+                .with(Limit::Rotation, FRAC_PI_2)
+                .with(Limit::UpperBound, self.h() + self.b),
             settled_below: self.settle.then_some(0.05),
             sliding_above: self.stop_when_sliding.then_some(0.05),
             t_end: self.t_end,

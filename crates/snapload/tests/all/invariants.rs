@@ -4,8 +4,8 @@ use crate::common::distance;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::{
-    Case, Forcing, Harmonic, Parameters, Playback, Rules, Simulation, State, Stop, System,
-    Trajectory, natural_inertia,
+    Case, Forcing, Harmonic, Limit, LimitBounds, Parameters, Playback, Rules, Simulation, State,
+    Stop, System, Trajectory, natural_inertia,
 };
 
 /// A random legal case: any shape, any restitution, any forcing, any start inside the region.
@@ -242,8 +242,9 @@ fn reliable(run: &Trajectory) -> &[snapload::Impact] {
 fn shifted(case: &Case, p: &Parameters, t0: f64) -> Trajectory {
     let simulation = case.simulation();
     let rules = Rules {
-        rotation_limit: Some(snapload::ROTATION_LIMIT),
-        upper_bound: Some(snapload::anchor_height(p.r, p.a) + p.b),
+        limits: LimitBounds::none()
+            .with(Limit::Rotation, snapload::ROTATION_LIMIT)
+            .with(Limit::UpperBound, snapload::anchor_height(p.r, p.a) + p.b),
         settled_below: p.stop_when_settled.then_some(snapload::SETTLING_HEIGHT),
         sliding_above: p.stop_when_sliding.then_some(snapload::SETTLING_HEIGHT),
         t_end: t0 + p.t_end,

@@ -4,8 +4,8 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use snapload::analysis::{Uncertainty, trusted_run, unwatched};
 use snapload::{
-    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Parameters, Playback, Rules, Shape,
-    Simulation, State, Stop, System, Trajectory, named_case,
+    Body, Cable, Case, CaseError, Forcing, Harmonic, Impact, Limit, LimitBounds, Parameters,
+    Playback, Rules, Shape, Simulation, State, Stop, System, Trajectory, named_case,
 };
 
 /// Anchors above the body (the engine's picture is upside down), fairleads on it, and how much
@@ -338,7 +338,7 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
                 let rules = Rules {
                     max_impacts: 20_000,
                     // Parallel tethers that swing level with their anchors lie on each other.
-                    upper_bound: Some(0.9),
+                    limits: LimitBounds::none().with(Limit::UpperBound, 0.9),
                     v_stick: 1e-6,
                     ..Rules::until(40.0)
                 };

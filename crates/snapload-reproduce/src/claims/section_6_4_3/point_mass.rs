@@ -6,7 +6,7 @@ use crate::claims::numbers::{min, span, spearman};
 use crate::claims::runs::{FEW, chapter, each, near, row, run, standard};
 use crate::claims::verdict::{Finding, Judged, Judges, Verdict};
 use snapload::analysis::ForceScan;
-use snapload::{Case, CaseError, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
+use snapload::{Case, CaseError, Limit, Parameters, Playback, Rules, Simulation, Stop, Trajectory};
 
 pub(super) const JUDGES: &Judges<fn(&Sweeps) -> Judged> = &[
     ("6.4.3-06", |sweeps| {
@@ -113,7 +113,7 @@ fn first_at_bound(parameters: &Parameters) -> Result<Vec<f64>, CaseError> {
 fn reaches_bound(parameters: &Parameters) -> Result<bool, CaseError> {
     let simulation = Case::new(*parameters)?.into_simulation();
     let rules = Rules {
-        rotation_limit: None,
+        limits: simulation.rules().limits.with(Limit::Rotation, None),
         ..*simulation.rules()
     };
     let (system, start) = (simulation.system().clone(), *simulation.state());

@@ -17,7 +17,6 @@ use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::prelude::{Error, ExplicitRungeKutta, Interpolation, ODE, Status};
 use snapload::analysis::{OnProgress, Progress, Unfinished};
 use snapload::{CaseError, State, Stop, TautSet};
-use std::f64::consts::FRAC_PI_2;
 
 /// Tolerance of a step, relative and absolute, in the engine's units.
 const TOLERANCE: f64 = 1e-11;
@@ -287,17 +286,12 @@ fn run<const N: usize>(
     Ok(record.finish(t, state, stop))
 }
 
-/// The limit that a state is beyond, as for lines that do not stretch: half a turn either way, and
-/// the floor. It is asked for now and then, so that a run may end a little later than it should.
+/// The limit that a state is beyond, as for lines that do not stretch. It is asked for now and then, so that a run may end a little later than it should.
 fn exceeded(prepared: &Prepared, state: &State) -> Option<Stop> {
     let (system, rules) = (&prepared.model.system, &prepared.model.rules);
-    if state.theta.abs() >= FRAC_PI_2 {
-        return Some(Stop::RotationLimit);
-    }
-    let bound = rules
-        .upper_bound
-        .filter(|bound| system.top(state) >= *bound);
-    bound.map(|_| Stop::UpperBound)
+    let mut limits = rules.limits.iter();
+    let beyond = limits.find(|(limit, bound)| limit.quantity(system, state) >= *bound);
+    beyond.map(|(limit, _)| limit.stop())
 }
 
 fn gave_up<const N: usize>(error: Error<f64, Components<N>>) -> CaseError {

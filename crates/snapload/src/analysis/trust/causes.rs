@@ -3,7 +3,6 @@
 use crate::analysis::trust::HorizonCause;
 use crate::analysis::trust::covariance::CovarianceFactor;
 use crate::model::cable::Normal;
-use crate::model::rules::Limit;
 use crate::motion::active_set::normal_acceleration;
 use crate::motion::events::Reached;
 use crate::motion::simulation::{Simulation, Step};
@@ -140,14 +139,10 @@ pub(super) fn cause_at_start(
 pub(super) fn may_stop_at_start(simulation: &Simulation, spread: &Spread) -> bool {
     let (system, rules, state) = (simulation.system(), simulation.rules(), simulation.state());
     let near = |place: f64, margin: f64| place.abs() <= margin;
-    let limits = Limit::ALL.into_iter().any(|limit| {
-        let above = |bound: f64| limit.quantity(system, state) - bound;
-        let margin = spread
-            .at_most(&limit.slope_bounds(system))
-            .min(START_TOLERANCE);
-        limit
-            .bound(rules)
-            .is_some_and(|bound| near(above(bound), margin))
+    let limits = rules.limits.iter().any(|(limit, bound)| {
+        let slopes = limit.slope_bounds(system, bound);
+        let margin = spread.at_most(&slopes).min(START_TOLERANCE);
+        near(limit.quantity(system, state) - bound, margin)
     });
     let heights = [rules.settled_below, rules.sliding_above];
     let margin = REACH * spread.sizes[1];
@@ -272,18 +267,15 @@ fn may_snap(simulation: &Simulation, step: &Step, neighbours: &Neighbours, cable
 fn may_stop(simulation: &Simulation, step: &Step, neighbours: &Neighbours) -> bool {
     let (system, rules) = (simulation.system(), simulation.rules());
     let (before, reached) = (&step.before, step.event.reached);
-    let exceeds = Limit::ALL.into_iter().any(|limit| {
-        limit.bound(rules).is_some_and(|bound| {
-            let slopes = limit.slope_bounds(system);
-            let margin = neighbours.along.at_most(&slopes);
-            let at_end = neighbours.met.at_most(&slopes);
-            let within = |margin: f64| {
-                simulation.largest_within(step, limit, bound - margin) + margin >= bound
-            };
-            !reached.limits.contains(limit)
-                && within(margin.max(at_end))
-                && (limit.quantity(system, before) + at_end >= bound || within(margin))
-        })
+    let exceeds = rules.limits.iter().any(|(limit, bound)| {
+        let slopes = limit.slope_bounds(system, bound);
+        let margin = neighbours.along.at_most(&slopes);
+        let at_end = neighbours.met.at_most(&slopes);
+        let within =
+            |margin: f64| simulation.largest_within(step, limit, bound - margin) + margin >= bound;
+        !reached.limits.contains(limit)
+            && within(margin.max(at_end))
+            && (limit.quantity(system, before) + at_end >= bound || within(margin))
     });
     // One cable may stick as another leaves.
     let stuck = step.event.reached.gaps.intersection(step.taut_after);
@@ -307,13 +299,10 @@ fn may_fall_short(
     approach: &Approach,
     neighbours: &Neighbours,
 ) -> bool {
-    let (before, reached) = (&step.before, step.event.reached);
-    let Some(limit) = reached.limits.iter().next() else {
+    let Some(limit) = step.event.reached.limits.iter().next() else {
         return false;
     };
-    let Approach { rate, delay } = approach;
-    let [.., x, y, theta] = *rate;
-    let mut slowing = delay[0] * x + delay[1] * y + delay[2] * theta;
-    slowing += delay[1] * limit.centripetal(simulation.system(), before);
+    let reached = simulation.limit_reached(step, limit);
+    let slowing = reached.map_or(0.0, |function| -function.accel / function.rate);
     neighbours.reach_in_time(approach) * 2.0 * slowing >= 1.0
 }

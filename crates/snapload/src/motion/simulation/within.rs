@@ -10,15 +10,14 @@ use crate::model::system::System;
 use crate::model::taut_set::{MAX_CABLES, TautSet};
 use crate::motion::active_set::tensions;
 use crate::motion::contact::Contact;
+use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
 use crate::motion::extremes::rises_above_zero;
 use crate::motion::flight::Flight;
+use crate::motion::limits::Along;
 use crate::motion::simulation::{Simulation, Step};
 use crate::motion::taut_series::Series;
 use std::borrow::Cow;
 
-/// Where the bound on the highest point has to be close, a stretch is looked at in this many equal
-/// parts.
-const LOOKS: usize = 64;
 /// Instants along a step at which tensions are looked at.
 const INSTANTS: usize = 17;
 
@@ -121,6 +120,36 @@ impl<T: Real> Stretch<'_, T> {
                 [y, y, theta]
             }
         }
+    }
+}
+
+/// The latest step, with the motion along it.
+struct Latest<'a, T: Real> {
+    step: &'a Step<T>,
+    motion: Stretch<'a, T>,
+    system: &'a System<T>,
+}
+
+impl<T: Real> Along<T> for Latest<'_, T> {
+    #[inline(always)]
+    fn duration(&self) -> T {
+        self.step.t_end - self.step.t_start
+    }
+
+    #[inline(always)]
+    fn ends(&self) -> [&State<T>; 2] {
+        [&self.step.start, &self.step.before]
+    }
+
+    #[inline(always)]
+    fn state(&self, s: T) -> State<T> {
+        self.motion.state(s)
+    }
+
+    #[inline(always)]
+    fn acceleration_bounds(&self) -> [T; 2] {
+        let [_, y, theta] = self.motion.bends(self.system);
+        [y, theta]
     }
 }
 
@@ -273,54 +302,28 @@ impl<T: Real> Simulation<T> {
     /// A bound on what a limit bounds along the latest step, close where it is above `floor`.
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
-        match limit {
-            Limit::Rotation => self.farthest_turned_within(step, floor),
-            Limit::UpperBound => self.highest_within(step, floor),
-        }
+        let latest = Latest {
+            step,
+            motion: self.motion(step.taut),
+            system: &self.system,
+        };
+        limit.largest_along(&self.system, &latest, floor)
     }
 
-    /// A bound on |θ| along the latest step, close where it is above `floor`. In a flight it is
-    /// largest at an end.
-    #[inline(always)]
-    fn farthest_turned_within(&self, step: &Step<T>, floor: T) -> T {
-        let ends = step.start.theta.abs().max(step.before.theta.abs());
-        let Some(series) = self.expanded(step.taut) else {
-            return ends;
-        };
-        let [_, bend] = series.acceleration_bounds();
+    /// The event function of a limit at the end of the latest step, where it was reached.
+    pub(crate) fn limit_reached(&self, step: &Step<T>, limit: Limit) -> Option<Jet<T>> {
+        let mut jets = Jets::new();
         let s = step.t_end - step.t_start;
-        let rough = ends + bend * s * s * 0.125;
-        if rough < floor {
-            return rough;
+        match self.motion(step.taut) {
+            Stretch::Closed(flight) => flight.jets_at(s, &mut jets),
+            Stretch::Expanded(series) => series.jets_at(s, &mut jets),
         }
-        let width = s / LOOKS as f64;
-        (0..=LOOKS)
-            .map(|k| series.state(width * k as f64).theta.abs())
-            .fold(ends, T::max)
-            + bend * width * width * 0.125
-    }
-
-    /// A bound on the highest y of the body along the latest step, close where it is above `floor`.
-    #[inline(always)]
-    fn highest_within(&self, step: &Step<T>, floor: T) -> T {
-        let s = step.t_end - step.t_start;
-        let [y_bend, theta_bend] = match self.expanded(step.taut) {
-            Some(series) => series.acceleration_bounds(),
-            None => [self.system.forcing.vertical_acceleration_bound(), T::ZERO],
-        };
-        let reach = self.system.body.reach();
-        let rough = step.start.y.max(step.before.y) + y_bend * s * s * 0.125 + reach;
-        if rough < floor {
-            return rough;
-        }
-        let width = s / LOOKS as f64;
-        let spin = step.start.vtheta.abs() + theta_bend * s;
-        let bend = y_bend + (spin * spin + theta_bend) * reach;
-        let motion = self.motion(step.taut);
-        (0..=LOOKS)
-            .map(|k| self.system.top(&motion.state(width * k as f64)))
-            .fold(step.start.y, T::max)
-            + bend * width * width * 0.125
+        let of_limit = jets
+            .iter()
+            .filter(|jet| jet.function == EventFunction::Limit(limit));
+        of_limit
+            .copied()
+            .reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
     /// The least and the largest tension of each cable along the latest step, as they are at

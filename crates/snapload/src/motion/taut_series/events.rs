@@ -4,6 +4,7 @@ use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
+use crate::motion::limits::TautMotion;
 use crate::motion::taut_series::Series;
 
 /// A tension below this along a whole step is none \[F\].
@@ -45,8 +46,12 @@ impl<T: Real> Series<T> {
                 self.watched.push((function, series, order));
             }
         }
-        self.limits
-            .watch_series(&self.y, &self.theta, &self.circle, step, &mut self.watched);
+        let motion = TautMotion {
+            place: [&self.x, &self.y, &self.theta],
+            circle: &self.circle,
+            step,
+        };
+        self.limits.watch_series(&motion, &mut self.watched);
     }
 
     #[inline(always)]
