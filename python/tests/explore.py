@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, sync_playwright
 from windows import Window, Windows
 
@@ -106,6 +107,18 @@ PAINTED = """after => new Promise((done, failed) => {
 })"""
 
 
+@pytest.fixture(scope="session")
+def code(windows: Windows, url: str) -> Iterator[Page]:
+    """A page the modules of which are called, and to which nothing else is done: tests share it."""
+    wrong: list[str] = []
+    window = windows.take(has_touch=False)
+    page = window.load(url, "t=0", wrong, refused=0, viewport=DESKTOP)
+    settled(page)
+    yield page
+    window.context.close()
+    assert wrong == []
+
+
 def settled(page: Page, after: int = 0) -> None:
     """Waits until a picture is painted, one later than so many."""
     page.evaluate(PAINTED, after)
@@ -150,6 +163,21 @@ def shown_is(page: Page, run: dict[str, Any]) -> None:
         assert read(page.locator(f'[data-norm="{norm}"]').inner_text()) == pytest.approx(run["norms"][norm], rel=1e-4)
     page.locator("#last").click()
     assert exact_time(page) == run["end"]["t"]
+
+
+def blameless(page: Page) -> None:
+    """axe-core finds nothing that would keep anybody out."""
+    result = Axe().run(page)
+    assert result.violations_count == 0, result.generate_report()
+
+
+def blameless_in_light_and_dark(page: Page) -> None:
+    """The same in both schemes, between which the system changes while the page is open."""
+    for scheme in ["light", "dark"]:
+        # Without motion no colour is on its way to the other scheme while axe-core looks.
+        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        assert page.evaluate("() => matchMedia('(prefers-color-scheme: dark)').matches") == (scheme == "dark")
+        blameless(page)
 
 
 def download(page: Page, button: str, path: Path) -> bytes:
