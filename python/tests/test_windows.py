@@ -36,8 +36,10 @@ def test_a_window_that_was_used_is_as_a_new_one(browser, url):
     for window in [used, new]:
         page = window.load(url, "t=1", wrong, refused=0, viewport=DESKTOP)
         settled(page)
-        told.append((page.evaluate(LEFT_BEHIND), drawn(page)))
+        pictures = drawn(page)
+        told.append((page.evaluate(LEFT_BEHIND), pictures))
         window.context.close()
     assert told[0] == told[1]
+    assert told[0][0]["size"][:2] == [DESKTOP["width"], DESKTOP["height"]]
     assert all(after_use[what] != told[1][0][what] for what in after_use if what != "steps"), after_use
     assert wrong == []

@@ -61,8 +61,6 @@ class Window:
         self.page.unroute_all(behavior="ignoreErrors")
         self.page.goto(urljoin(self.url, STILL))
         self.page.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
-        # A pointer that rests where the test left it would hover over what comes there.
-        self.page.mouse.move(-1, -1)
         self.tools.send("Page.resetNavigationHistory")
 
 
