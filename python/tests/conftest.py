@@ -13,7 +13,7 @@ import matplotlib
 import pytest
 
 pytest.register_assert_rewrite("explore")
-from explore import browser, open_at, open_page, url  # noqa: E402, F401  (fixtures)
+from explore import browser, code, open_at, open_page, url, windows  # noqa: E402, F401  (fixtures)
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -12,7 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, sync_playwright
+from windows import Window, Windows
 
 ROOT = Path(__file__).resolve().parents[2]
 DESKTOP = {"width": 1440, "height": 900}
@@ -55,33 +57,38 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
+@pytest.fixture(scope="session")
+def windows(browser: Browser) -> Windows:
+    return Windows(browser)
+
+
 @pytest.fixture
-def open_at(browser: Browser) -> Iterator[Callable[..., Page]]:
+def open_at(windows: Windows, request: pytest.FixtureRequest) -> Iterator[Callable[..., Page]]:
     """Opens a page at an address; afterwards nothing may have gone wrong in it, nor asked another host."""
-    contexts, wrong = [], []
+    taken: list[Window] = []
+    wrong: list[str] = []
+    failed_before = request.session.testsfailed
 
     def visit(
-        url: str, fragment: str = "", refused: int = 0, viewport: dict[str, int] = DESKTOP, **options: Any
+        url: str,
+        fragment: str = "",
+        refused: int = 0,
+        viewport: dict[str, int] = DESKTOP,
+        has_touch: bool = False,
+        **media: str,
     ) -> Page:
+        window = windows.take(has_touch)
+        taken.append(window)
         # A page without a link plays at once, unless nobody wants motion.
         still = {} if fragment else {"reduced_motion": "reduce"}
-        context = browser.new_context(viewport=viewport, accept_downloads=True, **{**still, **options})
-        context.grant_permissions(["clipboard-read", "clipboard-write"], origin=url.rstrip("/"))
-        contexts.append(context)
-        page = context.new_page()
-        page.set_default_timeout(15_000)
-        outside = lambda address: not address.startswith((url, "blob:" + url, "data:"))  # noqa: E731
-        page.on("pageerror", lambda error: wrong.append(f"error in the page: {error}"))
-        page.on("request", lambda request: outside(request.url) and wrong.append(f"asked {request.url}"))
-        # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
-        page.on("console", lambda line: refused or wrong.append(f"console: {line.text}"))
-        page.goto(url + (f"#{fragment}" if fragment else ""))
+        page = window.load(url, fragment, wrong, refused, viewport, **{**still, **media})
         settled(page)
         return page
 
     yield visit
-    for context in contexts:
-        context.close()
+    for window in taken:
+        # A test that failed may have left anything behind, such as a key that is held.
+        windows.give_back(window, usable=request.session.testsfailed == failed_before)
     assert wrong == []
 
 
@@ -91,9 +98,30 @@ def open_page(open_at: Callable[..., Page], url: str) -> Callable[..., Page]:
     return lambda fragment="", **options: open_at(url, fragment, **options)
 
 
+PAINTED = """after => new Promise((done, failed) => {
+    const took = document.getElementById('took');
+    const look = () => Number(took.dataset.count ?? 0) > after && done();
+    new MutationObserver(look).observe(took, { attributes: true });
+    setTimeout(() => failed(new Error('no picture was painted in time')), 15_000);
+    look();
+})"""
+
+
+@pytest.fixture(scope="session")
+def code(windows: Windows, url: str) -> Iterator[Page]:
+    """A page the modules of which are called, and to which nothing else is done: tests share it."""
+    wrong: list[str] = []
+    window = windows.take(has_touch=False)
+    page = window.load(url, "t=0", wrong, refused=0, viewport=DESKTOP)
+    settled(page)
+    yield page
+    window.context.close()
+    assert wrong == []
+
+
 def settled(page: Page, after: int = 0) -> None:
     """Waits until a picture is painted, one later than so many."""
-    comes_true(page, lambda: count(page) > after)
+    page.evaluate(PAINTED, after)
 
 
 def comes_true(page: Page, what: Callable[[], bool]) -> None:
@@ -135,6 +163,21 @@ def shown_is(page: Page, run: dict[str, Any]) -> None:
         assert read(page.locator(f'[data-norm="{norm}"]').inner_text()) == pytest.approx(run["norms"][norm], rel=1e-4)
     page.locator("#last").click()
     assert exact_time(page) == run["end"]["t"]
+
+
+def blameless(page: Page) -> None:
+    """axe-core finds nothing that would keep anybody out."""
+    result = Axe().run(page)
+    assert result.violations_count == 0, result.generate_report()
+
+
+def blameless_in_light_and_dark(page: Page) -> None:
+    """The same in both schemes, between which the system changes while the page is open."""
+    for scheme in ["light", "dark"]:
+        # Without motion no colour is on its way to the other scheme while axe-core looks.
+        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
+        assert page.evaluate("() => matchMedia('(prefers-color-scheme: dark)').matches") == (scheme == "dark")
+        blameless(page)
 
 
 def download(page: Page, button: str, path: Path) -> bytes:

@@ -7,13 +7,14 @@ import re
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from explore import (
     DESKTOP,
     PHONE,
     SIDEWAYS,
     SMALLER,
     SMALLEST,
+    blameless,
+    blameless_in_light_and_dark,
     comes_true,
     count,
     download,
@@ -24,18 +25,16 @@ from explore import (
 from playwright.sync_api import Page, expect
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("viewport", [DESKTOP, SMALLER, PHONE], ids=["desktop", "smaller", "phone"])
-def test_it_is_for_everyone(open_page, viewport, scheme):
+def test_it_is_for_everyone(open_page, viewport):
     page = open_page(
         "f_o=0.27&stop_when_settled=false&t=8.7&t_end=12&map=f_o,0,1,5,e,0.5,1,4,reason",
         viewport=viewport,
-        color_scheme=scheme,
     )
     expect(page.locator("#map-progress")).to_have_text("20 runs")
     page.locator("details.group").evaluate_all("groups => groups.forEach(group => (group.open = true))")
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth"), "it is wider than the window"
-    blameless(page)
+    blameless_in_light_and_dark(page)
 
 
 @pytest.mark.parametrize("viewport", [SMALLEST, SIDEWAYS], ids=["smallest", "sideways"])
@@ -50,9 +49,9 @@ def test_it_fits_in_a_small_window(open_page, viewport):
 
 
 @pytest.mark.parametrize("height", [150, 40])
-def test_a_low_window_breaks_nothing(open_page, height):
+def test_a_low_window_breaks_nothing(open_page, code, height):
     open_page("t=0", viewport={"width": 900, "height": height}).screenshot(full_page=True)
-    lines = open_page().evaluate(
+    lines = code.evaluate(
         """async height => {
             const { Run } = await import('./run.js');
             const { sceneShapes } = await import('./scene.js');
@@ -76,12 +75,6 @@ def test_a_hidden_canvas_breaks_nothing(open_page):
     settled(page)
 
 
-def blameless(page: Page) -> None:
-    """axe-core finds nothing that would keep anybody out."""
-    result = Axe().run(page)
-    assert result.violations_count == 0, result.generate_report()
-
-
 def test_the_keys_are_told_and_can_be_turned_off(open_page):
     page = open_page()
     page.keyboard.press("?")
@@ -97,9 +90,8 @@ def test_the_keys_are_told_and_can_be_turned_off(open_page):
 
 
 @pytest.mark.parametrize("floor", ["Infinity", "0"])
-def test_a_slack_line_is_as_long_as_its_cable(open_page, floor):
-    page = open_page()
-    lines = page.evaluate(
+def test_a_slack_line_is_as_long_as_its_cable(code, floor):
+    lines = code.evaluate(
         """async floor => {
             const { hang } = await import('./hang.js');
             const ends = [[1, -1.2], [1.49, -0.05], [0.2, -1.3], [0, -1.1], [-0.7, -1.0], [0.9, -0.0001]];
@@ -118,8 +110,8 @@ def test_a_slack_line_is_as_long_as_its_cable(open_page, floor):
 ROUNDING_PX = 1e-9
 
 
-def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(open_page):
-    told = open_page("t=0").evaluate(
+def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(code):
+    told = code.evaluate(
         """async () => {
             const { Pen, SEEN_PX } = await import('./pen.js');
             const wave = i => [i / 3, 60 * Math.sin(i / 25) * Math.cos(i / 190)];
@@ -157,10 +149,9 @@ def test_a_line_of_many_points_is_drawn_in_few_that_look_the_same(open_page):
     assert counts[0] < 400 and counts[2] == 1200 and counts[3] < 60, counts
 
 
-def test_between_rows_the_motion_is_the_engines(open_page, command_json):
-    page = open_page()
+def test_between_rows_the_motion_is_the_engines(code, command_json):
     exact = command_json("run", "--ensemble", "0", "--sample", "0.0317")["motion"]
-    drawn = page.evaluate(
+    drawn = code.evaluate(
         """async times => {
             const { Motion } = await import('./run.js');
             const body = JSON.stringify({ values: {}, ghost: null, samples: 1200 });

@@ -100,8 +100,8 @@ def test_a_file_is_written_while_the_page_goes_on(open_page):
     assert waiting[0].request.post_data_json["values"] == {"f_o": 0.31}, "the values are those of the click"
 
 
-def test_dragging_through_slow_runs_shows_some_of_them(open_page):
-    answers = open_page("t=0").evaluate(
+def test_dragging_through_slow_runs_shows_some_of_them(code):
+    answers = code.evaluate(
         """async () => {
             const { Runner } = await import('./api.js');
             const slow = signal => new Promise((done, failed) => {
@@ -161,8 +161,8 @@ def test_arrow_keys_are_one_step_to_go_back(open_page):
     expect(page.locator("#field-f_o")).to_have_value("0.3")
 
 
-def test_labels_of_axes_stay_on_the_canvas(open_page):
-    cut = open_page("t=0").evaluate(
+def test_labels_of_axes_stay_on_the_canvas(code):
+    cut = code.evaluate(
         """async () => {
             const { Frame, drawAxes, ticks } = await import('./plot.js');
             const canvas = Object.assign(document.createElement('canvas'), { width: 340, height: 120 });
@@ -183,8 +183,8 @@ def test_labels_of_axes_stay_on_the_canvas(open_page):
     assert "10000" in cut["labels"] and cut["cut"] == []
 
 
-def test_an_axis_has_two_labels_at_the_least(open_page):
-    values = open_page("t=0").evaluate(
+def test_an_axis_has_two_labels_at_the_least(code):
+    values = code.evaluate(
         """async () => {
             const { ticks } = await import('./plot.js');
             return [[-0.19, 0.17], [-3.66, -3.51], [0.1, 1900]].map(([low, high]) => ticks(low, high, 3).values);
@@ -249,22 +249,26 @@ def test_it_plays_the_time_that_is_shown(open_page):
     assert page.locator("#play").inner_text() == "Pause" and 2 <= exact_time(page) <= 2.4
 
 
-@pytest.mark.parametrize(("text", "value"), [("−0.25", "-0.25"), ("-.5", "-0.5"), ("2.5E-1", "0.25")])
-def test_numbers_may_be_pasted_as_they_are_printed(open_page, text, value):
+def test_numbers_may_be_pasted_as_they_are_printed(open_page):
     page = open_page("t=0")
-    before = count(page)
-    page.locator("#field-nu").fill(text)
-    page.locator("#field-nu").press("Enter")
-    settled(page, before)
-    expect(page.locator("#shell")).to_contain_text(f"nu={value}")
+    for text, value in [("−0.25", "-0.25"), ("-.5", "-0.5"), ("2.5E-1", "0.25")]:
+        before = count(page)
+        page.locator("#field-nu").fill(text)
+        page.locator("#field-nu").press("Enter")
+        settled(page, before)
+        expect(page.locator("#shell")).to_contain_text(f"nu={value}")
 
 
-@pytest.mark.parametrize("text", ["0x10", "Infinity", "1_0"])
-def test_what_is_no_decimal_is_refused(open_page, text):
+def test_what_is_no_decimal_is_refused(open_page):
     page = open_page("t=0", refused=1)
-    page.locator("#field-nu").fill(text)
-    page.locator("#field-nu").press("Enter")
-    expect(page.locator("#error-nu")).to_contain_text("is not allowed")
+    for text in ["0x10", "Infinity", "1_0"]:
+        page.locator("#field-nu").fill(text)
+        page.locator("#field-nu").press("Enter")
+        expect(page.locator("#error-nu")).to_contain_text(f'nu = "{text}" is not allowed')
+        before = count(page)
+        page.locator("#field-nu").fill("0.5")
+        settled(page, before)
+        expect(page.locator("#error-nu")).to_be_hidden()
 
 
 def test_what_is_read_between_distant_rows_says_so(open_page, command_json):

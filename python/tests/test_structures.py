@@ -27,8 +27,8 @@ def test_answers_are_those_of_the_command(command_json: Callable[..., Any]) -> N
 
 def test_seas_are_those_of_the_command(command_json: Callable[..., Any]) -> None:
     sea = ROOT / "docs" / "examples" / "cylinder-sea.toml"
-    said = command_json("seas", str(sea), "--set", "run.duration=600", "--seeds", "3", "--elastic")
-    found = snapload.Structure.from_toml(sea, {"run.duration": 600}).seas(seeds=3, elastic=True)
+    said = command_json("seas", str(sea), "--set", "run.duration=330", "--seeds", "3", "--elastic")
+    found = snapload.Structure.from_toml(sea, {"run.duration": 330}).seas(seeds=3, elastic=True)
     assert found.data == said
     assert found.largest_tensions_n.values.tolist() == said["largest_tensions_n"]
 
