@@ -106,6 +106,17 @@ pub(crate) fn read_entries(entries: &Bound<'_, PyDict>) -> PyResult<Vec<(&'stati
 /// A value of Python or NumPy as one of the engine; what is none is refused in the words of the
 /// key.
 pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    match plain_value(value)? {
+        Ok(value) => Ok(value),
+        Err(shown) => {
+            let key = key_named(name).map_err(of_case)?;
+            Err(of_case(key.refuse(name, shown)))
+        }
+    }
+}
+
+/// A value of Python or NumPy as one of the engine; else what is shown of it.
+pub(crate) fn plain_value(value: &Bound<'_, PyAny>) -> PyResult<Result<Value, String>> {
     // NumPy's scalars, and its arrays without dimensions, give Python's own.
     let plain = value.call_method0(intern!(value.py(), "item")).ok();
     let value = plain.as_ref().unwrap_or(value);
@@ -118,17 +129,11 @@ pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> 
     } else {
         value.extract().ok().map(Value::Number)
     };
-    match read {
+    Ok(match read {
         Some(value) => Ok(value),
-        None => {
-            let shown = match value.is_instance_of::<PyInt>() {
-                true => value.to_string(),
-                false => format!("(a {})", value.get_type().name()?),
-            };
-            let key = key_named(name).map_err(of_case)?;
-            Err(of_case(key.refuse(name, shown)))
-        }
-    }
+        None if value.is_instance_of::<PyInt>() => Err(value.to_string()),
+        None => Err(format!("(a {})", value.get_type().name()?)),
+    })
 }
 
 /// A value as Python's own.
