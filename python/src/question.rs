@@ -1,12 +1,11 @@
 //! Questions about one case: all that the report knows, through one function.
 
-use crate::case::{Case, plain_value};
-use crate::errors::{of_case, of_program, of_work};
+use crate::case::{Case, checked};
+use crate::errors::{of_program, of_work};
 use crate::interrupt::interruptible;
 use crate::run::to_json;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use snapload::Value;
 use snapload::analysis::Progress;
 use snapload_report::question;
 use std::sync::Arc;
@@ -23,13 +22,7 @@ pub(crate) fn answer(
 ) -> PyResult<String> {
     let no_question = || of_program(format!("there is no question {name:?}"));
     let question = question(name).ok_or_else(no_question)?;
-    let options = options.iter().map(|(name, value)| {
-        let name: String = name.extract()?;
-        let key = question.option(&name).map_err(of_case)?;
-        let value = plain_value(&value)?.map_err(|shown| of_case(key.refuse(&name, shown)))?;
-        Ok((name, value))
-    });
-    let options = options.collect::<PyResult<Vec<(String, Value)>>>()?;
+    let options = checked(options, |name| question.option(name))?;
     let theirs = Arc::clone(&case.case);
     let answer = interruptible(py, progress, move |watch| {
         let on_progress = |progress: Progress| watch.go_on(progress);

@@ -54,6 +54,7 @@ function field({ name, unit, meaning, kind, default: usual }) {
   const label = document.createElement("label");
   label.title = prose(meaning);
   label.append(`${name.replaceAll("_", " ")}${unitText(unit) && ` [${unitText(unit)}]`} `);
+  /** @type {any} */
   const input = document.createElement(kind.type === "choice" ? "select" : "input");
   input.id = `question-${name}`;
   label.append(input);

@@ -5,7 +5,7 @@ use axum::extract::{FromRequest, Request};
 use axum::http::StatusCode;
 use serde::de::DeserializeOwned;
 use serde_json::Value as JsonValue;
-use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named};
+use snapload::{Case, CaseError, Key, Parameters, Value, key_named};
 use snapload_report::Question;
 use std::time::Duration;
 
@@ -35,12 +35,32 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
 
 /// Keys and values, each of them legal by itself; `null` is a key left out.
 pub(crate) fn entries(values: Values) -> Result<Vec<(&'static str, Value)>, CaseError> {
+    checked(values, key_named)
+}
+
+/// The same of the options of a question.
+pub(crate) fn options(
+    question: &Question,
+    values: Values,
+) -> Result<Vec<(&'static str, Value)>, CaseError> {
+    checked(values, |name| question.option(name))
+}
+
+fn checked(
+    values: Values,
+    key_named: impl Fn(&str) -> Result<&'static Key, CaseError>,
+) -> Result<Vec<(&'static str, Value)>, CaseError> {
     let mut entries = Vec::new();
     for (name, json) in values {
-        let key = key_named(&name)?;
-        let value = value(json).map_err(|shown| key.refuse(&name, shown))?;
-        if let Some(value) = value {
-            entries.push((check_entry(&name, &value)?.name, value));
+        let key = key_named(&name);
+        match value(json) {
+            Ok(Some(value)) => {
+                let key = key.map_err(|error| error.given(&value))?;
+                key.check(key.name, &value)?;
+                entries.push((key.name, value));
+            }
+            Ok(None) => _ = key?,
+            Err(shown) => return Err(key?.refuse(&name, shown)),
         }
     }
     Ok(entries)
@@ -49,20 +69,6 @@ pub(crate) fn entries(values: Values) -> Result<Vec<(&'static str, Value)>, Case
 /// The case of some values.
 pub(crate) fn case(values: Values) -> Result<Case, CaseError> {
     Case::new(Parameters::from_entries(entries(values)?)?)
-}
-
-/// The options that a request gives to a question, by name; `null` is an option left out.
-pub(crate) fn options(
-    question: &Question,
-    given: Values,
-) -> Result<Vec<(&'static str, Value)>, CaseError> {
-    let mut options = Vec::new();
-    for (name, json) in given {
-        let key = question.option(&name)?;
-        let value = value(json).map_err(|shown| key.refuse(&name, shown))?;
-        options.extend(value.map(|value| (key.name, value)));
-    }
-    Ok(options)
 }
 
 /// A value of JSON, none of `null`; else what it is instead, in words.

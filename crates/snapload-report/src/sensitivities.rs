@@ -74,13 +74,13 @@ fn in_words(found: &[Sensitivity]) -> String {
         // Writing to a string can not fail.
         let _ = writeln!(
             text,
-            "{label:<9} {:<8} {t:>12} {v_n:>12} {impulse:>12}",
+            "{label:<9} {:<7} {t:>11} {v_n:>11} {impulse:>11}",
             "by"
         );
         for slope in slopes {
             let [t, v_n, impulse] = [slope.t, slope.v_n, slope.impulse].map(digits);
             let key = slope.key;
-            let _ = writeln!(text, "{:<9} {key:<8} {t:>12} {v_n:>12} {impulse:>12}", "");
+            let _ = writeln!(text, "{:<9} {key:<7} {t:>11} {v_n:>11} {impulse:>11}", "");
         }
     }
     if found.is_empty() {
