@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import _engine
+from ._ask import ask
 from ._case import Case
-from ._check import engine_of, whole
 from ._table import Table
 
 
@@ -49,9 +48,10 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
     >>> row["impact"], round(row["t"], 3)
     (1, -0.12)
     """
-    rows = _engine.sensitivities(engine_of(case), whole("impacts", impacts, 1, 10**6))
-    numbers, keys, *slopes = zip(*rows, strict=True) if rows else ((),) * 5
-    derivatives = zip(("t", "v_n", "impulse"), ("T", "L/T", "m L/T"), slopes, strict=True)
+    found, _ = ask("sensitivities", case, impacts=impacts)
+    names = ("impact", "key", "t", "v_n", "impulse")
+    numbers, keys, *slopes = ([row[name] for row in found["derivatives"]] for name in names)
+    derivatives = zip(names[2:], ("T", "L/T", "m L/T"), slopes, strict=True)
     return Table._of(
         [
             ("impact", "", "number of the impact", np.array(numbers, dtype=np.int64)),

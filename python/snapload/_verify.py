@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -10,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _engine
+from ._ask import ask
 from ._case import Case
-from ._check import engine_of, number, whole
 from ._later import Later
 from ._result import Result
 
@@ -165,9 +163,7 @@ def verify(case: Case, digits: int = 60, *, tolerance: float = 1e-3) -> Verifica
     >>> proof.first_wrong is None, proof.compared
     (True, 12)
     """
-    digits = whole("digits", digits, 1, _engine.MOST_DIGITS)
-    answer, told = _engine.verify(engine_of(case), digits, number("tolerance", tolerance), None)
-    found = json.loads(answer)
+    found, told = ask("verify", case, digits=digits, tolerance=tolerance)
     return Verification(
         **{key: found[key] for key in ("digits", "digits_left", "first_wrong", "predicted", "compared")},
         **{key: found[key] for key in ("end", "t", "impacts")},

@@ -4,7 +4,7 @@ use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use pyo3::{IntoPyObjectExt, intern};
-use snapload::{CaseError, Parameters, Value, check_entry, key_named};
+use snapload::{CaseError, Key, Parameters, Value, key_named};
 use snapload_report::case_in_words;
 use std::sync::Arc;
 
@@ -94,10 +94,23 @@ impl Case {
 
 /// Keys and values, in order.
 pub(crate) fn read_entries(entries: &Bound<'_, PyDict>) -> PyResult<Vec<(&'static str, Value)>> {
-    let read = entries.iter().map(|(name, value)| {
+    checked(entries, key_named)
+}
+
+/// Values by name, in order, each checked by the key that `key_named` gives.
+pub(crate) fn checked(
+    given: &Bound<'_, PyDict>,
+    key_named: impl Fn(&str) -> Result<&'static Key, CaseError>,
+) -> PyResult<Vec<(&'static str, Value)>> {
+    let read = given.iter().map(|(name, value)| {
         let name: String = name.extract()?;
-        let value = to_value(&name, &value)?;
-        let key = check_entry(&name, &value).map_err(of_case)?;
+        let key = key_named(&name);
+        let value = match plain_value(&value)? {
+            Ok(value) => value,
+            Err(shown) => return Err(of_case(key.map_err(of_case)?.refuse(&name, shown))),
+        };
+        let key = key.map_err(|error| of_case(error.given(&value)))?;
+        key.check(key.name, &value).map_err(of_case)?;
         Ok((key.name, value))
     });
     read.collect()
@@ -106,6 +119,17 @@ pub(crate) fn read_entries(entries: &Bound<'_, PyDict>) -> PyResult<Vec<(&'stati
 /// A value of Python or NumPy as one of the engine; what is none is refused in the words of the
 /// key.
 pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    match plain_value(value)? {
+        Ok(value) => Ok(value),
+        Err(shown) => {
+            let key = key_named(name).map_err(of_case)?;
+            Err(of_case(key.refuse(name, shown)))
+        }
+    }
+}
+
+/// A value of Python or NumPy as one of the engine; else what is shown of it.
+fn plain_value(value: &Bound<'_, PyAny>) -> PyResult<Result<Value, String>> {
     // NumPy's scalars, and its arrays without dimensions, give Python's own.
     let plain = value.call_method0(intern!(value.py(), "item")).ok();
     let value = plain.as_ref().unwrap_or(value);
@@ -118,17 +142,11 @@ pub(crate) fn to_value(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> 
     } else {
         value.extract().ok().map(Value::Number)
     };
-    match read {
+    Ok(match read {
         Some(value) => Ok(value),
-        None => {
-            let shown = match value.is_instance_of::<PyInt>() {
-                true => value.to_string(),
-                false => format!("(a {})", value.get_type().name()?),
-            };
-            let key = key_named(name).map_err(of_case)?;
-            Err(of_case(key.refuse(name, shown)))
-        }
-    }
+        None if value.is_instance_of::<PyInt>() => Err(value.to_string()),
+        None => Err(format!("(a {})", value.get_type().name()?)),
+    })
 }
 
 /// A value as Python's own.

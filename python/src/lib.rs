@@ -11,6 +11,7 @@ mod interrupt;
 mod long_run;
 mod orbit;
 mod pool;
+mod question;
 mod run;
 mod schema;
 mod structure;
@@ -40,7 +41,9 @@ mod _engine {
     #[pymodule_export]
     use super::orbit::{Branch, Orbit, continuation, find_orbits, orbit, orbit_of_system};
     #[pymodule_export]
-    use super::run::{Run, ensemble, run, run_alone, sensitivities, verify};
+    use super::question::answer;
+    #[pymodule_export]
+    use super::run::{Run, ensemble, run, run_alone};
     #[pymodule_export]
     use super::schema::{columns, keys, named_case, named_cases, stops};
     #[pymodule_export]
@@ -56,7 +59,6 @@ mod _engine {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("__version__", env!("CARGO_PKG_VERSION"))?;
         module.add("MAX_CABLES", snapload::MAX_CABLES)?;
-        module.add("ATTRACTOR_PERIODS", snapload_orbits::ATTRACTOR_PERIODS)?;
-        module.add("MOST_DIGITS", snapload_verify::MOST_DIGITS)
+        module.add("ATTRACTOR_PERIODS", snapload_orbits::ATTRACTOR_PERIODS)
     }
 }

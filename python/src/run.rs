@@ -13,17 +13,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
-use snapload::analysis::{
-    Cancelled, Counter, Ensemble, Progress, Sensitivity, Slope, Uncertainty, record, sensitivity,
-    unwatched,
-};
-use snapload::{CaseError, ModeInterval, Playback, Trajectory, Value};
+use snapload::analysis::{Cancelled, Counter, Ensemble, Progress, Uncertainty, record, unwatched};
+use snapload::{ModeInterval, Playback, Trajectory};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow, TrustRow, Trusted,
-    Verified, VerifiedRow, summary, summary_lines, trust_in_words,
+    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow, TOLERANCE, TrustRow,
+    Trusted, summary, summary_lines, trust_in_words,
 };
-use snapload_verify::verify as verify_run;
 use std::collections::HashMap;
 use std::iter::{once, repeat};
 use std::sync::Arc;
@@ -259,7 +255,7 @@ pub(crate) fn read_uncertainty(
     tolerance: f64,
 ) -> PyResult<Uncertainty> {
     let mut uncertain = Uncertainty {
-        tolerance: positive("tolerance", tolerance)?,
+        tolerance: checked_tolerance(tolerance)?,
         ..Uncertainty::default()
     };
     let mut set = |key: Option<&str>, size: f64| {
@@ -280,16 +276,10 @@ pub(crate) fn read_uncertainty(
     Ok(uncertain)
 }
 
-pub(crate) fn positive(key: &str, value: f64) -> PyResult<f64> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(value);
-    }
-    let allowed = "a number above 0, such as 1e-3";
-    Err(of_case(CaseError::value(
-        key,
-        Value::Number(value),
-        allowed,
-    )))
+/// What counts as known, checked.
+pub(crate) fn checked_tolerance(tolerance: f64) -> PyResult<f64> {
+    let checked = TOLERANCE.check(TOLERANCE.name, &tolerance.into());
+    checked.map(|()| tolerance).map_err(of_case)
 }
 
 /// Runs a case; see `snapload.Case.run`.
@@ -333,27 +323,6 @@ pub(crate) fn run_alone(py: Python<'_>, case: &Case) -> PyResult<Run> {
     Ok(Run::alone(Some(case.clone()), run))
 }
 
-/// Number of an impact, key, and the derivatives by it of time, normal velocity and impulse.
-type Derivatives = (usize, &'static str, f64, f64, f64);
-
-/// The derivatives of so many impacts.
-#[pyfunction]
-pub(crate) fn sensitivities(
-    py: Python<'_>,
-    case: &Case,
-    count: usize,
-) -> PyResult<Vec<Derivatives>> {
-    let theirs = Arc::clone(&case.case);
-    let found = interruptible(py, None, move |_| sensitivity(&theirs, count))?;
-    let rows = found
-        .into_iter()
-        .flat_map(|Sensitivity { impact, slopes }| {
-            let row = move |slope: Slope| (impact, slope.key, slope.t, slope.v_n, slope.impulse);
-            slopes.into_iter().map(row)
-        });
-    Ok(rows.collect())
-}
-
 /// Runs the neighbours of a case: how they end, as JSON.
 #[pyfunction]
 pub(crate) fn ensemble(
@@ -372,25 +341,4 @@ pub(crate) fn ensemble(
     let shares = tally.map_err(of_work)?.shares();
     let rows: Vec<ShareRow> = shares.into_iter().map(ShareRow::new).collect();
     to_json(&rows)
-}
-
-/// Runs a case beside the same with many digits: the answer as JSON, and in words.
-#[pyfunction]
-pub(crate) fn verify(
-    py: Python<'_>,
-    case: &Case,
-    digits: u32,
-    tolerance: f64,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, String)> {
-    let tolerance = positive("tolerance", tolerance)?;
-    let theirs = Arc::clone(&case.case);
-    let found = interruptible(py, progress, move |watch| {
-        verify_run(&theirs, digits, tolerance, &|progress| {
-            watch.go_on(progress)
-        })
-    })?;
-    let verified = Verified::new(&case.case, found.map_err(of_work)?, tolerance);
-    let row: VerifiedRow<'_> = verified.row();
-    Ok((to_json(&row)?, verified.in_words(&case.in_words())))
 }

@@ -2,7 +2,7 @@
 
 use crate::errors::{of_case, of_program, of_study, of_work};
 use crate::interrupt::{interruptible, on_this_thread};
-use crate::run::{Run, positive};
+use crate::run::{Run, checked_tolerance};
 use crate::study::{Plain, on_threads};
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
@@ -206,7 +206,7 @@ pub(crate) fn run_system(
         let run = on_this_thread(py, |on_progress| record(begun, on_progress, |_, _| {}))?;
         return Ok(Run::alone(None, run.map_err(unfinished)?));
     };
-    let tolerance = positive("tolerance", tolerance)?;
+    let tolerance = checked_tolerance(tolerance)?;
     let mut monitor = TrustMonitor::new(&begun, &start, tolerance);
     let run = on_this_thread(py, |on_progress| {
         record(begun, on_progress, |simulation, step| {

@@ -37,6 +37,7 @@ mod orbit_columns;
 mod orbit_picture;
 mod orbit_search;
 mod pictures;
+mod question;
 #[cfg(feature = "reproduce")]
 mod reproduce;
 mod run;
@@ -53,7 +54,6 @@ mod study_summary;
 mod sweep;
 mod table;
 mod uncertainty;
-mod verify;
 mod whole;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -94,8 +94,9 @@ enum Verb {
     Run(run::Args),
     /// Find the critical force: the smallest amplitude that exceeds the limits, and all others
     Critical(critical::Args),
-    /// Run one case again with many digits, and say where the ordinary run goes wrong
-    Verify(verify::Args),
+    /// A verb for each question about one case.
+    #[command(flatten)]
+    Question(question::Args),
     /// Prove a run, impact by impact, and write the proof's claim as a certificate; or check one
     Certify(certify::Args),
     /// Run a study: every case of a grid, of random points or of a list, a row each
@@ -166,7 +167,7 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     let result = match cli.verb {
         Verb::Run(args) => run::run(&args),
         Verb::Critical(args) => critical::run(&args),
-        Verb::Verify(args) => verify::run(&args),
+        Verb::Question(args) => question::run(args),
         Verb::Certify(args) => certify::run(&args),
         Verb::Sweep(args) => sweep::run(&args),
         Verb::Merge(args) => merge::run(&args),

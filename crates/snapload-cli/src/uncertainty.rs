@@ -3,6 +3,7 @@ use crate::failure::Failure;
 use crate::whole::whole;
 use snapload::Case;
 use snapload::analysis::Uncertainty;
+use snapload_report::TOLERANCE;
 
 /// What counts as known, as given on the command line.
 #[derive(clap::Args)]
@@ -15,13 +16,8 @@ pub(crate) struct ToleranceArgs {
 impl ToleranceArgs {
     /// Reads it.
     pub(crate) fn read(&self) -> Result<f64, Failure> {
-        let tolerance = self.tolerance;
-        if tolerance > 0.0 && tolerance.is_finite() {
-            return Ok(tolerance);
-        }
-        Err(Failure::BadInput(format!(
-            "--tolerance {tolerance}: allowed is a number above 0, such as 1e-3"
-        )))
+        TOLERANCE.check("--tolerance", &self.tolerance.into())?;
+        Ok(self.tolerance)
     }
 }
 

@@ -1,8 +1,9 @@
-//! Numbers as options: what is refused is told as what is wrong with a key is.
+//! Values of options: what is refused is told as what is wrong with a key is.
 
 use clap::builder::ValueParser;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, Command};
+use snapload::{Key, Kind, Value, parse_value};
 use std::error::Error;
 use std::fmt::Display;
 use std::num::ParseFloatError;
@@ -17,7 +18,33 @@ where
         let number = text.trim().parse::<T>().ok();
         number
             .filter(|number| (low..=high).contains(number))
-            .ok_or_else(|| format!("allowed: a whole number from {low} to {high}"))
+            .ok_or_else(|| beyond(low, high))
+    })
+}
+
+/// What is allowed for a whole number.
+fn beyond(low: impl Display, high: impl Display) -> String {
+    format!("allowed: a whole number from {low} to {high}")
+}
+
+/// Reads the value of an option that a row describes as a key.
+pub(crate) fn described(key: &'static Key) -> ValueParser {
+    ValueParser::from(move |text: &str| {
+        let number = text.trim();
+        let value = match key.kind {
+            Kind::Number(_) => number.parse().ok().map(Value::Number),
+            Kind::Count(..) => number.parse().ok().map(Value::Integer),
+            Kind::Choice(_) | Kind::Text => Some(Value::from(text)),
+            Kind::Flag | Kind::Pair(_) | Kind::PerFreedom(_) => parse_value(text).ok(),
+        };
+        let checked = match value {
+            Some(value) => key.check(key.name, &value).map(|()| value),
+            None => Err(key.refuse(key.name, text)),
+        };
+        checked.map_err(|error| match key.kind {
+            Kind::Count(low, high) => beyond(low, high),
+            _ => format!("allowed: {}", error.allowed),
+        })
     })
 }
 

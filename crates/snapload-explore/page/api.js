@@ -100,6 +100,9 @@ export async function fetchCase(file) {
 /** What of a run is proved. */
 export const fetchProof = (question, signal) => fetchLong("api/proof", question, signal);
 
+/** The answer to a question about one case, in words and for programs. */
+export const fetchAnswer = (name, asked, signal) => fetchLong(`api/question/${name}`, asked, signal);
+
 /** Where a motion stands once a period, in the long run. */
 export const fetchSection = (question, signal) => fetchLong("api/section", question, signal);
 

@@ -11,7 +11,7 @@ const [WIDTH, HEIGHT] = [520, 300];
 const MARGIN = { left: 62, right: 12, top: 12, bottom: 40 };
 
 /** One question at a time, by one button, which ends it, too. */
-class Asking {
+export class Asking {
   constructor(button, said, ask) {
     this.button = $(button);
     this.said = $(said);

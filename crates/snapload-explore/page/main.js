@@ -17,6 +17,7 @@ import { onResize } from "./plot.js";
 import { Playback } from "./playback.js";
 import { Pins } from "./pins.js";
 import { Proof } from "./proof.js";
+import { Questions } from "./questions.js";
 import { Run } from "./run.js";
 import { sceneShapes } from "./scene.js";
 import { Stage } from "./stage.js";
@@ -36,7 +37,7 @@ const LOOK_UP_MS = 100;
 /** So long at the most a picture has no words. */
 const TELL_MS = 250;
 /** What says something of the run. */
-const TOLD = ["summary", "said", "seal", "prove-said", "section-plot", "section-said"];
+const TOLD = ["summary", "said", "seal", "prove-said", "section-plot", "section-said", "question-words"];
 
 chooseTheme(chosenTheme());
 
@@ -97,6 +98,7 @@ class Page {
     });
     this.pins = new Pins(this.state, () => this.run, { onChange: () => this.drawAll() });
     this.proof = new Proof();
+    this.questions = new Questions(schema.questions, { values: () => this.state.values });
     this.longRun = new LongRun({
       values: () => this.state.values,
       onPick: (start) => this.#begin(start),
@@ -187,6 +189,7 @@ class Page {
     this.stage.tell();
     this.proof.take(question.values);
     this.longRun.take(question.values);
+    this.questions.take(question.values);
     this.#markTold();
     this.map.takeRun();
     this.basin.takeRun();

@@ -5,7 +5,7 @@ use crate::request::Body;
 use crate::schema::{Start, schema};
 use crate::structure::{self, Latest, Opened};
 use crate::work::{Allowance, compute, compute_in_lines};
-use crate::{basin, case_file, export, map, page, proof, run, section};
+use crate::{basin, case_file, export, map, page, proof, question, run, section};
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::StatusCode;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_TYPE};
@@ -24,7 +24,7 @@ const WORKERS: usize = 4;
 const WRITERS: usize = 2;
 /// Lines of maps at one time, each of which takes all processors: maps take turns.
 const MAPPERS: usize = 1;
-/// Proofs, and sections, at one time.
+/// Proofs, questions and sections at one time.
 const PROVERS: usize = 2;
 
 /// What the answers are made from.
@@ -57,6 +57,7 @@ pub(crate) fn router(start: Start, opened: Option<Opened>, port: u16) -> Router 
         .route("/api/run", post(answer_run))
         .route("/api/map", post(answer_map))
         .route("/api/proof", post(answer_proof))
+        .route("/api/question/{name}", post(answer_question))
         .route("/api/section", post(answer_section))
         .route("/api/basin", post(answer_basin))
         .route("/api/export/{name}", post(answer_export))
@@ -122,6 +123,16 @@ async fn answer_proof(
     })
     .await?;
     Ok(([(CONTENT_TYPE, "application/json")], answer))
+}
+
+async fn answer_question(
+    State(shared): State<Arc<Shared>>,
+    Path(name): Path<String>,
+    Body(request): Body<question::Request>,
+) -> Result<Response, Refusal> {
+    let question = snapload_report::question(&name).ok_or_else(Refusal::nothing_there)?;
+    let work = move |allowance: &Allowance| question::answer(question, request, allowance);
+    compute(&shared.provers, work).await.map(json)
 }
 
 async fn answer_section(

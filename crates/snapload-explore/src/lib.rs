@@ -20,6 +20,7 @@ mod map;
 mod order;
 mod page;
 mod proof;
+mod question;
 mod refusal;
 mod request;
 mod run;

@@ -5,7 +5,8 @@ use axum::extract::{FromRequest, Request};
 use axum::http::StatusCode;
 use serde::de::DeserializeOwned;
 use serde_json::Value as JsonValue;
-use snapload::{Case, CaseError, Parameters, Value, check_entry, key_named};
+use snapload::{Case, CaseError, Key, Parameters, Value, key_named};
+use snapload_report::Question;
 use std::time::Duration;
 
 /// How long a body may take to arrive.
@@ -34,13 +35,33 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
 
 /// Keys and values, each of them legal by itself; `null` is a key left out.
 pub(crate) fn entries(values: Values) -> Result<Vec<(&'static str, Value)>, CaseError> {
+    checked(values, key_named)
+}
+
+/// The same of the options of a question.
+pub(crate) fn options(
+    question: &Question,
+    values: Values,
+) -> Result<Vec<(&'static str, Value)>, CaseError> {
+    checked(values, |name| question.option(name))
+}
+
+fn checked(
+    values: Values,
+    key_named: impl Fn(&str) -> Result<&'static Key, CaseError>,
+) -> Result<Vec<(&'static str, Value)>, CaseError> {
     let mut entries = Vec::new();
     for (name, json) in values {
-        let Some(value) = value(&name, json)? else {
-            key_named(&name)?;
-            continue;
-        };
-        entries.push((check_entry(&name, &value)?.name, value));
+        let key = key_named(&name);
+        match value(json) {
+            Ok(Some(value)) => {
+                let key = key.map_err(|error| error.given(&value))?;
+                key.check(key.name, &value)?;
+                entries.push((key.name, value));
+            }
+            Ok(None) => _ = key?,
+            Err(shown) => return Err(key?.refuse(&name, shown)),
+        }
     }
     Ok(entries)
 }
@@ -50,18 +71,18 @@ pub(crate) fn case(values: Values) -> Result<Case, CaseError> {
     Case::new(Parameters::from_entries(entries(values)?)?)
 }
 
-fn value(name: &str, json: JsonValue) -> Result<Option<Value>, CaseError> {
-    let what = match json {
+/// A value of JSON, none of `null`; else what it is instead, in words.
+fn value(json: JsonValue) -> Result<Option<Value>, &'static str> {
+    Ok(Some(match json {
         JsonValue::Null => return Ok(None),
-        JsonValue::Bool(flag) => return Ok(Some(Value::Bool(flag))),
-        JsonValue::String(text) => return Ok(Some(Value::Text(text))),
+        JsonValue::Bool(flag) => Value::Bool(flag),
+        JsonValue::String(text) => Value::Text(text),
         JsonValue::Number(number) => match (number.as_i64(), number.as_f64()) {
-            (Some(whole), _) => return Ok(Some(Value::Integer(whole))),
-            (None, Some(number)) => return Ok(Some(Value::Number(number))),
-            (None, None) => "(a number beyond all bounds)",
+            (Some(whole), _) => Value::Integer(whole),
+            (None, Some(number)) => Value::Number(number),
+            (None, None) => return Err("(a number beyond all bounds)"),
         },
-        JsonValue::Array(_) => "(a list)",
-        JsonValue::Object(_) => "(a table)",
-    };
-    Err(key_named(name)?.refuse(name, what))
+        JsonValue::Array(_) => return Err("(a list)"),
+        JsonValue::Object(_) => return Err("(a table)"),
+    }))
 }

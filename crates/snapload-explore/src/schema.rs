@@ -5,7 +5,7 @@ use snapload::analysis::{Certainty, Counter, Made, on_all_threads, unwatched};
 use snapload::{
     Bounds, Case, DefaultValue, KEYS, Key, Kind, Lanes, Outcome, Parameters, Stop, named_cases,
 };
-use snapload_report::ValueRow;
+use snapload_report::{QUESTIONS, Question, ValueRow};
 use std::sync::LazyLock;
 
 /// The case of the thesis's model that the page begins with.
@@ -27,6 +27,7 @@ pub(crate) fn schema(start: &Start) -> JsonValue {
         "version": env!("CARGO_PKG_VERSION"),
         "keys": KEYS.iter().map(key).collect::<Vec<_>>(),
         "cases": cases.collect::<Vec<_>>(),
+        "questions": QUESTIONS.iter().map(question).collect::<Vec<_>>(),
         "stops": Stop::ALL.map(Stop::name),
         "map": COLUMNS.iter().map(|column| json!({
             "name": column.name,
@@ -94,6 +95,25 @@ pub(crate) fn kind(key: &Key) -> JsonValue {
         Kind::Choice(words) => json!({ "type": "choice", "options": words }),
         Kind::Pair(_) | Kind::PerFreedom(_) | Kind::Text => json!({ "type": "text" }),
     }
+}
+
+/// A question about one case, and what it is asked with.
+fn question(question: &Question) -> JsonValue {
+    let options = question.options.iter().map(|key| {
+        json!({
+            "name": key.name,
+            "unit": key.unit,
+            "meaning": key.meaning,
+            "kind": kind(key),
+            "allowed": key.allowed(),
+            "default": key.default.value().map(ValueRow),
+        })
+    });
+    json!({
+        "name": question.name,
+        "asks": question.asks,
+        "options": options.collect::<Vec<_>>(),
+    })
 }
 
 fn key(key: &Key) -> JsonValue {

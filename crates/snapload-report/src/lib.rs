@@ -7,7 +7,9 @@ mod critical;
 mod digits;
 mod followed;
 mod motion;
+mod question;
 mod report;
+mod sensitivities;
 mod summary;
 pub mod tables;
 mod trust;
@@ -21,8 +23,16 @@ pub use certified::{
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
 pub use motion::{MOTION, MotionRow, Sampling};
+pub use question::{Answer, Options, Question, TOLERANCE};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use summary::{NormsKnown, case_in_words, end_in_words, summary, summary_lines};
 pub use trust::{HorizonRow, OutcomeRow, ShareRow, TrustRow};
 pub use trusted::{Trusted, neighbours, outcome_in_words, percent, trust_in_words};
-pub use verified::{Verified, VerifiedRow};
+
+/// All questions about one case, in the order in which help lists them.
+pub static QUESTIONS: &[Question] = &[verified::VERIFY, sensitivities::SENSITIVITIES];
+
+/// The question of a name; none where there is none.
+pub fn question(name: &str) -> Option<&'static Question> {
+    QUESTIONS.iter().find(|question| question.name == name)
+}

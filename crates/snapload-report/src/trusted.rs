@@ -75,7 +75,7 @@ impl Trusted {
         seed: u64,
         on_progress: OnProgress,
     ) -> Result<Self, Unfinished> {
-        self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS);
+        self.sensitivity = sensitivity(case, SENSITIVE_IMPACTS, on_progress)?;
         self.seed = seed;
         if self.takes_neighbours(members) {
             let count = members.unwrap_or(DEFAULT_MEMBERS);

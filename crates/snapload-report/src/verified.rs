@@ -1,23 +1,60 @@
-//! The answer of a verification, in JSON and in words.
+//! The same run with many digits, to see where the ordinary one goes wrong: the question, its JSON
+//! and its words.
+use crate::question::{Answer, Options, Question, TOLERANCE};
 use crate::summary::indented;
 use crate::{TrustRow, Trusted, trust_in_words};
 use serde::Serialize;
-use snapload::Stop;
-use snapload::analysis::{Uncertainty, sensitivity};
-use snapload_verify::{ExactImpact, Verification};
+use snapload::analysis::{OnProgress, Uncertainty, Unfinished};
+use snapload::{Case, DefaultValue, Key, Kind, Stop};
+use snapload_verify::{ExactImpact, MOST_DIGITS, Verification, verify};
 use std::fmt::Write;
 
+pub(crate) const VERIFY: Question = Question {
+    name: "verify",
+    asks: "Run one case again with many digits, and say where the ordinary run goes wrong",
+    help: "\
+The case is run twice, as usual and with 76 digits or more, through slack flight, impacts and the stop
+rules; where a cable stays taut the proof ends. Numbers count as written: 0.1 is a tenth.
+
+Examples:
+  snapload verify
+      the standard case: from which impact on the ordinary run is wrong by 1e-3
+  snapload verify --case 1922001000-359 --tolerance 1e-6
+      a square, in which errors grow fastest, to six digits
+  snapload verify --digits 150 --json - | jq .first_wrong
+      with twice the digits, for the next program",
+    options: &[
+        Key::new(
+            "digits",
+            "1",
+            Kind::Count(1, MOST_DIGITS as u64),
+            DefaultValue::Count(60),
+            "decimal digits to compute with, at least",
+        )
+        .symbol("N"),
+        TOLERANCE,
+    ],
+    answer,
+};
+
+fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Answer, Unfinished> {
+    let (digits, tolerance) = (options.get::<u64>("digits")?, options.get("tolerance")?);
+    let found = verify(case, digits as u32, tolerance, on_progress)?;
+    let verified = Verified::new(found, tolerance);
+    Ok(Answer::new(verified.in_words(), &verified.row())?)
+}
+
 /// An ordinary run beside the same run with many digits.
-pub struct Verified {
+struct Verified {
     /// The ordinary run.
-    pub trusted: Trusted,
+    trusted: Trusted,
     /// What came of the other.
-    pub found: Verification,
+    found: Verification,
 }
 
 /// Its shape in JSON.
 #[derive(Serialize)]
-pub struct VerifiedRow<'a> {
+struct VerifiedRow<'a> {
     digits: u32,
     digits_left: f64,
     first_wrong: Option<usize>,
@@ -60,8 +97,8 @@ struct Ordinary {
 }
 
 impl Verified {
-    /// Of a case, and what was found of it to a tolerance.
-    pub fn new(case: &snapload::Case, found: Verification, tolerance: f64) -> Self {
+    /// Of what was found to a tolerance.
+    fn new(found: Verification, tolerance: f64) -> Self {
         let trusted = Trusted {
             run: found.run.clone(),
             trust: found.trust.clone(),
@@ -71,13 +108,13 @@ impl Verified {
             },
             seed: 0,
             tally: None,
-            sensitivity: sensitivity(case, 0),
+            sensitivity: Vec::new(),
         };
         Self { trusted, found }
     }
 
     /// For JSON.
-    pub fn row(&self) -> VerifiedRow<'_> {
+    fn row(&self) -> VerifiedRow<'_> {
         let Verification {
             digits,
             digits_left,
@@ -110,9 +147,9 @@ impl Verified {
     }
 
     /// In a few lines.
-    pub fn in_words(&self, name: &str) -> String {
+    fn in_words(&self) -> String {
         let found = &self.found;
-        let mut text = format!("Case      {name}\n");
+        let mut text = String::new();
         let _ = writeln!(
             text,
             "Ordinary  {} at t = {:.6}, {} impacts",

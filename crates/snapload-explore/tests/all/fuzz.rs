@@ -141,6 +141,12 @@ fn mutated_requests(server: &Running) {
             r#"{"values":{"f_o":0.31},"ghost":1e-6,"samples":50}"#,
         ),
         server.request("POST", "/api/map", kind, map),
+        server.request(
+            "POST",
+            "/api/question/sensitivities",
+            kind,
+            r#"{"values":{"f_o":0.31},"options":{"impacts":2}}"#,
+        ),
         server.request("POST", "/api/structure", kind, STRUCTURE),
         server.request("POST", "/api/structure/run", kind, &asked),
         server.request("POST", "/api/structure/elastic", kind, &asked),

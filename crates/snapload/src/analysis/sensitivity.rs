@@ -1,5 +1,6 @@
 //! How the first impacts change with each parameter.
 
+use crate::analysis::progress::{Cancelled, OnProgress, Progress};
 use crate::analysis::trust::{START_KEYS, UNCERTAIN_KEYS};
 use crate::arithmetic::dual::Dual;
 use crate::case::Case;
@@ -30,12 +31,21 @@ pub struct Sensitivity {
 /// The derivatives of the first `count` impacts of a case, exact to rounding: the motion is run
 /// over dual numbers, once for each key. Empty where the start, on the very edge of what is legal,
 /// has no neighbours.
-pub fn sensitivity(case: &Case, count: usize) -> Vec<Sensitivity> {
+///
+/// # Errors
+/// [`Cancelled`] if it is to end before.
+pub fn sensitivity(
+    case: &Case,
+    count: usize,
+    on_progress: OnProgress,
+) -> Result<Vec<Sensitivity>, Cancelled> {
     let keys = START_KEYS.into_iter().chain(UNCERTAIN_KEYS);
+    let keys: Vec<_> = keys.filter(|key| case.parameters().moves_by(key)).collect();
     let mut found = Vec::new();
-    for key in keys.filter(|key| case.parameters().moves_by(key)) {
-        let Some(slopes) = slopes_by(case, key, count) else {
-            return Vec::new();
+    for (done, key) in keys.iter().enumerate() {
+        let progress = Progress::new("deriving", done as f64, keys.len() as f64);
+        let Some(slopes) = slopes_by(case, key, count, &|| progress.tell(on_progress))? else {
+            return Ok(Vec::new());
         };
         found.resize_with(slopes.len(), Vec::new);
         for (impact, slope) in found.iter_mut().zip(slopes) {
@@ -43,20 +53,28 @@ pub fn sensitivity(case: &Case, count: usize) -> Vec<Sensitivity> {
         }
     }
     let numbered = found.into_iter().zip(1..);
-    numbered
-        .map(|(slopes, impact)| Sensitivity { impact, slopes })
-        .collect()
+    let numbered = numbered.map(|(slopes, impact)| Sensitivity { impact, slopes });
+    Ok(numbered.collect())
 }
 
-/// The derivatives of the first impacts by one key; none where the start has no neighbours.
-fn slopes_by(case: &Case, key: &'static str, count: usize) -> Option<Vec<Slope>> {
+/// The derivatives of the first impacts by one key; none where the start has no neighbours. Asks
+/// after every step whether to go on.
+fn slopes_by(
+    case: &Case,
+    key: &'static str,
+    count: usize,
+    go_on: &dyn Fn() -> Result<(), Cancelled>,
+) -> Result<Option<Vec<Slope>>, Cancelled> {
     let lift = |name, number| match name == key {
         true => Dual::<f64, 1>::variable(number, 0),
         false => Dual::constant(number),
     };
-    let mut simulation = case.simulation_over(lift).ok()?;
+    let Ok(mut simulation) = case.simulation_over(lift) else {
+        return Ok(None);
+    };
     let mut slopes = Vec::new();
     while slopes.len() < count {
+        go_on()?;
         let Some(step) = simulation.step() else { break };
         slopes.extend(step.impacts().map(|impact| Slope {
             key,
@@ -66,5 +84,5 @@ fn slopes_by(case: &Case, key: &'static str, count: usize) -> Option<Vec<Slope>>
         }));
     }
     slopes.truncate(count);
-    Some(slopes)
+    Ok(Some(slopes))
 }

@@ -35,7 +35,7 @@ pub struct Bounds {
 }
 
 impl Kind {
-    /// A number above 0.
+    /// A number above 0; up to `f64::MAX` where nothing bounds it.
     pub const fn positive(high: f64) -> Self {
         let (low, low_included) = (0.0, false);
         Self::Number(Bounds {
@@ -164,9 +164,17 @@ impl Key {
                 low,
                 low_included,
                 high,
-            }) => {
+            }) if high < f64::MAX => {
                 let sign = if low_included { "<=" } else { "<" };
                 format!("{} {sign} {name} <= {}", short(low), short(high))
+            }
+            Kind::Number(Bounds {
+                low, low_included, ..
+            }) => {
+                let above = if low_included { "from" } else { "above" };
+                let such = self.default.value();
+                let such = such.map_or(String::new(), |value| format!(", such as {value}"));
+                format!("a number {above} {}{such}", short(low))
             }
             Kind::Pair(limit) => format!("[x, z], each from -{0} to {0}", short(limit)),
             Kind::PerFreedom(limit) => {
@@ -232,7 +240,10 @@ impl Key {
     }
 
     /// An error unless this key can take the value; `path` is how the error calls the key.
-    pub(crate) fn check(&self, path: &str, value: &Value) -> Result<(), CaseError> {
+    ///
+    /// # Errors
+    /// A [`CaseError`] that names the key by its path, the value and what is allowed.
+    pub fn check(&self, path: &str, value: &Value) -> Result<(), CaseError> {
         match value {
             value if self.takes(value) => Ok(()),
             Value::List(_) if !matches!(self.kind, Kind::Pair(_) | Kind::PerFreedom(_)) => {
@@ -251,7 +262,7 @@ impl Key {
     /// calls the key, such as `e` or `body.mass`.
     pub fn refuse(&self, path: &str, shown: impl Display) -> CaseError {
         let numbers = match self.kind {
-            Kind::Number(_) => "a number",
+            Kind::Number(Bounds { high, .. }) if high < f64::MAX => "a number",
             Kind::Pair(_) => "two numbers",
             Kind::PerFreedom(_) => "a number or three",
             _ => return CaseError::value(path, shown, self.allowed()),

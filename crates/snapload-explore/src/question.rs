@@ -1,0 +1,36 @@
+//! `/api/question/NAME`: the answer to a question about one case, one of all that the report knows.
+use crate::refusal::Refusal;
+use crate::request::{Values, case, options};
+use crate::section::unfinished;
+use crate::work::Allowance;
+use serde::Deserialize;
+use snapload_report::Question;
+use std::time::Duration;
+
+/// What it may take.
+const BUDGET: Duration = Duration::from_secs(20);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Request {
+    #[serde(default)]
+    values: Values,
+    /// By name; those that are left out have their defaults.
+    #[serde(default)]
+    options: Values,
+}
+
+/// The answer, as JSON: `words` for a person, and `answer`, which is what the command writes.
+pub(crate) fn answer(
+    question: &Question,
+    request: Request,
+    allowance: &Allowance,
+) -> Result<Vec<u8>, Refusal> {
+    let case = case(request.values)?;
+    let options = options(question, request.options)?;
+    let allowance = allowance.within(BUDGET);
+    let answer = question.ask(&case, options, &|progress| allowance.go_on(progress));
+    let command = format!("snapload {}", question.name);
+    let answer = answer.map_err(|why| unfinished(why, BUDGET, &command))?;
+    serde_json::to_vec(&answer).map_err(Refusal::failed)
+}

@@ -1,0 +1,180 @@
+//! Questions about one case. Each is said once, as a [`Question`]: its name, what it asks, its
+//! options and how it is answered. The command line makes a verb of it, Python a function and the
+//! server of the page a path, without a line of their own.
+use crate::case_in_words;
+use serde::Serialize;
+use serde_json::value::{RawValue, to_raw_value};
+use snapload::analysis::{OnProgress, Unfinished};
+use snapload::{Case, CaseError, DefaultValue, FromValue, Heading, Key, Kind, Table, Value};
+
+/// A question about one case.
+pub struct Question {
+    /// The name of its command, by which Python and the page ask it, too.
+    pub name: &'static str,
+    /// What it asks, in one line.
+    pub asks: &'static str,
+    /// What else there is to know, and examples of the command.
+    pub help: &'static str,
+    /// Its options; the symbol of each stands for its value in the help of the command.
+    pub options: &'static [Key],
+    /// How it is answered.
+    pub(crate) answer: fn(&Case, &Options, OnProgress) -> Result<Answer, Unfinished>,
+}
+
+impl Question {
+    /// The option of a name.
+    ///
+    /// # Errors
+    /// A [`CaseError`] with the nearest name if there is no such option.
+    pub fn option(&self, name: &str) -> Result<&'static Key, CaseError> {
+        Table::new(self.name, Heading::None, self.asks, self.options).key(name, name)
+    }
+
+    /// Asks it of a case. An option that is left out has its default; of one given twice the last
+    /// value counts.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if an option or the case does not allow an answer, and
+    /// [`Unfinished::Cancelled`].
+    pub fn ask<K: AsRef<str>>(
+        &self,
+        case: &Case,
+        given: impl IntoIterator<Item = (K, Value)>,
+        on_progress: OnProgress,
+    ) -> Result<Answer, Unfinished> {
+        let mut options = Options {
+            keys: self.options,
+            given: Vec::new(),
+        };
+        for (name, value) in given {
+            let key = self.option(name.as_ref());
+            let key = key.map_err(|error| error.given(&value))?;
+            key.check(key.name, &value)?;
+            options.given.push((key.name, value));
+        }
+        (self.answer)(case, &options, on_progress)
+    }
+}
+
+/// What a question is asked with, each value checked by the row of its option.
+pub struct Options {
+    keys: &'static [Key],
+    given: Vec<(&'static str, Value)>,
+}
+
+impl Options {
+    /// The value of an option: the one that was given, or its default.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if there is neither.
+    pub(crate) fn get<T: FromValue>(&self, name: &str) -> Result<T, CaseError> {
+        let given = self.given.iter().rev().find(|(given, _)| *given == name);
+        let key = self.keys.iter().find(|key| key.name == name);
+        let value = match given {
+            Some((_, value)) => Some(value.clone()),
+            None => key.and_then(|key| key.default.value()),
+        };
+        let value = value.as_ref().and_then(T::from_value);
+        value.ok_or_else(|| match key {
+            Some(key) => key.refuse(name, "(left out)"),
+            None => CaseError::value(name, "(left out)", "a value"),
+        })
+    }
+}
+
+/// The answer to a question.
+#[derive(Serialize)]
+pub struct Answer {
+    /// For a person, in lines that begin with a label.
+    pub words: String,
+    /// For a program, as JSON.
+    pub answer: Box<RawValue>,
+}
+
+impl Answer {
+    /// In words, and as a row for JSON.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if the row can not be written as JSON.
+    pub(crate) fn new(words: String, row: &impl Serialize) -> Result<Self, CaseError> {
+        let answer = to_raw_value(row).map_err(|error| {
+            CaseError::syntax(format!("the answer can not be written as JSON: {error}"))
+        })?;
+        Ok(Self { words, answer })
+    }
+
+    /// The same with the case that it is about in the first line of its words.
+    #[must_use]
+    pub fn about(mut self, name: &str, case: &Case) -> Self {
+        let case = case_in_words(name, case.parameters());
+        self.words = format!("Case      {case}\n{}", self.words);
+        self
+    }
+}
+
+/// The option that says what counts as known.
+pub const TOLERANCE: Key = Key::new(
+    "tolerance",
+    "1",
+    Kind::positive(f64::MAX),
+    DefaultValue::Number(1e-3),
+    "error of state and time above which a result counts as not known",
+)
+.symbol("SIZE");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verified::VERIFY;
+    use snapload::Parameters;
+    use snapload::analysis::unwatched;
+
+    fn refused(given: &[(&str, Value)]) -> Result<String, CaseError> {
+        let case = Case::new(Parameters::STANDARD)?;
+        match VERIFY.ask(&case, given.iter().cloned(), &unwatched) {
+            Err(Unfinished::Case(error)) => Ok(error.to_string()),
+            _ => Ok("(nothing)".to_owned()),
+        }
+    }
+
+    #[test]
+    fn an_option_is_refused_in_the_words_of_its_row() -> Result<(), CaseError> {
+        for (name, value, words) in [
+            (
+                "digits",
+                Value::from(0_i64),
+                "digits = 0 is not allowed; allowed: a whole number, 1 <= digits <= 307",
+            ),
+            (
+                "tolerance",
+                f64::NAN.into(),
+                "tolerance = NaN is not allowed; allowed: a number above 0, such as 0.001",
+            ),
+            (
+                "tolerance",
+                f64::INFINITY.into(),
+                "tolerance = inf is not allowed; allowed: a number above 0, such as 0.001",
+            ),
+            (
+                "digit",
+                Value::from(60_i64),
+                "there is no key \"digit\" (digit = 60); did you mean digits?\n\
+                 the keys are digits, tolerance",
+            ),
+        ] {
+            assert_eq!(refused(&[(name, value)])?, words);
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn the_last_value_counts_and_what_is_left_out_has_its_default() -> Result<(), CaseError> {
+        let options = Options {
+            keys: VERIFY.options,
+            given: vec![("digits", 70_i64.into()), ("digits", 80_i64.into())],
+        };
+        assert_eq!(options.get::<u64>("digits")?, 80);
+        assert_eq!(options.get::<f64>("tolerance")?, 1e-3);
+        Ok(())
+    }
+}

@@ -1,0 +1,32 @@
+//! Questions about one case: all that the report knows, through one function.
+
+use crate::case::{Case, checked};
+use crate::errors::{of_program, of_work};
+use crate::interrupt::interruptible;
+use crate::run::to_json;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use snapload::analysis::Progress;
+use snapload_report::question;
+use std::sync::Arc;
+
+/// Asks a question of a case, with its options by name: the answer for a person and for a program,
+/// as JSON.
+#[pyfunction]
+pub(crate) fn answer(
+    py: Python<'_>,
+    name: &str,
+    case: &Case,
+    options: &Bound<'_, PyDict>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let no_question = || of_program(format!("there is no question {name:?}"));
+    let question = question(name).ok_or_else(no_question)?;
+    let options = checked(options, |name| question.option(name))?;
+    let theirs = Arc::clone(&case.case);
+    let answer = interruptible(py, progress, move |watch| {
+        let on_progress = |progress: Progress| watch.go_on(progress);
+        question.ask(&theirs, options, &on_progress)
+    })?;
+    to_json(&answer.map_err(of_work)?.about(&case.name, &case.case))
+}

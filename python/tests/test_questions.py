@@ -1,0 +1,108 @@
+"""Every question of the engine is a verb of the command, and answers the same there, in Python and on the page."""
+
+from __future__ import annotations
+
+import json
+import urllib.error
+import urllib.request
+
+import pytest
+import snapload
+from playwright.sync_api import expect
+from snapload import _engine
+
+VALUES = {"f_o": 0.31, "t_end": 2}
+
+
+def asked(url: str, name: str, **request) -> bytes:
+    """The answer of the page's server."""
+    body = json.dumps(request).encode()
+    headers = {"Content-Type": "application/json"}
+    with urllib.request.urlopen(urllib.request.Request(f"{url}api/question/{name}", body, headers)) as answer:
+        return answer.read()
+
+
+def refused(url: str, name: str, **request) -> dict:
+    with pytest.raises(urllib.error.HTTPError) as error:
+        asked(url, name, **request)
+    return json.loads(error.value.read())
+
+
+@pytest.fixture(scope="module")
+def questions(url) -> list[dict]:
+    with urllib.request.urlopen(f"{url}api/schema") as answer:
+        return json.loads(answer.read())["questions"]
+
+
+def test_every_question_has_the_same_answer_everywhere(questions, url, command):
+    assert {"verify", "sensitivities"} <= {question["name"] for question in questions}
+    case = snapload.Case(**VALUES)
+    settings = [word for key, value in VALUES.items() for word in ("--set", f"{key}={value}")]
+    for question in questions:
+        name = question["name"]
+        python = _engine.answer(name, case._engine, {}, None)
+        line = command(name, *settings, "--json", "-").rstrip("\n")
+        # Not only equal: the same text of every number.
+        assert python.endswith(f'"answer":{line}}}')
+        page = asked(url, name, values=VALUES).decode()
+        assert page.endswith(f'"answer":{line}}}')
+        words = command(name, *settings)
+        assert json.loads(python)["words"] == words
+        assert words == f"Case      {words.splitlines()[0][10:]}\n{json.loads(page)['words']}"
+
+
+def test_every_question_is_a_verb_with_its_options(questions, url, command):
+    # Lines are broken where the terminal ends.
+    listed = " ".join(command("--help").split())
+    completions = command("completions", "fish")
+    for question in questions:
+        name = question["name"]
+        assert f" {name} {question['asks']} " in listed
+        assert f'-n "__fish_snapload_using_subcommand {name}"' in completions
+        help = command(name, "--help")
+        assert question["asks"] in " ".join(help.split()) and "Examples:" in help
+        for option in question["options"]:
+            written = "--" + option["name"].replace("_", "-")
+            assert f"  {written} " in help
+            if option["kind"]["type"] in ("number", "count"):
+                said = command(name, written, "x", fails=True)
+                assert said.startswith(f"error: {written} = x is not allowed; allowed: a ")
+                page = refused(url, name, options={option["name"]: "x"})
+                assert page["key"] == option["name"]
+                assert page["message"] == f'{option["name"]} = "x" is not allowed; allowed: {option["allowed"]}'
+                with pytest.raises(ValueError, match=f'{option["name"]} = "x" is not allowed; allowed: '):
+                    _engine.answer(name, snapload.Case()._engine, {option["name"]: "x"}, None)
+
+
+def test_what_is_no_question_or_option_is_refused(url):
+    assert refused(url, "verify", options={"digit": 60})["key"] == "digit"
+    assert "did you mean digits?" in refused(url, "verify", options={"digit": 60})["message"]
+    assert refused(url, "verify", values={"e": 2})["key"] == "e"
+    assert refused(url, "nothing")["message"] == "there is nothing at this path"
+    with pytest.raises(ValueError, match='there is no key "digit".*; did you mean digits'):
+        _engine.answer("verify", snapload.Case()._engine, {"digit": 60}, None)
+
+
+def test_the_page_asks_every_question(questions, open_page, command):
+    page = open_page("f_o=0.31&t=0")
+    page.locator("#question-box summary").click()
+    for question in questions:
+        page.locator("#question").select_option(question["name"])
+        expect(page.locator("#question-words")).to_be_hidden()
+        page.locator("#question-ask").click()
+        expect(page.locator("#question-words")).to_be_visible(timeout=20_000)
+        told = command(question["name"], "--set", "f_o=0.31").split("\n", 1)[1].rstrip()
+        assert page.locator("#question-words").inner_text() == told
+    page.locator("#question").select_option("verify")
+    page.locator("#question-tolerance").fill("1e-30")
+    page.locator("#question-ask").click()
+    expect(page.locator("#question-words")).to_contain_text("wrong by more than 1e-30 from impact 1 on")
+
+
+def test_the_page_says_what_is_wrong_with_an_option(open_page):
+    page = open_page("f_o=0.31&t=0", refused=1)
+    page.locator("#question-box summary").click()
+    page.locator("#question-digits").fill("many")
+    page.locator("#question-ask").click()
+    words = 'digits = "many" is not allowed; allowed: a whole number, 1 <= digits <= 307'
+    expect(page.locator("#question-said")).to_have_text(words)
