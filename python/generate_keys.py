@@ -28,8 +28,12 @@ def type_of(key: dict) -> str:
 
 
 def given_type_of(key: dict) -> str:
-    """The natural inertia, and the missing one of a point mass, are asked for by None."""
-    return type_of(key) + (" | None" if key["name"] == "inertia" else "")
+    return type_of(key) + (" | None" if may_be_none(key) else "")
+
+
+def may_be_none(key: dict) -> bool:
+    """The natural inertia, the missing one of a point mass, and no limit are asked for by None."""
+    return key["name"] == "inertia" or key["standard"] is None
 
 
 def python_words(words: str) -> str:
@@ -39,6 +43,11 @@ def python_words(words: str) -> str:
 
 def unit_of(key: dict) -> str:
     return f" [{key['unit']}]" if key["unit"] not in ("", "1") else ""
+
+
+def tupled(names: str) -> str:
+    """Names with a comma and a blank behind each, as what stands in a tuple."""
+    return names.removesuffix(" ") if names.count(",") == 1 else names.removesuffix(", ")
 
 
 def ends() -> str:
@@ -53,7 +62,7 @@ Reason = Literal[{reasons}]
 REASONS: tuple[Reason, ...] = get_args(Reason)
 
 #: Those of them that are limits of the motion.
-LIMITS: tuple[Reason, ...] = ({limits.removesuffix(" ") if limits.count(",") == 1 else limits.removesuffix(", ")})
+LIMITS: tuple[Reason, ...] = ({tupled(limits)})
 
 
 """
@@ -62,6 +71,8 @@ LIMITS: tuple[Reason, ...] = ({limits.removesuffix(" ") if limits.count(",") == 
 def generate() -> str:
     keys = _engine.keys()
     text = HEAD + ends()
+    optional = "".join(f'"{key["name"]}", ' for key in keys if may_be_none(key))
+    text += f"#: Keys that None takes back to what holds without them.\nOPTIONAL = ({tupled(optional)})\n\n\n"
     text += 'class Keys(TypedDict, total=False):\n    """The keys that a case takes."""\n\n'
     text += "".join(f"    {key['name']}: {given_type_of(key)}\n" for key in keys)
     text += '\n\nclass Axes(TypedDict, total=False):\n    """The keys that a study varies."""\n\n'

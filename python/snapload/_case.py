@@ -11,7 +11,7 @@ from typing import Any, Self, Unpack
 
 from . import _engine
 from ._check import Uncertainty, number, plain, whole
-from ._keys import PARAMETERS, Keys, KeyValues
+from ._keys import OPTIONAL, PARAMETERS, Keys, KeyValues
 from ._orbit import HasOrbits
 from ._run import Options, Run
 from ._signature import with_keys
@@ -346,7 +346,7 @@ with_keys(Case.replace, defaults=False)
 
 def _given(keys: Mapping[str, Any]) -> dict[str, Any]:
     """Keys that are given. No inertia is the natural one, or none at all."""
-    return {key: value for key, value in keys.items() if not (key == "inertia" and value is None)}
+    return {key: value for key, value in keys.items() if not (key in OPTIONAL and value is None)}
 
 
 def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:

@@ -16,6 +16,10 @@ REASONS: tuple[Reason, ...] = get_args(Reason)
 LIMITS: tuple[Reason, ...] = ("rotation_limit", "upper_bound")
 
 
+#: Keys that None takes back to what holds without them.
+OPTIONAL = ("inertia",)
+
+
 class Keys(TypedDict, total=False):
     """The keys that a case takes."""
 

@@ -61,7 +61,7 @@ impl ExactCase {
         let unknown = |(limit, _): &(Limit, f64)| !PROVABLE.contains(limit);
         if let Some((limit, _)) = parameters.rules().limits.iter().find(unknown) {
             let name = limit.stop().words();
-            return Err(format!("no proof knows of a {name}; leave it out"));
+            return Err(format!("a proof does not know the {name}; leave it out"));
         }
         let mut decimal = |key: &str, value: f64| {
             typed(key)

@@ -84,8 +84,10 @@ pub trait Family: Sync {
     /// The factor by which one snap multiplies volumes: e².
     fn snap_contraction(&self, at: [f64; 2]) -> f64;
 
-    /// The limits at a state.
-    fn limits(&self, system: &Self::Plain, z: &Point) -> Limits;
+    /// The limits at a state; there are none if nothing is said.
+    fn limits(&self, _system: &Self::Plain, _z: &Point) -> Limits {
+        [f64::NEG_INFINITY; Limit::ALL.len()]
+    }
 
     /// A gap that is given as a length, in the measure in which it is told.
     fn told_gap(&self, _system: &Self::Plain, _surface: usize, length: f64) -> f64 {

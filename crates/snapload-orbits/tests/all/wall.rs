@@ -1,7 +1,7 @@
 //! ẍ + 2ζẋ + x = F cos Ωt with a wall at x ≤ s: x and ẋ are the first and the fourth component.
 
 use snapload::{PerCable, Real, TautSet};
-use snapload_orbits::{Family, Hybrid, Jet, Limits, PARAMETER, Point, Simulated};
+use snapload_orbits::{Family, Hybrid, Jet, PARAMETER, Point, Simulated};
 
 pub struct Wall {
     pub zeta: f64,
@@ -126,10 +126,6 @@ impl Family for Wall {
 
     fn snap_contraction(&self, _: [f64; 2]) -> f64 {
         self.restitution * self.restitution
-    }
-
-    fn limits(&self, _: &WallOver<f64>, _: &Point) -> Limits {
-        [f64::NEG_INFINITY; 2]
     }
 
     fn simulate(&self, _: [f64; 2], _: f64, _: &Point, _: f64) -> Option<Simulated> {

@@ -19,7 +19,7 @@ use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::body::{Body, Shape};
 use crate::model::forcing::Harmonic;
-use crate::model::rules::Stop;
+use crate::model::rules::{Limit, Stop};
 use crate::model::state::State;
 use crate::model::system::System;
 use crate::motion::outcome::Outcome;
@@ -222,10 +222,14 @@ fn explain(error: StartError, p: &Parameters) -> CaseError {
             );
             CaseError::value("y", Value::Number(p.y), allowed).with_hint("lower y")
         }
-        StartError::BeyondLimit { .. }
-        | StartError::NotFinite
-        | StartError::Restitution
-        | StartError::TooManyCables => CaseError::value("x, y, theta", place(p), error.to_string()),
+        StartError::BeyondLimit { stop, value, bound } => {
+            let (limit, bounded) = (stop.name(), stop.limit().map_or("place", Limit::bounded));
+            let allowed = format!("a limit above the {bounded} of the start, {value:.6}");
+            CaseError::value(limit, Value::Number(bound), allowed)
+        }
+        StartError::NotFinite | StartError::Restitution | StartError::TooManyCables => {
+            CaseError::value("x, y, theta", place(p), error.to_string())
+        }
     }
 }
 

@@ -118,7 +118,7 @@ impl Default for Parameters {
 /// How the value of a key is read from a case.
 #[derive(Clone, Copy, Debug)]
 pub enum Get {
-    /// A number; the inertia of a point mass is none.
+    /// A number; none where there is none, as of the inertia of a point mass or a limit that is off.
     Number(fn(&Parameters) -> Option<f64>),
     /// A whole number.
     Count(fn(&Parameters) -> u64),

@@ -64,8 +64,9 @@ pub(crate) trait Along<T> {
     fn ends(&self) -> [&State<T>; 2];
     /// The state a time `s` into it.
     fn state(&self, s: T) -> State<T>;
-    /// Bounds on |ÿ| and |θ̈| within it; the latter is zero in flight.
-    fn acceleration_bounds(&self) -> [T; 2];
+    /// A bound on the n-th derivative, n = 2, 3 or 4, of x, y or θ (0, 1, 2) within it; that of θ is
+    /// zero in flight.
+    fn derivative_bound(&self, n: usize, coordinate: usize) -> T;
 }
 
 /// A bound on |θ|. In a flight it is largest at an end.
@@ -73,7 +74,7 @@ pub(crate) trait Along<T> {
 fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
     let [start, end] = step.ends();
     let ends = start.theta.abs().max(end.theta.abs());
-    let [_, bend] = step.acceleration_bounds();
+    let bend = step.derivative_bound(2, 2);
     if bend == T::ZERO {
         return ends;
     }
@@ -93,7 +94,7 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
 #[inline(always)]
 fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let ([start, end], s) = (step.ends(), step.duration());
-    let [y_bend, theta_bend] = step.acceleration_bounds();
+    let [y_bend, theta_bend] = [1, 2].map(|coordinate| step.derivative_bound(2, coordinate));
     let reach = system.body.reach();
     let rough = start.y.max(end.y) + y_bend * s * s * 0.125 + reach;
     if rough < floor {

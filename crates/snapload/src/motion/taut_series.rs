@@ -408,13 +408,11 @@ impl<T: Real> Series<T> {
         self.lines[cable].gap.derivative_bound(2, self.step, ORDER)
     }
 
-    /// Bounds on |ÿ| and |θ̈| over the step.
+    /// A bound on the n-th derivative of x, y or θ (0, 1, 2) over the step.
     #[inline(always)]
-    pub(crate) fn acceleration_bounds(&self) -> [T; 2] {
-        [
-            self.y.derivative_bound(2, self.step, ORDER),
-            self.theta.derivative_bound(2, self.step, ORDER),
-        ]
+    pub(crate) fn derivative_bound(&self, n: usize, coordinate: usize) -> T {
+        let place = [&self.x, &self.y, &self.theta][coordinate];
+        place.derivative_bound(n, self.step, ORDER)
     }
 }
 

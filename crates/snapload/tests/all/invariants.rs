@@ -67,7 +67,10 @@ fn cases(forced: bool) -> impl Strategy<Value = Parameters> {
                 },
                 stop_when_settled: settle,
                 stop_when_sliding: slide,
-                max_impacts: 3_000,
+                ..Parameters {
+                    max_impacts: 3_000,
+                    ..Parameters::STANDARD
+                }
             };
             Case::new(parameters).ok().map(|_| parameters)
         },

@@ -116,7 +116,7 @@ impl<T: Real> Stretch<'_, T> {
                 T::ZERO,
             ],
             Self::Expanded(series) => {
-                let [y, theta] = series.acceleration_bounds();
+                let [y, theta] = [1, 2].map(|coordinate| series.derivative_bound(2, coordinate));
                 [y, y, theta]
             }
         }
@@ -147,9 +147,14 @@ impl<T: Real> Along<T> for Latest<'_, T> {
     }
 
     #[inline(always)]
-    fn acceleration_bounds(&self) -> [T; 2] {
-        let [_, y, theta] = self.motion.bends(self.system);
-        [y, theta]
+    fn derivative_bound(&self, n: usize, coordinate: usize) -> T {
+        let forcing = &self.system.forcing;
+        match (&self.motion, n, coordinate) {
+            (Stretch::Expanded(series), ..) => series.derivative_bound(n, coordinate),
+            (Stretch::Closed(_), _, 2) => T::ZERO,
+            (Stretch::Closed(_), 2, 1) => forcing.vertical_acceleration_bound(),
+            (Stretch::Closed(_), ..) => forcing.bounds()[n - 2],
+        }
     }
 }
 
