@@ -10,7 +10,7 @@ use crate::whole::whole;
 use serde::Serialize;
 use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress};
 use snapload::{CaseError, Value};
-use snapload_report::{CriticalRow, Probability};
+use snapload_report::{CriticalRow, Probability, case_in_words};
 use snapload_study::Axis;
 use std::fmt::Write;
 
@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let Some(written) = json.write(stage, &answer)? else {
         return Ok(());
     };
-    let mut text = answer.in_words(&input.name, args);
+    let mut text = answer.in_words(&case_in_words(&input.name, input.case.parameters()), args);
     for path in written {
         let _ = writeln!(text, "Written   {}", path.display());
     }
@@ -165,10 +165,10 @@ struct Point {
 }
 
 impl Answer {
-    fn in_words(&self, name: &str, args: &Args) -> String {
+    fn in_words(&self, case: &str, args: &Args) -> String {
         match self {
             Self::One { row, curve } => {
-                let mut text = format!("Case      {name}\n");
+                let mut text = format!("Case      {case}\n");
                 let _ = match (row.f_cr, row.reason, row.t) {
                     (Some(f_cr), Some(reason), Some(t)) => writeln!(
                         text,

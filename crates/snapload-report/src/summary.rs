@@ -147,7 +147,7 @@ fn doubt_at(trusted: &Trusted, t: f64) -> &'static str {
 /// How many decimal digits of a value are known, of its fraction where it is below 1; nothing where
 /// there is no error to tell it from.
 fn known(value: f64, error: Option<f64>) -> String {
-    let Some(error) = error else {
+    let Some(error) = error.filter(|error| error.is_finite()) else {
         return NOT_CERTAIN.to_owned();
     };
     let digits = digits_within(error / value.abs().max(1.0)).floor();

@@ -81,11 +81,26 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
     let largest = [norms.y_max, norms.theta_max];
     let mut playback = Playback::new(run);
     let mut worst = [0.0_f64; 2];
+    let start = run.segments().first().map_or(0.0, |first| first.t);
+    let ([first, last], end) = (trust.edge_errors, run.end().t);
     let rows = run.impacts().iter().zip(&trust.errors);
     let rows = rows.map(|(impact, error)| (impact.t, *error, 0.0));
-    let start = run.segments().first().map_or(0.0, |first| first.t);
-    let ([mut before, last], end, mut from) = (trust.edge_errors, run.end().t, start);
-    for (to, after, late) in rows.chain([(end, last, trust.end_error)]) {
+    let mut rows: Vec<_> = [(start, first, 0.0)]
+        .into_iter()
+        .chain(rows)
+        .chain([(end, last, trust.end_error)])
+        .collect();
+    // What happens at one instant, such as an impact and the impulses that it passes on, or the
+    // impact that ends the run, has no stretch between.
+    rows.dedup_by(|next, row| {
+        let at_once = next.0 <= row.0;
+        if at_once {
+            *row = (row.0, row.1.max(next.1), row.2.max(next.2));
+        }
+        at_once
+    });
+    let (mut from, mut before, _) = rows[0];
+    for &(to, after, late) in &rows[1..] {
         let (span, told) = ([from, to], after.max(before));
         let along = Along::of(&mut playback, span);
         let off = |k: usize| along.growth(run, k, span) * told + along.speeds[k] * late;
@@ -100,7 +115,11 @@ fn extreme_errors(run: &Trajectory, trust: &Trust) -> [Option<f64>; 2] {
         }
         (from, before) = (to, after);
     }
-    worst.map(Some)
+    match rows.len() {
+        // It ends where it starts.
+        1 => largest.map(|value| Some(before * value.abs().max(1.0))),
+        _ => worst.map(Some),
+    }
 }
 
 /// A motion that is played back is that of the run to this.
@@ -270,6 +289,7 @@ mod tests {
                 (norms.theta_max, exact.theta_max(), told.theta_max),
             ] {
                 let told = told.unwrap_or(f64::NAN);
+                assert!(told.is_finite(), "{parameters:?}");
                 // What is a limit, or the start, is known to its rounding.
                 let off = (exact - Precise::from_f64(ours)).to_f64().abs();
                 assert!(
@@ -281,6 +301,26 @@ mod tests {
             }
         }
         assert!(compared > 200 && sharp * 2 > compared, "{compared} {sharp}");
+        Ok(())
+    }
+
+    /// Impacts of one instant, and one that ends the run, take nothing from what is known: the
+    /// standard case settles at an impact, and goes on to rock after impulses that were passed on.
+    #[test]
+    fn extremes_are_known_where_impacts_come_at_once() -> Result<(), Unfinished> {
+        for stop_when_settled in [true, false] {
+            let case = Case::new(Parameters {
+                e: 0.3,
+                t_end: 5.0,
+                stop_when_settled,
+                ..Parameters::STANDARD
+            })?;
+            let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+            let told = NormErrors::of(&run, &trust);
+            for told in [told.y_max, told.theta_max] {
+                assert!(told.is_some_and(|error| error < 1e-10), "{told:?}");
+            }
+        }
         Ok(())
     }
 

@@ -69,7 +69,7 @@ pub enum DefaultValue {
     Flag(bool),
     /// This word.
     Word(&'static str),
-    /// What these words say; it depends on other keys.
+    /// What these words say, as where it depends on other keys or is nothing at all.
     Derived(&'static str),
 }
 

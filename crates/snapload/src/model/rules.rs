@@ -57,7 +57,8 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// All of them.
+    /// All of them. In tables of numbers each is known by its place here, so that a new one comes
+    /// last.
     pub const ALL: [Self; 6] = [
         Self::Settled,
         Self::RotationLimit,
@@ -126,9 +127,15 @@ impl Stop {
     }
 }
 
-/// Event functions that all limits together have at most: one for either side of the rotation, one
-/// for each corner below the upper bound.
-pub(crate) const LIMIT_FUNCTIONS: usize = 6;
+/// Event functions that all limits together have at most.
+pub(crate) const LIMIT_FUNCTIONS: usize = {
+    let (mut sum, mut k) = (0, 0);
+    while k < Limit::ALL.len() {
+        sum += Limit::ALL[k].functions();
+        k += 1;
+    }
+    sum
+};
 
 /// A limit of the motion: a run ends where the quantity that it bounds reaches its bound. Those
 /// first count that are first here where several are reached at one instant.
@@ -149,6 +156,15 @@ impl Limit {
         match self {
             Self::Rotation => Stop::RotationLimit,
             Self::UpperBound => Stop::UpperBound,
+        }
+    }
+
+    /// How many event functions it has at most: one for either side of the rotation, one for each
+    /// corner below the upper bound.
+    const fn functions(self) -> usize {
+        match self {
+            Self::Rotation => 2,
+            Self::UpperBound => 4,
         }
     }
 
