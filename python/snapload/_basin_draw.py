@@ -72,7 +72,7 @@ def _of_ends(outcomes: NDArray[Any]) -> tuple[NDArray[np.int64], list[tuple[str,
     """The cells by how they end, as numbers from 1, and how each number is drawn; 0 is no start."""
     numbers = np.zeros(outcomes.shape, dtype=np.int64)
     looks: list[tuple[str, str]] = []
-    for word in REASONS:
+    for word in dict.fromkeys([*_ENDS, *REASONS]):
         look, there = _look_of(word), outcomes == word
         if there.any():
             if look not in looks:

@@ -22,9 +22,9 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
     Returns
     -------
     Table
-        A row an impact and key: ``impact``, from 1, ``key``, and the derivatives ``t``, ``v_n`` and ``impulse``, each
-        in its own unit over that of the key. Empty where the start, on the very edge of what is legal, has no
-        neighbours.
+        A row an impact and key: ``impact``, from 1, ``key``, the derivatives ``t``, ``v_n`` and ``impulse``, each in
+        its own unit over that of the key, and ``certain``: 1 where the impact is before the horizon of the run, else
+        0. Empty where the start, on the very edge of what is legal, has no neighbours.
 
     Raises
     ------
@@ -49,9 +49,9 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
     (1, -0.12)
     """
     found, _ = ask("sensitivities", case, impacts=impacts)
-    names = ("impact", "key", "t", "v_n", "impulse")
-    numbers, keys, *slopes = ([row[name] for row in found["derivatives"]] for name in names)
-    derivatives = zip(names[2:], ("T", "L/T", "m L/T"), slopes, strict=True)
+    names = ("impact", "key", "certain", "t", "v_n", "impulse")
+    numbers, keys, certain, *slopes = ([row[name] for row in found["derivatives"]] for name in names)
+    derivatives = zip(names[3:], ("T", "L/T", "m L/T"), slopes, strict=True)
     return Table._of(
         [
             ("impact", "", "number of the impact", np.array(numbers, dtype=np.int64)),
@@ -60,5 +60,6 @@ def sensitivities(case: Case, impacts: int = 3) -> Table:
                 (name, f"{unit} over the unit of the key", f"derivative of {name}", np.array(values, dtype=np.float64))
                 for name, unit, values in derivatives
             ),
+            ("certain", "", "1 where the impact is before the horizon, else 0", np.array(certain, dtype=np.int64)),
         ]
     )

@@ -160,8 +160,7 @@ class System:
     @property
     def _limits(self) -> dict[str, float]:
         """The bounds of the limits that are given."""
-        bounds = {name: getattr(self, name) for name in LIMITS}
-        return {name: bound for name, bound in bounds.items() if bound is not None}
+        return {name: bound for name in LIMITS if (bound := getattr(self, name)) is not None}
 
     def replace(self, **keys: Any) -> System:
         """Change some keys.

@@ -1,8 +1,13 @@
 //! How the first impacts change with each key: the question, its words and its JSON.
 use crate::digits::digits;
 use crate::question::{Answer, Options, Question};
+use crate::summary::indented;
+use crate::trust::HorizonRow;
+use crate::trusted::horizon_in_words;
 use serde::Serialize;
-use snapload::analysis::{OnProgress, Sensitivity, Unfinished, sensitivity};
+use snapload::analysis::{
+    Horizon, OnProgress, Sensitivity, TrustMonitor, Uncertainty, Unfinished, sensitivity,
+};
 use snapload::{Case, DefaultValue, Key, Kind};
 use std::fmt::Write;
 
@@ -11,7 +16,8 @@ pub(crate) const SENSITIVITIES: Question = Question {
     asks: "Derive the first impacts by every key that the motion depends on",
     help: "\
 The derivatives of time, normal velocity and impulse are exact to rounding, all other keys held; the
-inertia follows the size of the body where it is the natural one.
+inertia follows the size of the body where it is the natural one. Past the horizon of the run they are
+those of a motion that may be another, and are marked.
 
 Examples:
   snapload sensitivities
@@ -33,6 +39,8 @@ Examples:
 /// legal, has no neighbours.
 #[derive(Serialize)]
 struct Derivatives {
+    /// From where on the run is not certain, as far as its impacts are asked for.
+    horizon: HorizonRow,
     derivatives: Vec<Row>,
 }
 
@@ -43,38 +51,77 @@ struct Row {
     t: f64,
     v_n: f64,
     impulse: f64,
+    /// Whether the impact is before the horizon.
+    certain: bool,
+}
+
+/// How far the run is looked at.
+struct Looked {
+    impacts: usize,
+    horizon: Option<Horizon>,
+}
+
+impl Looked {
+    /// To so many impacts, or, past the first, to the horizon.
+    fn at(case: &Case, count: usize) -> Result<Self, Unfinished> {
+        let mut simulation = case.simulation();
+        let mut monitor = TrustMonitor::of_case(case, &Uncertainty::default())?;
+        let mut impacts = 0;
+        while impacts == 0 || impacts < count && monitor.horizon().is_none() {
+            let Some(step) = simulation.step() else { break };
+            monitor.follow(&simulation, &step);
+            impacts += step.impacts().count();
+        }
+        let horizon = monitor.horizon().filter(|horizon| horizon.impact <= count);
+        Ok(Self { impacts, horizon })
+    }
+
+    fn is_certain(&self, impact: usize) -> bool {
+        self.horizon.is_none_or(|horizon| impact < horizon.impact)
+    }
 }
 
 fn answer(case: &Case, options: &Options, on_progress: OnProgress) -> Result<Answer, Unfinished> {
-    let count: u64 = options.get("impacts")?;
-    let found = sensitivity(case, count as usize, on_progress)?;
-    let words = in_words(&found);
+    let count = options.get::<u64>("impacts")? as usize;
+    let found = sensitivity(case, count, on_progress)?;
+    let looked = Looked::at(case, count)?;
+    let words = in_words(&found, &looked);
     let rows = found
         .into_iter()
         .flat_map(|Sensitivity { impact, slopes }| {
+            let certain = looked.is_certain(impact);
             slopes.into_iter().map(move |slope| Row {
                 impact,
                 key: slope.key,
                 t: slope.t,
                 v_n: slope.v_n,
                 impulse: slope.impulse,
+                certain,
             })
         });
-    let derivatives = rows.collect();
-    Ok(Answer::new(words, &Derivatives { derivatives })?)
+    let row = Derivatives {
+        derivatives: rows.collect(),
+        horizon: HorizonRow::new(looked.horizon),
+    };
+    Ok(Answer::new(words, &row)?)
 }
 
 /// A table for each impact.
-fn in_words(found: &[Sensitivity]) -> String {
+fn in_words(found: &[Sensitivity], looked: &Looked) -> String {
     let mut text = String::new();
     for Sensitivity { impact, slopes } in found {
         let label = format!("Impact {impact}");
+        let doubt = if looked.is_certain(*impact) {
+            ""
+        } else {
+            "  (not certain)"
+        };
         let head = ["of t", "of v_n", "of impulse"];
         let [t, v_n, impulse] = head;
         // Writing to a string can not fail.
         let _ = writeln!(
             text,
-            "{label:<9} {:<7} {t:>11} {v_n:>11} {impulse:>11}",
+            "{label:<9} {:<7} {t:>11} {v_n:>11} {impulse:>11}{doubt}",
             "by"
         );
         for slope in slopes {
@@ -84,7 +131,56 @@ fn in_words(found: &[Sensitivity]) -> String {
         }
     }
     if found.is_empty() {
-        text.push_str("Impacts   none, or the start has no neighbours\n");
+        text.push_str(match looked.impacts {
+            0 => "Impacts   none, so that nothing can be derived\n",
+            _ => "Impacts   not derived: the start, on the very edge of what is legal, has no neighbours\n",
+        });
+    }
+    if looked.horizon.is_some() {
+        let known = horizon_in_words(
+            looked.horizon,
+            Uncertainty::default().tolerance,
+            found.len(),
+        );
+        let _ = writeln!(text, "Trust     {}", indented(&known));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use snapload::analysis::unwatched;
+    use snapload::{Parameters, Value};
+
+    fn asked(parameters: Parameters, impacts: i64) -> Result<Answer, Unfinished> {
+        let case = Case::new(parameters)?;
+        SENSITIVITIES.ask(&case, [("impacts", Value::from(impacts))], &unwatched)
+    }
+
+    /// The standard case is known before impact 191: one near miss ends it.
+    #[test]
+    fn what_is_past_the_horizon_is_marked() -> Result<(), Unfinished> {
+        let known = asked(Parameters::STANDARD, 190)?;
+        assert!(!known.words.contains("Trust") && !known.answer.get().contains("false"));
+        let more = asked(Parameters::STANDARD, 192)?;
+        let marked = more.words.matches("(not certain)").count();
+        assert_eq!(marked, 2);
+        assert!(more.words.contains("before impact 191 of 192"));
+        assert_eq!(
+            more.answer.get().matches("\"certain\":false").count(),
+            2 * 13
+        );
+        Ok(())
+    }
+
+    #[test]
+    fn a_run_without_a_snap_says_so() -> Result<(), Unfinished> {
+        let still = Parameters {
+            t_end: 0.01,
+            ..Parameters::STANDARD
+        };
+        assert!(asked(still, 3)?.words.contains("nothing can be derived"));
+        Ok(())
+    }
 }

@@ -167,15 +167,25 @@ fn end_known(trusted: &Trusted, parameters: &Parameters) -> String {
     words.replacen(&at, &format!("{at} ({})", known(end.t, error)), 1)
 }
 
+/// What the limits of the thesis's case come to, which says more than what they are in general.
+const LIMITS_HERE: [(Stop, &str); 2] = [
+    (Stop::RotationLimit, "|theta| reached pi/2"),
+    (
+        Stop::UpperBound,
+        "the body reached the level of the anchors",
+    ),
+];
+
 /// How a run ended, and when.
 pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String {
     let end = trajectory.end();
     let t = digits(end.t);
     match end.reason {
         Stop::Settled => format!("settled at t = {t}: taut below y = {SETTLING_HEIGHT}"),
-        Stop::RotationLimit => format!("rotation limit at t = {t}: |theta| reached pi/2"),
-        Stop::UpperBound => {
-            format!("upper bound at t = {t}: the body reached the level of the anchors")
+        Stop::SlidingStart => {
+            format!(
+                "sliding starts at t = {t}: a cable stays taut at or above y = {SETTLING_HEIGHT}"
+            )
         }
         Stop::EndTime => format!("end of the time asked for, t = {t}"),
         Stop::ImpactLimit => {
@@ -184,7 +194,11 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
                 parameters.max_impacts
             )
         }
-        other => format!("{} at t = {t}: {}", other.words(), other.meaning()),
+        limit => {
+            let here = LIMITS_HERE.iter().find(|(stop, _)| *stop == limit);
+            let what = here.map_or(limit.meaning(), |(_, what)| what);
+            format!("{} at t = {t}: {what}", limit.words())
+        }
     }
 }
 

@@ -376,16 +376,13 @@ fn the_schema_is_complete_and_says_what_it_does() {
         assert!(
             key.allowed().contains(key.name) || !matches!(key.kind, snapload::Kind::Number { .. })
         );
-        let Some(default) = Parameters::STANDARD.get(key.name) else {
-            assert!(key.default.value().is_none(), "{}", key.name);
+        let (name, default) = (key.name, key.default.value());
+        let Some(value) = Parameters::STANDARD.get(name) else {
+            assert!(default.is_none(), "{name}");
             continue;
         };
-        assert!(
-            key.default.value().is_none_or(|value| value == default),
-            "{}",
-            key.name
-        );
-        assert!(given(&[(key.name, default)]).is_ok(), "{}", key.name);
+        assert!(default.is_none_or(|default| default == value), "{name}");
+        assert!(given(&[(name, value)]).is_ok(), "{name}");
     }
 }
 
