@@ -62,8 +62,8 @@ pub(crate) trait Along<T> {
     fn duration(&self) -> T;
     /// The states at its start and just before the event at its end.
     fn ends(&self) -> [&State<T>; 2];
-    /// The state a time `s` into it.
-    fn state(&self, s: T) -> State<T>;
+    /// The largest value of a quantity at the ends of so many equal parts of it.
+    fn largest_seen(&self, parts: usize, quantity: impl Fn(&State<T>) -> T) -> T;
     /// A bound on the n-th derivative, n = 2, 3 or 4, of x, y or θ (0, 1, 2) within it; that of θ is
     /// zero in flight.
     fn derivative_bound(&self, n: usize, coordinate: usize) -> T;
@@ -84,17 +84,16 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
         return rough;
     }
     let width = s / LOOKS as f64;
-    (0..=LOOKS)
-        .map(|k| step.state(width * k as f64).theta.abs())
-        .fold(ends, T::max)
-        + bend * width * width * 0.125
+    let seen = step.largest_seen(LOOKS, |state| state.theta.abs());
+    ends.max(seen) + bend * width * width * 0.125
 }
 
 /// A bound on y of the highest point of the body.
 #[inline(always)]
 fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let ([start, end], s) = (step.ends(), step.duration());
-    let [y_bend, theta_bend] = [1, 2].map(|coordinate| step.derivative_bound(2, coordinate));
+    let y_bend = step.derivative_bound(2, 1);
+    let theta_bend = step.derivative_bound(2, 2);
     let reach = system.body.reach();
     let rough = start.y.max(end.y) + y_bend * s * s * 0.125 + reach;
     if rough < floor {
@@ -103,10 +102,8 @@ fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     let width = s / LOOKS as f64;
     let spin = start.vtheta.abs() + theta_bend * s;
     let bend = y_bend + (spin * spin + theta_bend) * reach;
-    (0..=LOOKS)
-        .map(|k| system.top(&step.state(width * k as f64)))
-        .fold(start.y, T::max)
-        + bend * width * width * 0.125
+    let seen = step.largest_seen(LOOKS, |state| system.top(state));
+    start.y.max(seen) + bend * width * width * 0.125
 }
 
 /// What flights side by side compare with.
@@ -231,16 +228,11 @@ impl<T: Real> Limits<T> {
     ) {
         let [_, y, theta] = motion.place;
         for (limit, bound) in self.bounds.iter() {
-            let mut watch = |series: Polynomial<T>| {
-                if !series.stays_negative(motion.step, ORDER, T::ZERO) {
-                    watched.push((EventFunction::Limit(limit), series, ORDER));
-                }
-            };
             match limit {
                 Limit::Rotation => {
                     for mut side in [*theta, theta.negated()] {
                         side[0] -= bound;
-                        watch(side);
+                        watch(limit, &side, motion.step, watched);
                     }
                 }
                 Limit::UpperBound => {
@@ -251,11 +243,24 @@ impl<T: Real> Limits<T> {
                             top[k] = y[k] + px * sine + py * cosine;
                         }
                         top[0] = top[0] + self.radius - bound;
-                        watch(top);
+                        watch(limit, &top, motion.step, watched);
                     }
                 }
             }
         }
+    }
+}
+
+/// Adds an event function, if it may be reached within the step.
+#[inline(always)]
+fn watch<T: Real>(
+    limit: Limit,
+    series: &Polynomial<T>,
+    step: T,
+    watched: &mut Vec<(EventFunction, Polynomial<T>, usize)>,
+) {
+    if !series.stays_negative(step, ORDER, T::ZERO) {
+        watched.push((EventFunction::Limit(limit), *series, ORDER));
     }
 }
 

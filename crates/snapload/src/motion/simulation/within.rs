@@ -116,18 +116,18 @@ impl<T: Real> Stretch<'_, T> {
                 T::ZERO,
             ],
             Self::Expanded(series) => {
-                let [y, theta] = [1, 2].map(|coordinate| series.derivative_bound(2, coordinate));
-                [y, y, theta]
+                let y = series.derivative_bound(2, 1);
+                [y, y, series.derivative_bound(2, 2)]
             }
         }
     }
 }
 
-/// The latest step, with the motion along it.
+/// The latest step. The motion along it, which may have to be made anew, is asked for only where it
+/// is looked at.
 struct Latest<'a, T: Real> {
+    simulation: &'a Simulation<T>,
     step: &'a Step<T>,
-    motion: Stretch<'a, T>,
-    system: &'a System<T>,
 }
 
 impl<T: Real> Along<T> for Latest<'_, T> {
@@ -142,18 +142,21 @@ impl<T: Real> Along<T> for Latest<'_, T> {
     }
 
     #[inline(always)]
-    fn state(&self, s: T) -> State<T> {
-        self.motion.state(s)
+    fn largest_seen(&self, parts: usize, quantity: impl Fn(&State<T>) -> T) -> T {
+        let motion = self.simulation.motion(self.step.taut);
+        let width = self.duration() / parts as f64;
+        let seen = |k: usize| quantity(&motion.state(width * k as f64));
+        (1..=parts).map(seen).fold(seen(0), T::max)
     }
 
     #[inline(always)]
     fn derivative_bound(&self, n: usize, coordinate: usize) -> T {
-        let forcing = &self.system.forcing;
-        match (&self.motion, n, coordinate) {
-            (Stretch::Expanded(series), ..) => series.derivative_bound(n, coordinate),
-            (Stretch::Closed(_), _, 2) => T::ZERO,
-            (Stretch::Closed(_), 2, 1) => forcing.vertical_acceleration_bound(),
-            (Stretch::Closed(_), ..) => forcing.bounds()[n - 2],
+        let forcing = &self.simulation.system.forcing;
+        match (self.simulation.expanded(self.step.taut), n, coordinate) {
+            (Some(series), ..) => series.derivative_bound(n, coordinate),
+            (None, _, 2) => T::ZERO,
+            (None, 2, 1) => forcing.vertical_acceleration_bound(),
+            (None, ..) => forcing.bounds()[n - 2],
         }
     }
 }
@@ -308,9 +311,8 @@ impl<T: Real> Simulation<T> {
     #[inline(always)]
     pub(crate) fn largest_within(&self, step: &Step<T>, limit: Limit, floor: T) -> T {
         let latest = Latest {
+            simulation: self,
             step,
-            motion: self.motion(step.taut),
-            system: &self.system,
         };
         limit.largest_along(&self.system, &latest, floor)
     }
