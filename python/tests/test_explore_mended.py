@@ -32,7 +32,6 @@ def test_the_verdict_is_that_of_the_picture(open_page):
 TOLD = """() => {
     window.told = [];
     const note = () => window.told.push({
-        at: performance.now(),
         words: document.getElementById('said').textContent,
         stale: ['summary', 'said', 'seal', 'section-said']
             .map(id => document.getElementById(id).classList.contains('stale')),
@@ -54,7 +53,7 @@ def test_words_of_the_run_before_are_pale_beside_a_newer_picture(open_page):
     assert page.locator("#strip").evaluate(picture) != before
     told = page.evaluate("() => window.told")
     assert "Settled" in told[0]["words"] and all(told[0]["stale"]), told
-    assert not any(told[-1]["stale"]) and told[-1]["at"] - told[0]["at"] < 1000, told
+    assert not any(told[-1]["stale"]), told
     expect(page.locator("#summary")).to_have_css("opacity", "1")
 
 
@@ -63,19 +62,29 @@ def test_words_keep_up_with_a_fast_drag(open_page):
     page.evaluate(TOLD)
     # Frames that are slower than answers: one picture takes the place of the other before it is painted.
     page.evaluate("() => (window.requestAnimationFrame = f => setTimeout(f, 1500))")
-    told = page.evaluate(
+    # Answers are what is counted, and no time: a machine that is busy gives them later, and the words with them.
+    answers = page.evaluate(
         """async () => {
+            let answers = 0;
+            const ask = window.fetch;
+            window.fetch = async (...what) => {
+                const answer = await ask(...what);
+                answers += 1;
+                return answer;
+            };
             const slider = document.getElementById('slider-f_o');
-            for (let k = 0; k < 70; k += 1) {
-                slider.value = 0.3 + k / 1000;
+            const told = [];
+            for (let k = 0; answers < 60 && k < 3000; k += 1) {
+                slider.value = 0.3 + (k % 100) / 1000;
                 slider.dispatchEvent(new Event('input'));
                 await new Promise(done => setTimeout(done, 30));
+                told.push(...window.told.splice(0).filter(({ stale }) => !stale[0]).map(() => answers));
             }
-            return window.told.filter(({ stale }) => !stale[0]).map(({ at }) => at);
+            return told;
         }"""
     )
-    assert len(told) >= 5, told
-    assert max(later - at for at, later in pairwise(told)) < 600, told
+    assert answers, "they wait for the end of the drag"
+    assert max(later - before for before, later in pairwise([0, *answers, 60])) <= 20, answers
 
 
 def test_forced_colours_leave_the_pictures_theirs(open_page):

@@ -7,6 +7,10 @@ use include_dir::{Dir, include_dir};
 
 static PAGE: Dir = include_dir!("$CARGO_MANIFEST_DIR/page");
 
+const ICON: &str = "icon.svg";
+/// Where a browser looks for the icon of what names none, such as a picture that is opened by itself.
+const ICON_OF_OTHERS: &str = "favicon.ico";
+
 /// The file of a path.
 pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
     named(uri.path().trim_start_matches('/'))
@@ -14,10 +18,11 @@ pub(crate) async fn file(uri: Uri) -> Result<Response, Refusal> {
 
 /// The file of a name.
 pub(crate) fn named(name: &str) -> Result<Response, Refusal> {
+    let name = if name == ICON_OF_OTHERS { ICON } else { name };
     let kind = kind(name).ok_or_else(Refusal::nothing_there)?;
     let file = PAGE.get_file(name).ok_or_else(Refusal::nothing_there)?;
     let mut answer = ([(CONTENT_TYPE, kind)], file.contents()).into_response();
-    if name == "icon.svg" {
+    if name == ICON {
         // A browser asks for it anew with each change of the address, of which a run makes many.
         let an_hour = HeaderValue::from_static("max-age=3600");
         answer.headers_mut().insert(CACHE_CONTROL, an_hour);

@@ -40,12 +40,16 @@ fn the_page_comes_with_headers_that_keep_it_to_itself() {
         }
     }
     // A browser asks for the icon with each change of the address.
-    let icon = server.get("/icon.svg").head;
-    assert!(icon.contains("cache-control: max-age=3600"), "{icon}");
-    assert!(
-        !icon.contains("no-store") && icon.contains("nosniff"),
-        "{icon}"
-    );
+    // For a picture that is opened by itself it looks elsewhere.
+    for path in ["/icon.svg", "/favicon.ico"] {
+        let icon = server.get(path).head;
+        assert!(icon.contains("content-type: image/svg+xml"), "{icon}");
+        assert!(icon.contains("cache-control: max-age=3600"), "{icon}");
+        assert!(
+            !icon.contains("no-store") && icon.contains("nosniff"),
+            "{icon}"
+        );
+    }
 }
 
 #[test]
