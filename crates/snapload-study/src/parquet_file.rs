@@ -104,7 +104,7 @@ pub(crate) struct Reader {
 
 impl Reader {
     /// The compressions that can be read, beside none.
-    pub(crate) const CODECS: &'static str = "snappy, gzip, lz4, zstd";
+    pub(crate) const CODECS: &'static str = "snappy, gzip, brotli, lz4, zstd";
 
     /// The compression of a column that can not be read.
     pub(crate) fn codec_without_reader(&self) -> Option<&'static str> {
@@ -112,11 +112,9 @@ impl Reader {
         let mut codecs = groups
             .flat_map(|group| group.columns())
             .map(|column| column.compression());
-        codecs.find_map(|codec| match codec {
-            Compression::BROTLI(_) => Some("brotli"),
-            Compression::LZO => Some("lzo"),
-            _ => None,
-        })
+        codecs
+            .any(|codec| codec == Compression::LZO)
+            .then_some("lzo")
     }
 
     pub(crate) fn open(file: File) -> Result<Self> {

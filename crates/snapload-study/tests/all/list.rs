@@ -1,6 +1,6 @@
 //! Lists of cases are read from anywhere, and never as a whole.
 use half::f16;
-use parquet::basic::{Compression, GzipLevel};
+use parquet::basic::{BrotliLevel, Compression, GzipLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, FixedLenByteArray, FixedLenByteArrayType};
 use parquet::data_type::{FloatType, Int32Type, Int64Type};
 use parquet::file::properties::WriterProperties;
@@ -182,6 +182,7 @@ fn compressions_are_read_or_named() {
     for codec in [
         Compression::SNAPPY,
         Compression::GZIP(level()),
+        Compression::BROTLI(BrotliLevel::default()),
         Compression::LZ4,
         Compression::LZ4_RAW,
     ] {
@@ -189,17 +190,19 @@ fn compressions_are_read_or_named() {
         let rows = read(List::open(file.path()).unwrap(), 4999..5000);
         assert_eq!(rows, [Ok(vec![("max_impacts", Value::Integer(5))])]);
     }
-    // Behind the name of the column stands its codec, as a number of the format: 4 is brotli, and
+    // Behind the name of the column stands its codec, as a number of the format: 3 is LZO, and
     // written twice as large.
     let file = counts(&[5], Compression::UNCOMPRESSED);
     let mut bytes = fs::read(file.path()).unwrap();
     let name = b"max_impacts\x15\x00";
     let place = bytes.windows(name.len()).rposition(|some| some == name);
-    bytes[place.unwrap() + name.len() - 1] = 8;
+    bytes[place.unwrap() + name.len() - 1] = 6;
     fs::write(file.path(), bytes).unwrap();
     let error = List::open(file.path()).unwrap_err().to_string();
     assert!(
-        error.contains("compressed with brotli; allowed: no compression, snappy, gzip, lz4, zstd"),
+        error.contains(
+            "compressed with lzo; allowed: no compression, snappy, gzip, brotli, lz4, zstd"
+        ),
         "{error}"
     );
 }
