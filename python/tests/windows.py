@@ -27,7 +27,9 @@ class Window:
         self.page.on("pageerror", lambda error: self.note(f"error in the page: {error}"))
         self.page.on("request", lambda request: self.asked(request.url))
         # The browser itself logs an answer that refuses; what a test expects to be refused is not wrong.
-        self.page.on("console", lambda line: self.refused or self.note(f"console: {line.text} ({line.location['url']})"))
+        self.page.on(
+            "console", lambda line: self.refused or self.note(f"console: {line.text} ({line.location['url']})")
+        )
 
     def note(self, what: str) -> None:
         if self.wrong is not None:
