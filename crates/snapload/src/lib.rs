@@ -61,6 +61,8 @@ pub use motion::held::{Held, Path};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};
+#[cfg(feature = "comparisons")]
+pub use motion::simulation::comparisons::BounceStages;
 pub use motion::simulation::{Simulation, Step, Steps};
 pub use motion::start::{START_TOLERANCE, StartError};
 pub use motion::step_map::{Deviation, Matrix, StepMap};

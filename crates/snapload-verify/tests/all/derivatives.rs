@@ -3,8 +3,8 @@
 
 use snapload::analysis::{START_KEYS, UNCERTAIN_KEYS};
 use snapload::{
-    Body, Cable, Case, Deviation, Dual, Forcing, Impact, Normal, Parameters, Precise, Real, Rules,
-    Shape, Simulation, State, Steps, System, Tangent,
+    Body, Cable, Case, Deviation, Dual, Forcing, Held, Impact, Normal, Parameters, Precise, Real,
+    Rules, Shape, Simulation, State, Step, Steps, System, Tangent, Value,
 };
 
 type Digits = Precise<4>;
@@ -311,5 +311,94 @@ fn derivatives_grow_towards_a_graze() {
                 assert!(off.abs() < 3.0 * v_n, "{off:e} at v_n = {v_n:e}");
             }
         }
+    }
+}
+
+fn case(entries: &[(&str, f64)], settles: bool) -> Case {
+    let numbers = entries
+        .iter()
+        .map(|(key, value)| (*key, Value::Number(*value)));
+    let stop = ("stop_when_settled", Value::Bool(settles));
+    Parameters::from_entries(numbers.chain([stop]))
+        .and_then(Case::new)
+        .expect("a legal case")
+}
+
+/// ż after a step, of a body of unit mass: its taut cables pull it by T n and turn it by T s/I.
+fn rates(held: &Held, step: &Step) -> [f64; 6] {
+    let (system, state) = (held.system(), &step.after);
+    let around = system.surroundings(step.t_end);
+    let mut acceleration = system.free_acceleration(&around, state, [0.0; 3]);
+    let tensions = held.tensions(step.taut_after, step.t_end, state);
+    for cable in step.taut_after.iter() {
+        let Normal { n, arm } = system.cables[cable].normal(state);
+        acceleration[0] -= tensions[cable] * n.x;
+        acceleration[1] -= tensions[cable] * n.y;
+        acceleration[2] -= tensions[cable] * arm * system.body.inverse_inertia();
+    }
+    let [x, y, theta] = acceleration;
+    [state.vx, state.vy, state.vtheta, x, y, theta]
+}
+
+/// The whole motion over dual numbers, in which no saltation matrix is written down, against the
+/// linearised one, at the end of each step; relative to the largest deviation there.
+fn worst_difference(case: &Case) -> (f64, usize, usize) {
+    let mut simulation = case.simulation();
+    let keys = ["x", "y", "theta", "vx", "vy", "vtheta"];
+    let dual = case.simulation_over(|key, number| {
+        let place = keys.iter().position(|k| *k == key);
+        place.map_or(Dual::constant(number), |i| {
+            Dual::<f64, 6>::variable(number, i)
+        })
+    });
+    let mut dual = dual.expect("a legal start");
+    let tangent = Tangent::new(simulation.system());
+    let held = Held::new(simulation.system().clone());
+    let start = tangent.of_start(&simulation);
+    let mut columns: Vec<[f64; 6]> = (0..6).map(|j| start.map(|row| row[j])).collect();
+    let (mut worst, mut steps, mut taut) = (0.0_f64, 0, 0);
+    while let (Some(step), Some(over)) = (simulation.step(), dual.step()) {
+        let map = tangent.of_step(&simulation, &step);
+        for column in &mut columns {
+            *column = map.fundamental(column);
+        }
+        let rates = rates(&held, &step);
+        let largest = columns
+            .iter()
+            .flatten()
+            .fold(0.0, |m: f64, c| m.max(c.abs()));
+        for (i, w) in over.after.components().iter().enumerate() {
+            for (j, column) in columns.iter().enumerate() {
+                let there = w.slope[j] - rates[i] * over.t_end.slope[j];
+                worst = worst.max((there - column[i]).abs() / largest);
+            }
+        }
+        steps += 1;
+        taut += usize::from(!step.taut.is_empty());
+        if largest > 1e10 {
+            break;
+        }
+    }
+    (worst, steps, taut)
+}
+
+#[test]
+fn agrees_with_the_motion_over_dual_numbers() {
+    let cases = [
+        (case(&[], true), 1e-8),
+        (case(&[("a", 0.2), ("b", 0.2), ("e", 0.6)], true), 1e-9),
+        (case(&[("f_o", 0.27), ("t_end", 12.0)], false), 1e-4),
+        (
+            case(&[("f_o", 0.1), ("t_end", 12.0), ("e", 0.5)], false),
+            1e-4,
+        ),
+        // Both cables stick in turn, down to v_n = 1e-12, where n·δP/v_n keeps four digits.
+        (case(&[("b", 0.1), ("e", 0.0), ("t_end", 9.0)], false), 1e-3),
+    ];
+    for (case, allowed) in cases {
+        let (worst, steps, taut) = worst_difference(&case);
+        println!("{steps} steps, {taut} of them taut: {worst:e}");
+        assert!(worst < allowed, "{worst:e}");
+        assert!(steps > 20 && (taut > 0) == (allowed > 1e-8));
     }
 }

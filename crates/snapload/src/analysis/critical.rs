@@ -143,22 +143,6 @@ impl CriticalForce {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::progress::unwatched;
-
-    #[test]
-    fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), Unfinished> {
-        let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default(), &unwatched)?;
-        let first = found.first.map(|first| (first.f_o, first.reason));
-        assert_eq!(first, Some((0.31, Stop::RotationLimit)));
-        let inside = |f_o: f64| {
-            found
-                .exceeding
-                .iter()
-                .any(|[a, b]| (*a..=*b).contains(&f_o))
-        };
-        assert!(inside(0.31) && inside(0.5) && !inside(0.4) && !inside(0.3));
-        Ok(())
-    }
 
     #[test]
     fn amplitudes_are_decimals() -> Result<(), CaseError> {
@@ -182,19 +166,6 @@ mod tests {
         ] {
             assert!(ForceScan::new(step, max).is_err(), "{step} {max}");
         }
-        Ok(())
-    }
-
-    #[test]
-    fn none_may_exceed() -> Result<(), Unfinished> {
-        let calm = Parameters {
-            e: 0.0,
-            a: 0.5,
-            inertia: Some(0.25),
-            ..Parameters::STANDARD
-        };
-        let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?, &unwatched)?;
-        assert_eq!((found.first, found.exceeding), (None, vec![]));
         Ok(())
     }
 }

@@ -237,7 +237,6 @@ const NORMAL_995: f64 = 2.575_829_303_548_901;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::progress::unwatched;
 
     /// Values of SciPy's `binomtest(count, of).proportion_ci(method="wilson")`.
     #[test]
@@ -292,75 +291,5 @@ mod tests {
         // Wilson's own swings about 5 %, as counts are whole numbers.
         assert!(sum / 399.0 < 0.05, "{sum}");
         assert!(worst < worst_alone + 1e-3, "{worst} {worst_alone}");
-    }
-
-    /// No more are run where the first 200 end alike, and all where one of them does not.
-    #[test]
-    fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
-        let case = Case::new(Parameters {
-            t_end: 1.0,
-            ..Parameters::STANDARD
-        })?;
-        let alike = Ensemble::about(&case, &Uncertainty::of_start(1e-6), 1000, 1);
-        let tally = alike.tally_until_clear(&unwatched)?;
-        assert_eq!(tally.members(), 200);
-        assert!(tally.shares()[0].1.interval()[0] < 0.97);
-        let few = Ensemble {
-            count: 100,
-            ..alike.clone()
-        };
-        assert_eq!(few.tally_until_clear(&unwatched)?, few.tally(&unwatched)?);
-        let undecided = Case::new(Parameters {
-            f_o: 0.5,
-            ..Parameters::STANDARD
-        })?;
-        let mut uncertainty = Uncertainty::default();
-        uncertainty.set("e", 0.02)?;
-        let uncertain = Ensemble::about(&undecided, &uncertainty, 210, 1);
-        let tally = uncertain.tally(&unwatched)?;
-        assert!(tally.shares().len() > 1, "one that ends in several ways");
-        assert_eq!(uncertain.tally_until_clear(&unwatched)?, tally);
-        Ok(())
-    }
-
-    #[test]
-    fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<(), CaseError> {
-        let case = Case::new(Parameters::STANDARD)?;
-        let mut uncertainty = Uncertainty::default();
-        uncertainty.set("f_o", 0.02)?;
-        uncertainty.set("a", 0.001)?;
-        let many = Ensemble::about(&case, &uncertainty, 100, 7);
-        let few = Ensemble {
-            count: 3,
-            ..many.clone()
-        };
-        for index in 0..100 {
-            let member = *many.member(index)?.parameters();
-            assert!((member.f_o - 0.3).abs() <= 0.02 && member.f_o != 0.3);
-            assert_eq!(member.inertia, Some(member.a * member.a));
-            assert_eq!((member.x, member.y), (0.0, 0.1));
-            assert_eq!(member, *few.member(index)?.parameters());
-        }
-        let other = Ensemble {
-            seed: 8,
-            ..many.clone()
-        };
-        assert_ne!(other.member(0)?.parameters(), many.member(0)?.parameters());
-        Ok(())
-    }
-
-    /// A start on a cable's end: half of the cloud is out of reach, and is drawn again.
-    #[test]
-    fn illegal_neighbours_are_drawn_again() -> Result<(), Unfinished> {
-        let case = Case::new(Parameters {
-            y: 0.0,
-            ..Parameters::STANDARD
-        })?;
-        let ensemble = Ensemble::about(&case, &Uncertainty::of_start(1e-3), 50, 1);
-        let tally = ensemble.tally(&unwatched)?;
-        assert_eq!(tally.members(), 50);
-        let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();
-        assert_eq!(total, 50);
-        Ok(())
     }
 }

@@ -29,7 +29,7 @@ pub enum Lanes {
     One,
     /// Four, in plain Rust: what the registers have to agree with, on every processor. It is not made
     /// to be fast, and is there for tests alone.
-    #[cfg(feature = "plain-lanes")]
+    #[cfg(feature = "comparisons")]
     Plain,
     /// Eight, in pairs of the registers of a processor with AVX2 and FMA.
     Avx2,
@@ -46,7 +46,7 @@ impl Lanes {
         )]
         let mut all = vec![
             Self::One,
-            #[cfg(feature = "plain-lanes")]
+            #[cfg(feature = "comparisons")]
             Self::Plain,
         ];
         #[cfg(target_arch = "x86_64")]
@@ -134,7 +134,7 @@ impl Lanes {
             Self::Avx2 if crate::arithmetic::processor::has_fma() => x86::avx2(runs, tell),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
-            #[cfg(feature = "plain-lanes")]
+            #[cfg(feature = "comparisons")]
             Self::Plain => {
                 LaneScheduler::<crate::batch::vector::Several<f64, 4>, C>::new(runs, tell).run_all()
             }

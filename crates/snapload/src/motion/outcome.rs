@@ -114,37 +114,3 @@ impl Outcome {
         self.end.reason.exceeds()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Case;
-    use crate::case::error::CaseError;
-    use crate::case::named::named_case;
-
-    /// Every number is that of the kept run.
-    #[test]
-    fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
-        for code in ["sliding-example", "rocking-example", "1910001000-359"] {
-            let case = Case::new(named_case(code)?.parameters)?;
-            let (outcome, run) = (Outcome::of(&case), case.run());
-            assert_eq!((outcome.end, outcome.norms), (*run.end(), *run.norms()));
-            let snaps: Vec<_> = run.impacts().iter().filter(|i| i.v_n > 0.0).collect();
-            let by_cable =
-                std::array::from_fn(|k| snaps.iter().filter(|i| i.cable == k).count() as u64);
-            assert_eq!(outcome.impacts, by_cable);
-            let first = snaps.first().map(|i| (i.t, i.cable, i.v_n));
-            assert_eq!(outcome.first.map(|f| (f.t, f.cable, f.v_n)), first);
-            for (mode, time) in [
-                ("slack", outcome.slack()),
-                ("sliding", outcome.sliding),
-                ("rocking", outcome.rocking),
-            ] {
-                let of_mode = run.modes().iter().filter(|i| i.taut.mode().name() == mode);
-                let sum: f64 = of_mode.map(|i| i.t_end - i.t_start).sum();
-                assert!((sum - time).abs() < 1e-9, "{code}: {mode} {sum} {time}");
-            }
-        }
-        Ok(())
-    }
-}

@@ -26,6 +26,8 @@ use crate::motion::two_cables::{AfterImpact, TwoCableSystem};
 use crate::motion::waves::Waves;
 
 mod bounces;
+#[cfg(feature = "comparisons")]
+pub(crate) mod comparisons;
 mod event_laws;
 pub(super) mod within;
 
@@ -428,8 +430,8 @@ impl<T: Real> Simulation<T> {
         (0..self.system.cables.len()).filter(known).collect()
     }
 
-    /// The closed cables without normal velocity.
-    pub(crate) fn resting(&self) -> TautSet {
+    /// The cables whose gap and normal velocity are zero, whether or not they pull.
+    pub fn resting(&self) -> TautSet {
         let still = |&cable: &usize| self.contacts[cable].resting;
         self.closed().iter().filter(still).collect()
     }

@@ -222,7 +222,7 @@ impl StepMap {
     /// The square of the length of (ż₊ − R' ż₋) ∇h/ḣ: by how much a deviation can grow because the event comes at
     /// another time.
     #[inline(always)]
-    pub(crate) fn magnification_squared(&self) -> f64 {
+    pub fn magnification_squared(&self) -> f64 {
         let through = self.through(&join(&self.rate, 0.0));
         let jump = add_scaled(&self.rate_after, &split(&through).0, -1.0);
         dot6(&jump, &jump) * dot6(&self.delay, &self.delay)

@@ -152,9 +152,12 @@ impl Trajectory {
         self.segments.kept()
     }
 
-    #[cfg(test)]
-    pub(crate) fn keep_links(&mut self, most: usize) {
+    /// Keeps no more than so many of the Taylor series that go on from others, as a long run does
+    /// of itself; returns how many parts of the motion are kept.
+    #[cfg(feature = "comparisons")]
+    pub fn keep_links(&mut self, most: usize) -> usize {
         self.segments.keep_links(most);
+        self.segments().len()
     }
 }
 

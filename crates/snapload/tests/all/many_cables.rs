@@ -361,3 +361,50 @@ fn moorings_with_more_lines_than_freedoms_run_to_the_end() {
         }
     }
 }
+
+/// A cable counts as resting only where its normal velocity is zero. Bodies on four cables, and
+/// snaps far above rounding stick, so that whatever is let go as they do has a velocity that
+/// shows.
+#[test]
+fn what_rests_has_no_normal_velocity() {
+    let mut rested = 0;
+    for k in 0..600 {
+        let at = |root: f64| (f64::from(k) * root.sqrt()).fract();
+        let radius = 0.1 + 0.5 * at(2.0);
+        let inertia = radius * radius * (0.05 + at(3.0));
+        let cables = [5.0, 7.0, 11.0, 13.0].map(|root| {
+            let (anchor, angle) = ([3.0 * at(root) - 1.5, 1.0], 9.0 * at(root + 40.0));
+            let fairlead = [radius * f64::cos(angle), radius * f64::sin(angle)];
+            let reach = f64::hypot(anchor[0] - fairlead[0], anchor[1] - fairlead[1]);
+            Cable::new(anchor, fairlead, reach * (1.0 + 0.2 * at(root + 20.0)))
+        });
+        let system = System {
+            body: Body::rigid(Shape::Circle { radius }, inertia),
+            cables: cables.to_vec(),
+            forcing: Forcing {
+                constant: [0.0, -1.0].into(),
+                harmonics: vec![Harmonic::ellipse(1.2 * at(17.0), 0.5, 0.5 + 3.0 * at(19.0))],
+            },
+            drag: None,
+            floating: None,
+            restitution: 0.2 + 0.7 * at(23.0),
+        };
+        let rules = Rules {
+            v_stick: 0.3 * at(29.0) + 1e-6,
+            ..Rules::until(20.0)
+        };
+        let start = State::default();
+        let simulation = Simulation::new(system, rules, 0.0, start);
+        let mut simulation = simulation.expect("slack, or taut at rest");
+        while simulation.step().is_some() {
+            for cable in simulation.resting().iter() {
+                let normal = simulation.system().cables[cable].normal(simulation.state());
+                let v = normal.velocity(simulation.state());
+                let t = simulation.time();
+                assert!(v.abs() < 1e-11, "{k}: {v:e} of cable {cable} at t = {t}");
+                rested += 1;
+            }
+        }
+    }
+    assert!(rested > 1000, "{rested}");
+}

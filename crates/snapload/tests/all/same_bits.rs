@@ -5,7 +5,8 @@ use snapload::analysis::{
     Progress, Uncertainty, Unfinished, outcome, outcomes, record, trusted_run, unwatched,
 };
 use snapload::{
-    Case, Lanes, Outcome, Parameters, Simulation, TautSet, Trajectory, Value, named_case,
+    Case, CaseError, Lanes, Outcome, Parameters, Playback, Simulation, TautSet, Trajectory, Value,
+    named_case,
 };
 use std::ops::ControlFlow::{Break, Continue};
 use std::sync::Mutex;
@@ -356,4 +357,61 @@ fn nothing_depends_on_sampling() {
             first.modes().last().is_some_and(|m| m.taut.is_empty())
         );
     }
+}
+
+/// Expansions that were not kept are computed again to the bit, whatever is asked for first.
+#[test]
+fn a_motion_is_the_same_however_little_of_it_is_kept() -> Result<(), CaseError> {
+    let long = Parameters {
+        stop_when_settled: false,
+        omega: 30.0,
+        t_end: 40.0,
+        ..Parameters::STANDARD
+    };
+    let cases = ["sliding-example", "rocking-example"].map(named_case);
+    let [sliding, rocking] = cases;
+    for parameters in [sliding?.parameters, rocking?.parameters, long] {
+        let run = Case::new(parameters)?.run();
+        let all = run.clone().keep_links(usize::MAX);
+        for most in [0, 1, 7] {
+            let mut thin = run.clone();
+            let kept = thin.keep_links(most);
+            assert!(kept + 20 < all, "{kept} of {all}");
+            let (mut whole, mut playback) = (Playback::new(&run), Playback::new(&thin));
+            let starts = run.modes().iter().map(|mode| mode.t_start);
+            let mut times: Vec<f64> = starts.step_by(5).collect();
+            times.extend((0..50).map(|k| run.end().t * f64::from(k * 37 % 50) / 49.0));
+            times.extend([-1.0, f64::INFINITY]);
+            for t in times {
+                assert_eq!(playback.at(t), whole.at(t), "{t} with {most}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Fused by an instruction or by a function: flights, impacts, sliding and rocking have the
+/// same bits.
+#[test]
+fn both_compilations_give_the_same_bits() {
+    let mut modes = [0; 3];
+    for f_o in [0.1, 0.27, 0.3] {
+        let case = Case::new(Parameters {
+            f_o,
+            t_end: 12.0,
+            stop_when_settled: false,
+            ..Parameters::STANDARD
+        });
+        let mut fused = case.expect("a legal case").simulation();
+        let mut plain = fused.clone();
+        let bits = |simulation: &Simulation| simulation.state().components().map(f64::to_bits);
+        while let Some(step) = fused.step() {
+            modes[step.taut.len()] += 1;
+            assert!(plain.step_plain().is_some());
+            assert_eq!(fused.time().to_bits(), plain.time().to_bits());
+            assert_eq!(bits(&fused), bits(&plain));
+        }
+        assert_eq!(fused.stop(), plain.stop());
+    }
+    assert!(modes.iter().all(|steps| *steps > 0), "{modes:?}");
 }

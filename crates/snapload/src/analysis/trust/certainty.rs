@@ -141,21 +141,3 @@ impl Certainty {
         self.horizon.is_none()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::progress::{Unfinished, unwatched};
-    use crate::analysis::trust::{Uncertainty, trusted_run};
-    use crate::case::named::named_case;
-
-    #[test]
-    fn certainty_is_that_of_the_trusted_run() -> Result<(), Unfinished> {
-        for code in ["sliding-example", "rocking-example", "1910001000-359"] {
-            let case = Case::new(named_case(code)?.parameters)?;
-            let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
-            assert_eq!(Certainty::of(&case).horizon, trust.horizon);
-        }
-        Ok(())
-    }
-}

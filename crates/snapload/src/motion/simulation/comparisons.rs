@@ -1,0 +1,52 @@
+//! What nothing but the tests asks for: the same step by other instructions, and what is known of a
+//! bounce, to be held to what is known of any step.
+
+use crate::arithmetic::processor::plain;
+use crate::motion::bounce_map::{BounceMap, Rows};
+use crate::motion::simulation::{NextStep, Simulation, Step};
+
+/// What a bounce does to deviations (w, τ), a column for each of them: by itself and, where the name
+/// says so, with all before it.
+#[derive(Clone, Copy, Debug)]
+pub struct BounceStages {
+    /// Along the flight.
+    pub along: [[f64; 7]; 7],
+    /// Then to the impact's own time.
+    pub met: [[f64; 7]; 7],
+    /// Then through the law of impact.
+    pub after: [[f64; 7]; 7],
+    /// All of it from one time to one time.
+    pub at_one_time: [[f64; 7]; 7],
+    /// The square of the factor by which a deviation can grow because the impact comes at another time.
+    pub magnification_squared: f64,
+}
+
+impl Simulation {
+    /// [`Simulation::step`] by no instructions but those that every processor of the family has.
+    pub fn step_plain(&mut self) -> Option<Step> {
+        plain(NextStep(self))
+    }
+
+    /// What the latest step did to deviations, if it was a bounce.
+    pub fn bounce_stages(&self, step: &Step) -> Option<BounceStages> {
+        let map = BounceMap::of(&self.bounced(step)?);
+        let mut rows: Rows<f64, 7> = [[0.0; 7]; 7];
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        let mut at_one_time = rows;
+        map.at_one_time(&mut at_one_time);
+        map.along(&mut rows);
+        let along = rows;
+        map.meet(&mut rows);
+        let met = rows;
+        map.through(&mut rows);
+        Some(BounceStages {
+            along,
+            met,
+            after: rows,
+            at_one_time,
+            magnification_squared: map.magnification_squared(),
+        })
+    }
+}

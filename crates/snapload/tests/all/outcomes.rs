@@ -1,0 +1,119 @@
+//! What runs and crowds of runs come to.
+
+use snapload::analysis::{CriticalForce, Ensemble, ForceScan, Uncertainty, Unfinished, unwatched};
+use snapload::{Case, CaseError, Outcome, Parameters, Stop, named_case};
+
+/// Every number is that of the kept run.
+#[test]
+fn an_outcome_tells_of_the_run() -> Result<(), CaseError> {
+    for code in ["sliding-example", "rocking-example", "1910001000-359"] {
+        let case = Case::new(named_case(code)?.parameters)?;
+        let (outcome, run) = (Outcome::of(&case), case.run());
+        assert_eq!((outcome.end, outcome.norms), (*run.end(), *run.norms()));
+        let snaps: Vec<_> = run.impacts().iter().filter(|i| i.v_n > 0.0).collect();
+        let by_cable =
+            std::array::from_fn(|k| snaps.iter().filter(|i| i.cable == k).count() as u64);
+        assert_eq!(outcome.impacts, by_cable);
+        let first = snaps.first().map(|i| (i.t, i.cable, i.v_n));
+        assert_eq!(outcome.first.map(|f| (f.t, f.cable, f.v_n)), first);
+        for (mode, time) in [
+            ("slack", outcome.slack()),
+            ("sliding", outcome.sliding),
+            ("rocking", outcome.rocking),
+        ] {
+            let of_mode = run.modes().iter().filter(|i| i.taut.mode().name() == mode);
+            let sum: f64 = of_mode.map(|i| i.t_end - i.t_start).sum();
+            assert!((sum - time).abs() < 1e-9, "{code}: {mode} {sum} {time}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_standard_case_exceeds_at_0_31_and_settles_at_0_4() -> Result<(), Unfinished> {
+    let found = CriticalForce::scan(&Parameters::STANDARD, ForceScan::default(), &unwatched)?;
+    let first = found.first.map(|first| (first.f_o, first.reason));
+    assert_eq!(first, Some((0.31, Stop::RotationLimit)));
+    let inside = |f_o: f64| {
+        found
+            .exceeding
+            .iter()
+            .any(|[a, b]| (*a..=*b).contains(&f_o))
+    };
+    assert!(inside(0.31) && inside(0.5) && !inside(0.4) && !inside(0.3));
+    Ok(())
+}
+
+#[test]
+fn none_may_exceed() -> Result<(), Unfinished> {
+    let calm = Parameters {
+        e: 0.0,
+        a: 0.5,
+        inertia: Some(0.25),
+        ..Parameters::STANDARD
+    };
+    let found = CriticalForce::scan(&calm, ForceScan::new(0.01, 0.02)?, &unwatched)?;
+    assert_eq!((found.first, found.exceeding), (None, vec![]));
+    Ok(())
+}
+
+/// No more are run where the first 200 end alike, and all where one of them does not.
+#[test]
+fn as_many_members_are_run_as_tell() -> Result<(), Unfinished> {
+    let case = Case::new(Parameters {
+        t_end: 1.0,
+        ..Parameters::STANDARD
+    })?;
+    let alike = Ensemble::about(&case, &Uncertainty::of_start(1e-6), 1000, 1);
+    let tally = alike.tally_until_clear(&unwatched)?;
+    assert_eq!(tally.members(), 200);
+    assert!(tally.shares()[0].1.interval()[0] < 0.97);
+    let few = Ensemble::about(&case, &Uncertainty::of_start(1e-6), 100, 1);
+    assert_eq!(few.tally_until_clear(&unwatched)?, few.tally(&unwatched)?);
+    let undecided = Case::new(Parameters {
+        f_o: 0.5,
+        ..Parameters::STANDARD
+    })?;
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("e", 0.02)?;
+    let uncertain = Ensemble::about(&undecided, &uncertainty, 210, 1);
+    let tally = uncertain.tally(&unwatched)?;
+    assert!(tally.shares().len() > 1, "one that ends in several ways");
+    assert_eq!(uncertain.tally_until_clear(&unwatched)?, tally);
+    Ok(())
+}
+
+#[test]
+fn members_are_within_the_doubt_and_do_not_depend_on_their_number() -> Result<(), CaseError> {
+    let case = Case::new(Parameters::STANDARD)?;
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("f_o", 0.02)?;
+    uncertainty.set("a", 0.001)?;
+    let many = Ensemble::about(&case, &uncertainty, 100, 7);
+    let few = Ensemble::about(&case, &uncertainty, 3, 7);
+    for index in 0..100 {
+        let member = *many.member(index)?.parameters();
+        assert!((member.f_o - 0.3).abs() <= 0.02 && member.f_o != 0.3);
+        assert_eq!(member.inertia, Some(member.a * member.a));
+        assert_eq!((member.x, member.y), (0.0, 0.1));
+        assert_eq!(member, *few.member(index)?.parameters());
+    }
+    let other = Ensemble::about(&case, &uncertainty, 100, 8);
+    assert_ne!(other.member(0)?.parameters(), many.member(0)?.parameters());
+    Ok(())
+}
+
+/// A start on a cable's end: half of the cloud is out of reach, and is drawn again.
+#[test]
+fn illegal_neighbours_are_drawn_again() -> Result<(), Unfinished> {
+    let case = Case::new(Parameters {
+        y: 0.0,
+        ..Parameters::STANDARD
+    })?;
+    let ensemble = Ensemble::about(&case, &Uncertainty::of_start(1e-3), 50, 1);
+    let tally = ensemble.tally(&unwatched)?;
+    assert_eq!(tally.members(), 50);
+    let total: usize = tally.shares().iter().map(|(_, share)| share.count).sum();
+    assert_eq!(total, 50);
+    Ok(())
+}

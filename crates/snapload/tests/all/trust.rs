@@ -1,0 +1,191 @@
+//! What runs tell of their own errors.
+
+use snapload::analysis::{
+    Certainty, NormErrors, TrustMonitor, Uncertainty, Unfinished, trusted_run, unwatched,
+};
+use snapload::{Case, Parameters, Simulation, named_case};
+
+/// Neighbours as far off as may be have norms that differ by less than is told, and by more
+/// than a thousandth of it.
+#[test]
+fn neighbours_have_norms_within_the_errors() -> Result<(), Unfinished> {
+    let certain = Parameters {
+        f_o: 0.31,
+        ..Parameters::STANDARD
+    };
+    let doubt = 1e-9;
+    let case = Case::new(certain)?;
+    let (run, trust) = trusted_run(&case, &Uncertainty::of_start(doubt), &unwatched)?;
+    assert!(trust.decides_the_end());
+    let told = NormErrors::of(&run, &trust);
+    let told = [told.rho1, told.rho2, told.rho3, told.y_max, told.theta_max];
+    let told = told.map(|error| error.unwrap_or(f64::NAN));
+    let mut largest = [0.0_f64; 5];
+    for (name, value) in [("x", certain.x), ("y", certain.y), ("vx", certain.vx)] {
+        for side in [-doubt, doubt] {
+            let moved = certain.map(|key, old| if key == name { value + side } else { old });
+            let other = Case::new(moved)?.run();
+            let (ours, theirs) = (run.norms(), other.norms());
+            let off = [
+                ours.rho1 - theirs.rho1,
+                ours.rho2 - theirs.rho2,
+                ours.rho3 - theirs.rho3,
+                ours.y_max - theirs.y_max,
+                ours.theta_max - theirs.theta_max,
+            ];
+            largest = std::array::from_fn(|k| largest[k].max(off[k].abs()));
+        }
+    }
+    for (largest, told) in largest.into_iter().zip(told) {
+        assert!(
+            largest <= told && told <= 1e3 * largest,
+            "{largest:e} {told:e}"
+        );
+    }
+    Ok(())
+}
+
+/// Impacts of one instant, and one that ends the run, take nothing from what is known: the
+/// standard case settles at an impact, and goes on to rock after impulses that were passed on.
+#[test]
+fn extremes_are_known_where_impacts_come_at_once() -> Result<(), Unfinished> {
+    for stop_when_settled in [true, false] {
+        let case = Case::new(Parameters {
+            e: 0.3,
+            t_end: 5.0,
+            stop_when_settled,
+            ..Parameters::STANDARD
+        })?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let told = NormErrors::of(&run, &trust);
+        for told in [told.y_max, told.theta_max] {
+            assert!(told.is_some_and(|error| error < 1e-10), "{told:?}");
+        }
+    }
+    Ok(())
+}
+
+/// With cables taut no digits are at hand: neighbours of a body that rocks on both cables from
+/// its start keep within.
+#[test]
+fn neighbours_of_taut_motion_are_within_the_errors() -> Result<(), Unfinished> {
+    let rocking = Parameters {
+        y: 0.0,
+        f_o: 0.1,
+        stop_when_settled: false,
+        ..Parameters::STANDARD
+    };
+    for t_end in [3.0, 9.0, 30.0] {
+        let certain = Parameters { t_end, ..rocking };
+        let case = Case::new(certain)?;
+        let doubt = 1e-9;
+        let mut uncertainty = Uncertainty::default();
+        uncertainty.set("f_o", doubt)?;
+        let (run, trust) = trusted_run(&case, &uncertainty, &unwatched)?;
+        let told = NormErrors::of(&run, &trust);
+        let told = [told.y_max, told.theta_max].map(|error| error.unwrap_or(f64::NAN));
+        for side in [-doubt, doubt] {
+            let f_o = certain.f_o + side;
+            let other = Case::new(Parameters { f_o, ..certain })?.run();
+            let (ours, theirs) = (run.norms(), other.norms());
+            let off = [
+                (ours.y_max - theirs.y_max).abs(),
+                (ours.theta_max - theirs.theta_max).abs(),
+            ];
+            for (off, told) in off.into_iter().zip(told) {
+                assert!(off <= told && told < 1e-5, "{t_end}: {off:e} {told:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Past the horizon nothing is known, but of the sum up to t = 10 where the horizon is later.
+#[test]
+fn what_counts_impacts_past_the_horizon_is_not_known() -> Result<(), Unfinished> {
+    let errors = |parameters: Parameters| -> Result<_, Unfinished> {
+        let case = Case::new(parameters)?;
+        let (run, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        let NormErrors {
+            rho1,
+            rho2,
+            rho3,
+            y_max,
+            theta_max,
+        } = NormErrors::of(&run, &trust);
+        Ok([rho1, rho2, rho3, y_max, theta_max].map(|error| error.is_some()))
+    };
+    assert_eq!(errors(Parameters::STANDARD)?, [false; 5]);
+    // A long cable turns the body slowly: trust lasts far past t = 10, but not to the end.
+    let slow = Parameters {
+        f_o: 0.0,
+        theta: 0.2,
+        r: 100.0,
+        e: 1.0,
+        t_end: 1000.0,
+        ..Parameters::STANDARD
+    };
+    assert_eq!(errors(slow)?, [false, true, false, false, false]);
+    Ok(())
+}
+
+#[test]
+fn certainty_is_that_of_the_trusted_run() -> Result<(), Unfinished> {
+    for code in ["sliding-example", "rocking-example", "1910001000-359"] {
+        let case = Case::new(named_case(code)?.parameters)?;
+        let (_, trust) = trusted_run(&case, &Uncertainty::default(), &unwatched)?;
+        assert_eq!(Certainty::of(&case).horizon, trust.horizon);
+    }
+    Ok(())
+}
+
+/// Without forcing nothing depends on when a motion begins, its exponents neither.
+#[test]
+fn exponents_are_over_the_time_that_the_run_takes() {
+    let case = Case::new(Parameters {
+        f_o: 0.0,
+        theta: 0.1,
+        ..Parameters::STANDARD
+    });
+    let usual = case.expect("legal").simulation();
+    let exponents = |t: f64| {
+        let mut rules = *usual.rules();
+        rules.t_end = t + 1.0;
+        let (system, start) = (usual.system().clone(), *usual.state());
+        let mut simulation = Simulation::new(system, rules, t, start).expect("legal");
+        let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
+        while let Some(step) = simulation.step() {
+            monitor.follow(&simulation, &step);
+        }
+        monitor.verdict().exponents
+    };
+    for (at_once, later) in exponents(0.0).into_iter().zip(exponents(8.0)) {
+        assert!((at_once - later).abs() < 1e-9, "{at_once} {later}");
+    }
+}
+
+/// An inertia that equals the one of the size is in doubt by itself all the same: its doubt
+/// does what it does to a case whose inertia is another.
+#[test]
+fn an_inertia_can_be_in_doubt() {
+    let mut uncertainty = Uncertainty::default();
+    uncertainty.set("inertia", 1e-6).expect("a key that moves");
+    let error = |inertia: f64| {
+        let parameters = Parameters {
+            theta: 0.1,
+            inertia: Some(inertia),
+            ..Parameters::STANDARD
+        };
+        let case = Case::new(parameters).expect("legal");
+        trusted_run(&case, &uncertainty, &unwatched)
+            .expect("legal")
+            .1
+            .errors[1]
+    };
+    let natural = Parameters::STANDARD.inertia.expect("rigid");
+    let (natural, other) = (error(natural), error(natural * (1.0 + 1e-9)));
+    assert!(
+        (natural / other - 1.0).abs() < 1e-3,
+        "{natural:e} {other:e}"
+    );
+}
