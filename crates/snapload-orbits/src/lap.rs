@@ -279,7 +279,7 @@ impl Linearised {
     }
 
     /// The same with the durations eliminated: rows are over the state, and end with a constant.
-    fn step_in_turn(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
+    pub fn step_in_turn(&self, z: &Point, variables: &[usize]) -> (f64, Option<DVector<f64>>) {
         let m = variables.len();
         let mut state = self.start(variables, m + 1);
         let mut time = DMatrix::zeros(1, m + 1);
@@ -384,47 +384,4 @@ fn moved(
         rows.row_mut(i).copy_from(&row);
     }
     rows
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Lap;
-    use crate::hybrid::Family;
-    use crate::moored::Moored;
-    use snapload::Parameters;
-
-    #[test]
-    fn durations_in_turn_and_all_unknowns_together_give_one_step() {
-        let case = Parameters {
-            inertia: None,
-            a: 0.0,
-            r: 1.7,
-            e: 0.35,
-            f_o: 1.4,
-            nu: 0.8,
-            omega: 3.1,
-            ..Parameters::STANDARD
-        };
-        let family = Moored::case(case, [None; 2]);
-        let z = [-0.27, 0.39, 0.0, 0.79, -0.43, 0.0];
-        let simulated = family.simulate([0.0; 2], 0.0, &z, 4.0 * family.period([0.0; 2]));
-        let timed = simulated.expect("a case can be run").lap;
-        let lap = Lap {
-            family: &family,
-            at: [0.0; 2],
-            sequence: &timed.sequence,
-            phase: 0.0,
-            periods: 4,
-        };
-        // Off the events, so that all residuals take part.
-        let durations: Vec<f64> = timed.durations.iter().map(|s| s + 1e-3).collect();
-        let linear = lap.linearise(&z, &durations);
-        assert!(linear.events() >= 8);
-        let (size, step) = linear.step(&z, family.variables());
-        let (same_size, in_turn) = linear.step_in_turn(&z, family.variables());
-        let (step, in_turn) = (step.expect("a step"), in_turn.expect("a step"));
-        assert_eq!(size, same_size);
-        assert_eq!(step.len(), in_turn.len());
-        assert!((&step - in_turn).amax() < 1e-11 * (1.0 + step.amax()));
-    }
 }

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use snapload::Parameters;
 use snapload_certificate::ExactCase;
 use snapload_orbits::{
-    Moored, Orbit, Point, Stability, Wanted, distance, followed, orbit_in_words,
+    Family, Lap, Moored, Orbit, Point, Stability, Wanted, distance, followed, orbit_in_words,
 };
 
 /// The orbit near the reference's, from 1e-4 beside it.
@@ -201,4 +201,39 @@ fn a_point_mass_is_not_followed_along_its_size() {
         assert!(refused.contains("of this body"), "{refused}");
     }
     assert_eq!(followed("along", &case, "r").unwrap(), ("r", 1.7));
+}
+
+/// Off the events, so that all residuals take part.
+#[test]
+fn durations_in_turn_and_all_unknowns_together_give_one_step() {
+    let case = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let family = Moored::case(case, [None; 2]);
+    let z = [-0.27, 0.39, 0.0, 0.79, -0.43, 0.0];
+    let simulated = family.simulate([0.0; 2], 0.0, &z, 4.0 * family.period([0.0; 2]));
+    let timed = simulated.expect("a case can be run").lap;
+    let lap = Lap {
+        family: &family,
+        at: [0.0; 2],
+        sequence: &timed.sequence,
+        phase: 0.0,
+        periods: 4,
+    };
+    let durations: Vec<f64> = timed.durations.iter().map(|s| s + 1e-3).collect();
+    let linear = lap.linearise(&z, &durations);
+    assert!(linear.events() >= 8);
+    let (size, step) = linear.step(&z, family.variables());
+    let (same_size, in_turn) = linear.step_in_turn(&z, family.variables());
+    let (step, in_turn) = (step.expect("a step"), in_turn.expect("a step"));
+    assert_eq!(size, same_size);
+    assert_eq!(step.len(), in_turn.len());
+    assert!((&step - in_turn).amax() < 1e-11 * (1.0 + step.amax()));
 }
