@@ -1,13 +1,12 @@
 //! Numbers of many digits, to prove what doubles only compute.
 
 use crate::arithmetic::real::Real;
-use dashu_float::round::mode::HalfEven;
-use dashu_float::{Context, FBig, FpError, Repr};
-use dashu_int::{IBig, Sign, UBig};
+use operations::{Binary, Number, Unary};
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 mod decimals;
+mod operations;
 
 /// A number with a significand of 64 `WORDS` − 2 bits, rounded to nearest after every operation.
 ///
@@ -31,8 +30,6 @@ pub struct Precise<const WORDS: usize> {
     negative: bool,
     valid: bool,
 }
-
-type Number = FBig<HalfEven, 2>;
 
 impl<const WORDS: usize> Precise<WORDS> {
     /// Bits of the significand; a sum may come out with one bit more, which has to fit.
@@ -59,59 +56,38 @@ impl<const WORDS: usize> Precise<WORDS> {
         }
     }
 
-    fn context() -> Context<HalfEven> {
-        Context::new(Self::BITS)
+    fn repr(&self) -> Number {
+        operations::number(
+            self.significand.as_flattened(),
+            self.exponent,
+            self.negative,
+        )
     }
 
-    fn repr(&self) -> Repr<2> {
-        let magnitude = UBig::from_le_bytes(self.significand.as_flattened());
-        let sign = if self.negative {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        };
-        Repr::new(IBig::from_parts(sign, magnitude), self.exponent as isize)
-    }
-
-    fn from_repr(repr: &Repr<2>) -> Self {
-        let (sign, magnitude) = repr.significand().clone().into_parts();
-        let bytes = magnitude.to_le_bytes();
-        if repr.is_infinite() || bytes.len() > 8 * WORDS {
+    fn from_repr(number: Option<Number>) -> Self {
+        let mut stored = Self::ZERO;
+        let bytes = stored.significand.as_flattened_mut();
+        let written = number.and_then(|number| operations::write(&number, bytes));
+        let Some((exponent, negative)) = written else {
             return Self::NO_VALUE;
-        }
-        let mut number = Self::ZERO;
-        number.significand.as_flattened_mut()[..bytes.len()].copy_from_slice(&bytes);
-        if !bytes.is_empty() {
-            number.exponent = repr.exponent() as i64;
-            number.negative = sign == Sign::Negative;
-        }
-        number
-    }
-
-    fn from_number<E>(result: Result<Number, E>) -> Self {
-        result.map_or(Self::NO_VALUE, |number| Self::from_repr(number.repr()))
+        };
+        (stored.exponent, stored.negative) = (exponent, negative);
+        stored
     }
 
     /// One operation of the library, on what has a value.
-    fn binary(
-        self,
-        other: Self,
-        operation: impl Fn(Context<HalfEven>, &Repr<2>, &Repr<2>) -> Result<Number, FpError>,
-    ) -> Self {
+    fn binary(self, other: Self, operation: Binary) -> Self {
         if !(self.valid && other.valid) {
             return Self::NO_VALUE;
         }
-        Self::from_number(operation(Self::context(), &self.repr(), &other.repr()))
+        Self::from_repr(operation(Self::BITS, &self.repr(), &other.repr()))
     }
 
-    fn unary(
-        self,
-        operation: impl Fn(Context<HalfEven>, &Repr<2>) -> Result<Number, FpError>,
-    ) -> Self {
+    fn unary(self, operation: Unary) -> Self {
         if !self.valid {
             return Self::NO_VALUE;
         }
-        Self::from_number(operation(Self::context(), &self.repr()))
+        Self::from_repr(operation(Self::BITS, &self.repr()))
     }
 
     fn is_zero(&self) -> bool {
@@ -151,7 +127,7 @@ impl<const WORDS: usize> PartialEq for Precise<WORDS> {
 impl<const WORDS: usize> PartialOrd for Precise<WORDS> {
     #[inline(never)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        (self.valid && other.valid).then(|| self.repr().cmp(&other.repr()))
+        (self.valid && other.valid).then(|| operations::compare(&self.repr(), &other.repr()))
     }
 }
 
@@ -159,9 +135,7 @@ impl<const WORDS: usize> Add for Precise<WORDS> {
     type Output = Self;
     #[inline(never)]
     fn add(self, other: Self) -> Self {
-        self.binary(other, |context, a, b| {
-            context.add(a, b).map(|sum| sum.value())
-        })
+        self.binary(other, operations::add)
     }
 }
 
@@ -169,9 +143,7 @@ impl<const WORDS: usize> Sub for Precise<WORDS> {
     type Output = Self;
     #[inline(never)]
     fn sub(self, other: Self) -> Self {
-        self.binary(other, |context, a, b| {
-            context.sub(a, b).map(|difference| difference.value())
-        })
+        self.binary(other, operations::subtract)
     }
 }
 
@@ -179,9 +151,7 @@ impl<const WORDS: usize> Mul for Precise<WORDS> {
     type Output = Self;
     #[inline(never)]
     fn mul(self, other: Self) -> Self {
-        self.binary(other, |context, a, b| {
-            context.mul(a, b).map(|product| product.value())
-        })
+        self.binary(other, operations::multiply)
     }
 }
 
@@ -189,9 +159,7 @@ impl<const WORDS: usize> Div for Precise<WORDS> {
     type Output = Self;
     #[inline(never)]
     fn div(self, other: Self) -> Self {
-        self.binary(other, |context, a, b| {
-            context.div(a, b).map(|quotient| quotient.value())
-        })
+        self.binary(other, operations::divide)
     }
 }
 
@@ -260,7 +228,7 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
 
     #[inline(never)]
     fn from_f64(value: f64) -> Self {
-        Self::from_number(Number::try_from(value))
+        Self::from_repr(operations::of_double(value))
     }
 
     #[inline(never)]
@@ -276,11 +244,11 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
         let (Ok(integer), Ok(power)) = (integer, power) else {
             return Self::NO_VALUE;
         };
-        let integer = Self::from_repr(&Repr::new(IBig::from(integer), 0));
-        let scale = UBig::from(10u8).pow(power.unsigned_abs() as usize);
-        let scale = Self::from_number(Ok::<_, FpError>(
-            Self::context().convert_int(IBig::from(scale)).value(),
-        ));
+        let magnitude = integer.unsigned_abs().to_le_bytes();
+        let integer = operations::number(&magnitude, 0, integer < 0);
+        let integer = Self::from_repr(Some(integer));
+        let scale = operations::power_of_ten(Self::BITS, power.unsigned_abs());
+        let scale = Self::from_repr(scale);
         if power < 0 {
             integer / scale
         } else {
@@ -290,15 +258,13 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
 
     #[inline(never)]
     fn half_pi() -> Self {
-        Self::from_repr(Self::context().pi::<2>(None).value().repr()) * 0.5
+        Self::from_repr(Some(operations::pi(Self::BITS))) * 0.5
     }
 
     #[inline(never)]
     fn to_f64(self) -> f64 {
         if self.valid {
-            Number::from_repr(self.repr(), Self::context())
-                .to_f64()
-                .value()
+            operations::to_double(Self::BITS, self.repr())
         } else {
             f64::NAN
         }
@@ -306,7 +272,7 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
 
     #[inline(never)]
     fn sqrt(self) -> Self {
-        self.unary(|context, x| context.sqrt(x).map(|root| root.value()))
+        self.unary(operations::root)
     }
 
     #[inline(never)]
@@ -314,11 +280,8 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
         if !self.valid {
             return (Self::NO_VALUE, Self::NO_VALUE);
         }
-        let (sine, cosine) = Self::context().sin_cos(&self.repr(), None);
-        (
-            Self::from_number(sine.map(|sine| sine.value())),
-            Self::from_number(cosine.map(|cosine| cosine.value())),
-        )
+        let [sine, cosine] = operations::sine_and_cosine(Self::BITS, &self.repr());
+        (Self::from_repr(sine), Self::from_repr(cosine))
     }
 
     #[inline(never)]
@@ -358,6 +321,8 @@ impl<const WORDS: usize> Real for Precise<WORDS> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use dashu_float::Repr;
+    use dashu_int::{IBig, UBig};
 
     type P = Precise<4>;
 
@@ -387,8 +352,8 @@ mod tests {
             // The reference as a fraction of integers, which no parser of ours has touched.
             let scale = UBig::from(10u8).pow(60);
             let integer: IBig = digits.parse().expect("digits");
-            let reference = P::from_repr(&Repr::new(integer, 0))
-                / P::from_repr(&Repr::new(IBig::from(scale), 0));
+            let reference = P::from_repr(Some(Repr::new(integer, 0)))
+                / P::from_repr(Some(Repr::new(IBig::from(scale), 0)));
             assert!((got - reference).abs().to_f64() < 1e-59, "{digits}");
         };
         let (sine, cosine) = P::from_decimal(0.7).sin_cos();

@@ -187,7 +187,7 @@ impl<T: Real> Simulation<T> {
     ///
     /// # Errors
     /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
-    #[inline(always)]
+    #[inline(never)]
     pub fn new(
         system: System<T>,
         rules: Rules<T>,
