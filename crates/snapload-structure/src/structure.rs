@@ -2,6 +2,7 @@
 
 mod added_mass;
 mod afloat;
+mod check;
 mod design;
 mod read;
 
@@ -362,6 +363,11 @@ impl Structure {
             ));
         }
         (!parts.is_empty()).then(|| parts.join("; "))
+    }
+
+    /// Where the waves go: the value of their key.
+    pub fn direction(&self) -> &'static str {
+        if self.heading < 0.0 { "-x" } else { "+x" }
     }
 
     /// Whether every line has a stiffness, without which the tension in a snap is not known.

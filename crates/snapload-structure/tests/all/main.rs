@@ -12,6 +12,7 @@ mod elastic;
 mod equilibrium;
 mod manual;
 mod moordyn;
+mod moordyn_keys;
 mod physics;
 mod verdicts;
 mod waves;

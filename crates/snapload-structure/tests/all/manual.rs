@@ -68,7 +68,7 @@ fn what_is_required_can_not_be_left_out() {
 }
 
 /// A value that a key may have, for `--set`.
-fn values(kind: Kind) -> Vec<String> {
+pub fn values(kind: Kind) -> Vec<String> {
     match kind {
         Kind::Number(Bounds { low, high, .. }) => {
             let part = |of: f64| format!("{}", low + of * (high.min(low.abs() + 20.0) - low));

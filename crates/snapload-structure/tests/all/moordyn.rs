@@ -52,7 +52,7 @@ fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-12 * (1.0 + a.abs())
 }
 
-fn the_same(a: &Structure, b: &Structure) {
+pub fn the_same(a: &Structure, b: &Structure) {
     // Numbers that pass through a product or a sum come back but for rounding, all others as they
     // were; a line's name is that of a catalogue, which MoorDyn does not have.
     let mut b = b.clone();

@@ -1,0 +1,36 @@
+//! What a case keeps on its way through a file for MoorDyn.
+
+use crate::manual::values;
+use crate::moordyn::the_same;
+use snapload::Entries;
+use snapload_structure::{STRUCTURE, Structure, moordyn};
+
+/// With any value of any key, a case comes back as it was, if it is written at all.
+#[test]
+fn no_key_is_lost() {
+    let wave = include_str!("../../../../docs/examples/cylinder.toml");
+    let sea = include_str!("../../../../docs/examples/cylinder-sea.toml");
+    for table in STRUCTURE.tables {
+        let (text, path) = match table.name {
+            "sea" => (sea, "sea"),
+            "line" => (wave, "line.1"),
+            name => (wave, name),
+        };
+        for key in table.keys {
+            for value in values(key.kind) {
+                let set = format!("{path}.{}={value}", key.name);
+                let mut entries = Entries::parse(&STRUCTURE, "case", text).unwrap();
+                entries.set(&set).unwrap();
+                let Ok(given) = Structure::from_entries(&entries) else {
+                    continue;
+                };
+                let Ok(written) = moordyn::write("case", &given, 20) else {
+                    continue;
+                };
+                println!("{set}");
+                let reading = moordyn::read("case", &written).unwrap();
+                the_same(&given, &Structure::from_entries(&reading.entries).unwrap());
+            }
+        }
+    }
+}
