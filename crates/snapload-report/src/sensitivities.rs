@@ -77,7 +77,7 @@ impl Looked {
     }
 
     fn is_certain(&self, impact: usize) -> bool {
-        self.horizon.is_none_or(|horizon| impact < horizon.impact)
+        self.horizon.is_none_or(|horizon| horizon.is_after(impact))
     }
 }
 

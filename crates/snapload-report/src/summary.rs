@@ -243,7 +243,7 @@ fn hardest(trusted: &Trusted) -> Option<String> {
     let ((hardest, error), number) =
         snaps.max_by(|((p, _), _), ((q, _), _)| p.v_n.total_cmp(&q.v_n))?;
     let horizon = trusted.trust.horizon;
-    let certain = horizon.is_none_or(|horizon| number < horizon.impact);
+    let certain = horizon.is_none_or(|horizon| horizon.is_after(number));
     Some(format!(
         "v_n = {}, impulse {}, at t = {} in cable {} ({})",
         digits(hardest.v_n),

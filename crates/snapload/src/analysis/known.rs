@@ -23,17 +23,34 @@ pub struct NormErrors {
     pub theta_max: Option<f64>,
 }
 
+impl Trust {
+    /// Whether a time is before the horizon.
+    fn knows(&self, t: f64) -> bool {
+        self.horizon.is_none_or(|horizon| t < horizon.t)
+    }
+
+    /// The error of the normal velocity v_n⁻ at each impact of a run, two standard deviations or more
+    /// \[L/T\]; none past the horizon, and where an impulse is passed on with v_n = 0.
+    pub fn errors_of_v_n<'a>(
+        &'a self,
+        run: &'a Trajectory,
+    ) -> impl Iterator<Item = Option<f64>> + 'a {
+        let rows = run.impacts().iter().zip(&self.errors);
+        rows.map(move |(impact, error)| {
+            let known = impact.v_n > 0.0 && self.knows(impact.t);
+            known.then(|| error_of_v_n(run, impact, *error))
+        })
+    }
+}
+
 impl NormErrors {
     /// Of a run, by what is known of its impacts.
     pub fn of(run: &Trajectory, trust: &Trust) -> Self {
-        let horizon = trust.horizon.map(|horizon| horizon.t);
-        let known = |t: f64| horizon.is_none_or(|horizon| t < horizon);
         let rows = run.impacts().iter().zip(&trust.errors);
-        let rows = rows.filter(|(impact, _)| impact.v_n > 0.0 && known(impact.t));
         let (mut least, mut most) = (0.0_f64, 0.0_f64);
         let (mut early, mut all) = (0.0, 0.0);
-        for (impact, &error) in rows {
-            let off = error_of_v_n(run, impact, error);
+        for ((impact, &error), off) in rows.zip(trust.errors_of_v_n(run)) {
+            let Some(off) = off else { continue };
             least = least.max(impact.v_n - off);
             most = most.max(impact.v_n + off);
             all += off;
@@ -46,11 +63,11 @@ impl NormErrors {
             }
         }
         let rho1 = run.norms().rho1;
-        let whole = |error: f64| Some(error).filter(|_| horizon.is_none());
+        let whole = |error: f64| Some(error).filter(|_| trust.horizon.is_none());
         let [y_max, theta_max] = extreme_errors(run, trust);
         Self {
             rho1: whole((most - rho1).max(rho1 - least)),
-            rho2: Some(early).filter(|_| known(RHO2_UNTIL * (1.0 + LATER))),
+            rho2: Some(early).filter(|_| trust.knows(RHO2_UNTIL * (1.0 + LATER))),
             rho3: whole(all),
             y_max,
             theta_max: match run.end().reason {

@@ -168,7 +168,7 @@ macro_rules! field {
 }
 
 /// Where the value of each key is kept, in the order of the schema.
-pub(crate) static FIELDS: [(&str, Get, Put); 20] = [
+pub(crate) static FIELDS: &[(&str, Get, Put)] = &[
     field!(Number r),
     field!(Number e),
     field!(Number a),

@@ -299,3 +299,23 @@ fn what_is_read_from_the_source_is_what_stands_there() {
         Some("b c".to_owned())
     );
 }
+
+/// A file of tests that its `main.rs` does not name is not compiled, and no test in it is run.
+#[test]
+fn every_file_of_tests_is_one_of_the_program() {
+    for krate in fs::read_dir(workspace().join("crates")).expect("the crates") {
+        let folder = krate.expect("a crate").path().join("tests/all");
+        if !folder.is_dir() {
+            continue;
+        }
+        let main = read(&folder.join("main.rs"));
+        for (name, _) in sources(&folder) {
+            let module = name.trim_end_matches(".rs");
+            if module != "main" && !module.contains('/') {
+                let line = format!("mod {module};");
+                let named = main.lines().any(|told| told.trim() == line);
+                assert!(named, "{} has no line {line}", folder.display());
+            }
+        }
+    }
+}

@@ -189,6 +189,13 @@ pub struct Horizon {
     pub cause: HorizonCause,
 }
 
+impl Horizon {
+    /// Whether the impact of this number, from 1, is before it.
+    pub fn is_after(&self, impact: usize) -> bool {
+        impact < self.impact
+    }
+}
+
 /// An impact so slow, for how its gap closes, that it magnifies deviations by more than a hundred:
 /// the linearisation diverges there like 1/v_n.
 #[derive(Clone, Copy, Debug, PartialEq)]
