@@ -42,6 +42,7 @@ def test_every_question_has_the_same_answer_everywhere(questions, url, command):
         name = question["name"]
         python = _engine.answer(name, case._engine, {}, None)
         line = command(name, *settings, "--json", "-").rstrip("\n")
+        assert all(len(told) <= 100 for told in command(name, "--help").splitlines()), name
         # Not only equal: the same text of every number.
         assert python.endswith(f'"answer":{line}}}')
         page = asked(url, name, values=VALUES).decode()

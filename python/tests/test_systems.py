@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import math
 import pickle
 
 import numpy as np
 import pytest
 import snapload
+from snapload._keys import LIMITS
 
 WEIGHT = snapload.Forcing((0, -1))
 STRING = snapload.Cable(anchor=(0, 0), length=1)
@@ -41,6 +43,10 @@ def test_a_case_by_its_parts_moves_as_the_case():
         np.testing.assert_allclose(system.impacts[name], case.impacts[name], rtol=1e-9)
     assert system.end.t == pytest.approx(case.end.t, rel=1e-9) and system.norms.rho1 == pytest.approx(case.norms.rho1)
     assert system.outcome == case.outcome and system.trust.t is None
+
+
+def test_a_system_has_a_field_for_each_limit():
+    assert set(LIMITS) <= {field.name for field in dataclasses.fields(snapload.System)}
 
 
 def test_a_heavier_body_under_larger_forces_moves_alike():
