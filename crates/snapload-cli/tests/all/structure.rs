@@ -58,6 +58,39 @@ fn assess_answers_in_a_few_lines_a_page_and_json() {
     assert!((json["units"]["length_m"].as_f64().unwrap() - 3.593).abs() < 1e-12);
 }
 
+/// The inputs of a note tell where the waves go; a headline does where they go to -x.
+#[test]
+fn it_is_told_where_waves_go() {
+    let room = room();
+    let told = |verb: &str, file: &str, key: &str, direction: &str| {
+        let heading = format!("{key}.direction={direction}");
+        let mut command = snapload(room.path());
+        command.args([verb, file, "--set", "run.duration=40", "--set", &heading]);
+        command.args(["--out", "note.html"]);
+        match verb {
+            "assess" => command.args(["--neighbours", "0", "--no-scan"]),
+            _ => command.args(["--seeds", "3"]),
+        };
+        let output = command.output().unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let words = String::from_utf8(output.stdout).unwrap();
+        let page = fs::read_to_string(room.path().join("note.html")).unwrap();
+        (words.lines().next().unwrap().to_owned(), page)
+    };
+    for (verb, file, key) in [
+        ("assess", "cylinder.toml", "wave"),
+        ("assess", "cylinder-sea.toml", "sea"),
+        ("seas", "cylinder-sea.toml", "sea"),
+    ] {
+        for (direction, headlined) in [("+x", false), ("-x", true)] {
+            let (headline, page) = told(verb, file, key, direction);
+            assert_eq!(headline.contains(" to -x"), headlined, "{headline}");
+            let listed = page.contains(&format!(", to {direction}</td>"));
+            assert!(listed, "{verb} {file} {direction}");
+        }
+    }
+}
+
 #[test]
 fn bad_input_is_told_and_ends_with_2() {
     let room = room();

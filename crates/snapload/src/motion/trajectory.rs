@@ -153,11 +153,11 @@ impl Trajectory {
     }
 
     /// Keeps no more than so many of the Taylor series that go on from others, as a long run does
-    /// of itself; returns how many parts of the motion are kept.
+    /// of itself; returns when each part of the motion that is kept begins.
     #[cfg(feature = "comparisons")]
-    pub fn keep_links(&mut self, most: usize) -> usize {
+    pub fn keep_links(&mut self, most: usize) -> Vec<f64> {
         self.segments.keep_links(most);
-        self.segments().len()
+        self.segments().iter().map(|segment| segment.t).collect()
     }
 }
 

@@ -71,6 +71,7 @@ fn next(before: &Stage, stage: impl Fn(&Deviation) -> Deviation) -> Stage {
 
 /// The largest entry of the difference of two blocks, of the largest entry of the first.
 fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert!(a.iter().chain(b).all(|entry| entry.is_finite()));
     let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let worst = a.iter().zip(b).map(|(a, b)| (a - b).abs());
     worst.fold(0.0, f64::max) / largest
