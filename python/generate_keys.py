@@ -14,6 +14,7 @@ HEAD = '''"""Keys of a case, ends of a run. Written by ``generate_keys.py`` from
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal, TypedDict, get_args
 
 from numpy.typing import ArrayLike
@@ -54,7 +55,10 @@ def ends() -> str:
     """Why a run ends, as a type and as names."""
     stops = _engine.stops()
     reasons = ", ".join(f'"{name}"' for name, _ in stops)
-    limits = "".join(f'"{name}", ' for name, is_limit in stops if is_limit)
+    limits = {name: meaning for name, meaning in stops if meaning is not None}
+    names = "".join(f'"{name}", ' for name in limits)
+    fields = "".join(f"    {name}: float | None = None\n" for name in limits)
+    told = "".join(f"    {name} : float, optional\n        The run ends where {limits[name]}.\n" for name in limits)
     return f"""#: Why a run ends.
 Reason = Literal[{reasons}]
 
@@ -62,8 +66,19 @@ Reason = Literal[{reasons}]
 REASONS: tuple[Reason, ...] = get_args(Reason)
 
 #: Those of them that are limits of the motion.
-LIMITS: tuple[Reason, ...] = ({tupled(limits)})
+LIMITS: tuple[Reason, ...] = ({tupled(names)})
 
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LimitBounds:
+    \"\"\"The bounds of the limits of the motion; none of one that ends no run.\"\"\"
+
+{fields}
+
+#: The same as a section of a docstring.
+LIMIT_PARAMETERS = \"\"\"
+{told.rstrip()}
+\"\"\"
 
 """
 

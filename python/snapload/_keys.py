@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal, TypedDict, get_args
 
 from numpy.typing import ArrayLike
@@ -15,6 +16,22 @@ REASONS: tuple[Reason, ...] = get_args(Reason)
 #: Those of them that are limits of the motion.
 LIMITS: tuple[Reason, ...] = ("rotation_limit", "upper_bound")
 
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class LimitBounds:
+    """The bounds of the limits of the motion; none of one that ends no run."""
+
+    rotation_limit: float | None = None
+    upper_bound: float | None = None
+
+
+#: The same as a section of a docstring.
+LIMIT_PARAMETERS = """
+    rotation_limit : float, optional
+        The run ends where the body has turned so far, either way [rad].
+    upper_bound : float, optional
+        The run ends where the highest point of the body is so high.
+"""
 
 #: Keys that None takes back to what holds without them.
 OPTIONAL = ("inertia",)

@@ -15,10 +15,10 @@ from ._base_orbit import Start
 from ._base_run import BaseRun
 from ._check import Uncertainty, number, whole
 from ._geometry import Geometry
-from ._keys import LIMITS
+from ._keys import LIMIT_PARAMETERS, LIMITS, LimitBounds
 from ._later import Later
 from ._parts import Body, Cable, Forcing, put, several, within
-from ._system_keys import changed
+from ._system_keys import changed, in_order
 
 if TYPE_CHECKING:
     import xarray
@@ -36,7 +36,7 @@ _RULES = (*LIMITS, "settled_below", "sliding_above")
 
 
 @dataclass(frozen=True, repr=False)
-class System:
+class System(LimitBounds):
     """A body on any cables under any sinusoids, from a start to a stop.
 
     Parameters
@@ -49,14 +49,11 @@ class System:
         All forces but those of the cables, the weight among them.
     restitution : float
         Coefficient of restitution of every snap, from 0 to 1.
+    {limits}
     x, y, theta, vx, vy, vtheta : float
         The start: centre, rotation, and their velocities. No cable may be shorter than it has to be there.
     t_end : float
         The run ends here at the latest.
-    rotation_limit : float, optional
-        The run ends where the body has turned so far, either way [rad].
-    upper_bound : float, optional
-        The run ends where the highest point of the body is so high.
     settled_below : float, optional
         The run ends where a cable sticks, or two are taut, while y is below this.
     sliding_above : float, optional
@@ -114,8 +111,6 @@ class System:
     vy: float = 0.0
     vtheta: float = 0.0
     t_end: float = 100.0
-    rotation_limit: float | None = None
-    upper_bound: float | None = None
     settled_below: float | None = None
     sliding_above: float | None = None
     max_impacts: int = 1_000_000
@@ -363,7 +358,7 @@ class System:
         return sweep_systems(self, axes, trust, threads, progress)
 
     def __repr__(self) -> str:
-        told = ((field, getattr(self, field.name)) for field in dataclasses.fields(self))
+        told = ((field, getattr(self, field.name)) for field in in_order(self))
         words = (f"{field.name}={value!r}" for field, value in told if value != field.default)
         return f"System({', '.join(words)})"
 
@@ -373,6 +368,9 @@ class System:
     def _geometry(self) -> Geometry:
         cables = tuple((cable.anchor, cable.fairlead, cable.length) for cable in self.cables)
         return Geometry(cables, self.body.half_size or self.body.radius or 0.0, self.rotation_limit)
+
+
+System.__doc__ = (System.__doc__ or "").replace("{limits}", LIMIT_PARAMETERS.strip())
 
 
 class SystemRun(BaseRun):

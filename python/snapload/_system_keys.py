@@ -6,6 +6,8 @@ import dataclasses
 import re
 from typing import TYPE_CHECKING, Any
 
+from ._keys import LIMITS
+
 if TYPE_CHECKING:
     from ._system import System
 
@@ -15,9 +17,14 @@ _OF_CABLES = ("length", "anchor_x", "anchor_y", "fairlead_x", "fairlead_y")
 _OF_SINUSOIDS = ("amplitude_x", "amplitude_y", "omega", "phase_x", "phase_y")
 
 
+def in_order(system: System) -> list[dataclasses.Field[Any]]:
+    """Its fields, the limits behind the others; as fields of a base class they would come first."""
+    return sorted(dataclasses.fields(system), key=lambda field: field.name in LIMITS)
+
+
 def names(system: System) -> list[str]:
     """Every name that `changed` knows, those with numbers apart."""
-    own = [field.name for field in dataclasses.fields(system)]
+    own = [field.name for field in in_order(system)]
     return [*own, *_OF_BODY, *_OF_FORCES, *_OF_CABLES, *_OF_SINUSOIDS]
 
 

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::errors::of_case;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use snapload::{KEYS, Kind, Parameters, Stop};
+use snapload::{KEYS, Kind, Limit, Parameters, Stop};
 use snapload::{named_cases as all_named_cases, title_of};
 
 /// A unit as metadata after CF. A number in units of the case's own scales has no dimension: its
@@ -53,10 +53,10 @@ pub(crate) fn keys(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     entries.collect()
 }
 
-/// Why a run may end, and whether that is a limit of the motion.
+/// Why a run may end; of a limit of the motion also what is told of its bound.
 #[pyfunction]
-pub(crate) fn stops() -> Vec<(&'static str, bool)> {
-    let told = |stop: Stop| (stop.name(), stop.limit().is_some());
+pub(crate) fn stops() -> Vec<(&'static str, Option<&'static str>)> {
+    let told = |stop: Stop| (stop.name(), stop.limit().map(Limit::meaning));
     Stop::ALL.map(told).to_vec()
 }
 

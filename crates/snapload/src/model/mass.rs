@@ -203,6 +203,14 @@ impl<T: Real> Mass<T> {
         }
     }
 
+    /// M q̇; of a point mass without moment of momentum.
+    pub(crate) fn momentum(&self, velocity: [T; 3]) -> [T; 3] {
+        match self {
+            Self::Unit { .. } => [velocity[0], velocity[1], self.inertia() * velocity[2]],
+            Self::Full { matrix, .. } => times(matrix, velocity),
+        }
+    }
+
     /// q̇ᵀ M q̇ / 2.
     pub(crate) fn kinetic_energy(&self, state: &State<T>) -> T {
         match self {
@@ -211,9 +219,9 @@ impl<T: Real> Mass<T> {
                 let rotation = self.inertia() * state.vtheta.squared();
                 (translation + rotation) * 0.5
             }
-            Self::Full { matrix, .. } => {
+            Self::Full { .. } => {
                 let velocity = [state.vx, state.vy, state.vtheta];
-                dot(velocity, times(matrix, velocity)) * 0.5
+                dot(velocity, self.momentum(velocity)) * 0.5
             }
         }
     }
@@ -299,6 +307,9 @@ mod tests {
         );
         close(unit.kinetic_energy(&state), full.kinetic_energy(&state));
         close(unit.inertia(), full.inertia());
+        let velocity = [state.vx, state.vy, state.vtheta];
+        let momenta = [unit, full].map(|mass| mass.momentum(velocity));
+        (0..3).for_each(|i| close(momenta[0][i], momenta[1][i]));
         let load = |mass: &Mass| {
             [
                 0.4,

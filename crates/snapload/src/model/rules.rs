@@ -168,12 +168,22 @@ impl Limit {
         }
     }
 
+    /// What it bounds; and of its bound, as a sentence's end: "the run ends where ...".
+    const fn told(self) -> [&'static str; 2] {
+        match self {
+            Self::Rotation => ["rotation", "the body has turned so far, either way [rad]"],
+            Self::UpperBound => ["highest point", "the highest point of the body is so high"],
+        }
+    }
+
     /// What it bounds, for people to read.
     pub const fn bounded(self) -> &'static str {
-        match self {
-            Self::Rotation => "rotation",
-            Self::UpperBound => "highest point",
-        }
+        self.told()[0]
+    }
+
+    /// What is told of its bound, as a sentence's end: "the run ends where ...".
+    pub const fn meaning(self) -> &'static str {
+        self.told()[1]
     }
 }
 

@@ -69,6 +69,14 @@ pub(crate) trait Along<T> {
     fn derivative_bound(&self, n: usize, coordinate: usize) -> T;
 }
 
+/// What a quantity whose second derivative is at most `bend` exceeds its values at the ends of
+/// [`LOOKS`] parts of a step by at most.
+#[inline(always)]
+fn between_looks<T: Real>(step: &impl Along<T>, bend: T) -> T {
+    let width = step.duration() / LOOKS as f64;
+    bend * width * width * 0.125
+}
+
 /// A bound on |θ|. In a flight it is largest at an end.
 #[inline(always)]
 fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
@@ -83,9 +91,7 @@ fn farthest_turned<T: Real>(step: &impl Along<T>, floor: T) -> T {
     if rough < floor {
         return rough;
     }
-    let width = s / LOOKS as f64;
-    let seen = step.largest_seen(LOOKS, |state| state.theta.abs());
-    ends.max(seen) + bend * width * width * 0.125
+    ends.max(step.largest_seen(LOOKS, |state| state.theta.abs())) + between_looks(step, bend)
 }
 
 /// A bound on y of the highest point of the body.
@@ -99,11 +105,12 @@ fn highest<T: Real>(system: &System<T>, step: &impl Along<T>, floor: T) -> T {
     if rough < floor {
         return rough;
     }
-    let width = s / LOOKS as f64;
     let spin = start.vtheta.abs() + theta_bend * s;
     let bend = y_bend + (spin * spin + theta_bend) * reach;
-    let seen = step.largest_seen(LOOKS, |state| system.top(state));
-    start.y.max(seen) + bend * width * width * 0.125
+    start
+        .y
+        .max(step.largest_seen(LOOKS, |state| system.top(state)))
+        + between_looks(step, bend)
 }
 
 /// What flights side by side compare with.

@@ -21,7 +21,7 @@ impl Random {
     }
 
     /// Between two numbers.
-    fn between(&mut self, least: f64, most: f64) -> f64 {
+    pub fn between(&mut self, least: f64, most: f64) -> f64 {
         least + (most - least) * 0.5 * (self.next() + 1.0)
     }
 
@@ -31,7 +31,7 @@ impl Random {
 
     /// A positive semidefinite matrix A Aᵀ of entries up to three times `size` squared, and `least`
     /// of the identity.
-    fn definite(&mut self, size: f64, least: f64) -> Matrix3 {
+    pub fn definite(&mut self, size: f64, least: f64) -> Matrix3 {
         let rows: Matrix3 = std::array::from_fn(|_| self.vector(size));
         let mut matrix = [[0.0; 3]; 3];
         for i in 0..3 {

@@ -17,6 +17,7 @@ mod floating;
 mod floating_random;
 mod floating_trust;
 mod invariants;
+mod limits;
 mod linearised_motion;
 mod many_cables;
 mod outcomes;

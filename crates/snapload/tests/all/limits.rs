@@ -1,0 +1,233 @@
+//! The limits that end a run where they are reached: each by a closed form, and all of them over
+//! random motions. A limit that is added is in the second at once; its closed form comes here.
+
+use crate::agrees_with_closed_forms::string;
+use crate::floating_random::Random;
+use snapload::{
+    Body, Cable, Forcing, Harmonic, Limit, LimitBounds, Rules, Shape, Simulation, State, Stop,
+    System, Trajectory, natural_inertia,
+};
+use std::f64::consts::FRAC_PI_2;
+
+fn record(system: &System, rules: Rules, start: State) -> Trajectory {
+    let simulation = Simulation::new(system.clone(), rules, 0.0, start);
+    Trajectory::record(simulation.expect("a legal start"))
+}
+
+/// A mass let go below its anchor falls by g until the string is taut, also if at first it moves
+/// towards a limit so slowly that it would take years at that speed: from half of the length down
+/// in sqrt(L/g).
+#[test]
+fn a_limit_that_is_hardly_approached_hides_nothing() {
+    let start = State {
+        y: -0.5,
+        ..State::default()
+    };
+    let (length, g) = (1.0, 2.0);
+    for (rise, turn) in [(0.0, 0.0), (1e-17, 0.0), (1e-15, 0.0), (0.0, 1e-17)] {
+        let rules = Rules {
+            limits: LimitBounds::none()
+                .with(Limit::UpperBound, -0.5 + 2e-16)
+                .with(Limit::Rotation, 1.0),
+            ..Rules::until(0.75)
+        };
+        let start = State {
+            theta: 1.0 - 2e-16,
+            vy: rise,
+            vtheta: turn,
+            ..start
+        };
+        let system = string(length, g, 0.5);
+        let simulation = Simulation::new(system, rules, 0.0, start).expect("a legal start");
+        let run = Trajectory::record(simulation);
+        let snap = run.impacts().first().expect("it falls onto the string");
+        assert!(
+            (snap.t - (length / g).sqrt()).abs() < 1e-12,
+            "{rise:e} {turn:e}"
+        );
+    }
+}
+
+/// Free flight without weight or forcing turns at constant rate: the rotation limit is met exactly.
+#[test]
+fn the_rotation_limit_of_a_free_spin() {
+    let mut system = string(5.0, 0.0, 0.5);
+    system.body = Body::rigid(Shape::Circle { radius: 0.1 }, 0.01);
+    let rules = Rules {
+        limits: LimitBounds::none().with(Limit::Rotation, FRAC_PI_2),
+        v_stick: 1e-6,
+        ..Rules::until(100.0)
+    };
+    for spin in [0.3, -2.0, 40.0] {
+        let start = State {
+            vtheta: spin,
+            ..State::default()
+        };
+        let run = record(&system, rules, start);
+        assert_eq!(run.end().reason, Stop::RotationLimit);
+        assert!((run.end().t - FRAC_PI_2 / spin.abs()).abs() < 1e-14 / spin.abs());
+    }
+}
+
+/// A rectangle thrown up against the weight g, tilted and without spin: its highest corner rises by
+/// h in (v - sqrt(v² - 2 g h))/g.
+#[test]
+fn the_upper_bound_of_a_throw() {
+    let (g, v, [a, b]) = (2.0, 3.0, [0.4_f64, 0.1]);
+    let mut system = string(9.0, g, 0.5);
+    let inertia = natural_inertia(a, b).expect("it has a size");
+    system.body = Body::rigid(Shape::of_half_sizes(a, b), inertia);
+    for (theta, h) in [(0.0_f64, 2.0), (0.3, 1.0), (-1.2, 2.249)] {
+        let top = a * theta.sin().abs() + b * theta.cos();
+        let rules = Rules {
+            limits: LimitBounds::none().with(Limit::UpperBound, top + h),
+            ..Rules::until(3.0)
+        };
+        let start = State {
+            theta,
+            vy: v,
+            ..State::default()
+        };
+        let run = record(&system, rules, start);
+        assert_eq!(run.end().reason, Stop::UpperBound);
+        let root = f64::sqrt(v * v - 2.0 * g * h);
+        let t = (v - root) / g;
+        assert!((run.end().t - t).abs() < 1e-15 * (1.0 + 2.0 / root), "{t}");
+    }
+}
+
+/// The kinds of motion that are calculated in different ways.
+const KINDS: [&str; 4] = ["two cables", "three cables", "full mass", "afloat"];
+
+/// A body on its way.
+fn body_of(kind: &str, random: &mut Random) -> (System, State) {
+    if kind == "afloat" {
+        return random.body(2);
+    }
+    let [a, b] = [random.between(0.05, 0.4), random.between(0.0, 0.3)];
+    let shape = Shape::of_half_sizes(a, b);
+    let inertia = natural_inertia(a, b).expect("it has a size");
+    let body = match kind {
+        "full mass" => Body::with_mass_matrix(shape, random.definite(0.3, 0.5)),
+        _ => Some(Body::rigid(shape, inertia)),
+    };
+    let sides: &[f64] = match kind {
+        "three cables" => &[-1.0, 0.3, 1.0],
+        _ => &[-1.0, 1.0],
+    };
+    let cable = |side: &f64| {
+        let (anchor, fairlead) = ([*side, 1.0], [side * a, 0.0]);
+        let reach = f64::hypot(anchor[0] - fairlead[0], anchor[1]);
+        Cable::new(anchor, fairlead, reach + random.between(0.02, 0.4))
+    };
+    let system = System {
+        cables: sides.iter().map(cable).collect(),
+        body: body.expect("positive definite"),
+        forcing: Forcing {
+            constant: [0.0, -1.0].into(),
+            harmonics: vec![Harmonic::ellipse(
+                random.between(0.1, 0.8),
+                random.next(),
+                random.between(0.3, 3.0),
+            )],
+        },
+        drag: None,
+        floating: None,
+        restitution: random.between(0.2, 1.0),
+    };
+    let start = State {
+        vx: random.between(-0.5, 0.5),
+        vy: random.between(-0.5, 0.8),
+        vtheta: random.between(-2.0, 2.0),
+        ..State::default()
+    };
+    (system, start)
+}
+
+/// A motion without limits, and what a limit would bound along it.
+struct Free {
+    run: Trajectory,
+    /// Times, with the values of the quantity.
+    seen: Vec<(f64, f64)>,
+}
+
+impl Free {
+    fn of(system: &System, rules: Rules, start: State, limit: Limit) -> Self {
+        let run = record(system, rules, start);
+        let end = run.end().t;
+        let value = |t: f64| (t, limit.quantity(system, &run.at(t).state));
+        let seen = (0..=500).map(|k| value(end * f64::from(k) / 500.0));
+        Self {
+            seen: seen.collect(),
+            run,
+        }
+    }
+
+    fn value(&self, limit: Limit, t: f64) -> f64 {
+        limit.quantity(self.run.system(), &self.run.at(t).state)
+    }
+
+    /// When the quantity is first seen to reach a bound, by bisection between two looks.
+    fn reaches(&self, limit: Limit, bound: f64) -> f64 {
+        let beyond = self.seen.iter().position(|(_, value)| *value >= bound);
+        let beyond = beyond.expect("the bound is below the largest value");
+        let (mut before, mut after) = (self.seen[beyond - 1].0, self.seen[beyond].0);
+        for _ in 0..80 {
+            let middle = f64::midpoint(before, after);
+            if self.value(limit, middle) < bound {
+                before = middle;
+            } else {
+                after = middle;
+            }
+        }
+        after
+    }
+}
+
+/// Whatever the motion, a limit ends it where a search in the motion without limits first sees the
+/// quantity at its bound, and nowhere if the bound is above all that it comes to.
+#[test]
+fn a_limit_is_met_where_its_quantity_first_reaches_the_bound() {
+    for limit in Limit::ALL {
+        for kind in KINDS {
+            let mut random = Random(1999);
+            let mut met = 0;
+            for case in 0..60 {
+                let (system, start) = body_of(kind, &mut random);
+                let rules = Rules {
+                    max_impacts: 12,
+                    v_stick: 1e-6,
+                    ..Rules::until(random.between(1.0, 6.0))
+                };
+                let free = Free::of(&system, rules, start, limit);
+                let largest = free.seen.iter().map(|(_, value)| *value);
+                let (first, largest) = (free.seen[0].1, largest.fold(f64::MIN, f64::max));
+                let with = |bound: f64| Rules {
+                    limits: LimitBounds::none().with(limit, bound),
+                    ..rules
+                };
+                let about = format!("{limit:?}, {kind}, {case}");
+
+                // Between two looks it may be above what was seen.
+                let never = record(&system, with(1.5 * largest.abs() + 0.5), start);
+                assert_eq!(never.end().reason, free.run.end().reason, "{about}");
+                assert!((never.end().t - free.run.end().t).abs() < 1e-8, "{about}");
+
+                let bound = first + (largest - first) * random.between(0.1, 0.999);
+                if bound < first + 1e-6 {
+                    continue;
+                }
+                met += 1;
+                let run = record(&system, with(bound), start);
+                let end = run.end();
+                assert_eq!(end.reason.limit(), Some(limit), "{about}");
+                let reached = limit.quantity(&system, &end.state) - bound;
+                assert!(reached.abs() < 1e-12, "{about}: {reached:e} off the bound");
+                assert!((free.value(limit, end.t) - bound).abs() < 1e-9, "{about}");
+                let searched = free.reaches(limit, bound);
+                assert!(end.t < searched + 1e-8, "{about}: {} {searched}", end.t);
+            }
+            assert!(met > 30, "{limit:?}, {kind}: only {met} were met");
+        }
+    }
+}
