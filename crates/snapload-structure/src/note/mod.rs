@@ -1,10 +1,12 @@
 //! The answer as a page for a design note: one file of HTML that needs nothing else. Its words
 //! stand in `templates/`.
 
+mod inputs;
 mod layout;
 mod plots;
 
 pub use crate::runs::scan::{LENGTH, Scan, scan};
+pub use inputs::inputs;
 pub use plots::window;
 
 use crate::physics::gumbel::{Estimate, Gumbel};
@@ -16,8 +18,9 @@ use crate::report::{Standing, Verdict, end_words};
 use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
-use crate::structure::{Outline, Structure, Water};
+use crate::structure::Structure;
 use askama::Template;
+use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
 use std::cmp::Ordering;
 use std::fmt;
@@ -220,33 +223,6 @@ fn maybe_kilo(newtons: &Option<f64>) -> String {
 
 fn maybe_part(part: &Option<f64>) -> String {
     part.map_or("not known".to_owned(), |part| format!("{part:.2}"))
-}
-
-fn place([x, z]: &[f64; 2]) -> String {
-    format!("({x}, {z})")
-}
-
-/// What the water does to a body that moves through it.
-fn resistance(structure: &Structure) -> Vec<String> {
-    let body = &structure.body;
-    let parts = [
-        ("C_d A =", body.drag_area_m2, "m²"),
-        ("linear", body.linear_damping_n_s_m, "N s/m"),
-        ("turning", body.turning_damping_n_m_s, "N m s"),
-    ];
-    let afloat = structure.afloat.iter().flat_map(|afloat| {
-        let damping = &afloat.body.damping;
-        [
-            ("beside waves in surge", damping[(0, 0)], "N s/m"),
-            ("beside waves in heave", damping[(1, 1)], "N s/m"),
-            ("beside waves in pitch", damping[(2, 2)], "N m s"),
-        ]
-    });
-    let given = parts.into_iter().chain(afloat);
-    let given = given.filter(|(_, value, _)| *value > 0.0);
-    given
-        .map(|(name, value, unit)| format!("{name} {value} {unit}"))
-        .collect()
 }
 
 /// The mean and the values that 50, 90 and 99 % stay below.

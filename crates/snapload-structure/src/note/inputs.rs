@@ -1,0 +1,42 @@
+//! What a note lists as its inputs.
+
+use crate::structure::{Outline, Structure, Water};
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "inputs.html")]
+struct Inputs<'a> {
+    structure: &'a Structure,
+}
+
+/// The section of a page that lists what the case says of body, site, water, run and lines.
+pub fn inputs(structure: &Structure) -> String {
+    Inputs { structure }.to_string()
+}
+
+fn place([x, z]: &[f64; 2]) -> String {
+    format!("({x}, {z})")
+}
+
+/// What the water does to a body that moves through it.
+pub(super) fn resistance(structure: &Structure) -> Vec<String> {
+    let body = &structure.body;
+    let parts = [
+        ("C_d A =", body.drag_area_m2, "m²"),
+        ("linear", body.linear_damping_n_s_m, "N s/m"),
+        ("turning", body.turning_damping_n_m_s, "N m s"),
+    ];
+    let afloat = structure.afloat.iter().flat_map(|afloat| {
+        let damping = &afloat.body.damping;
+        [
+            ("beside waves in surge", damping[(0, 0)], "N s/m"),
+            ("beside waves in heave", damping[(1, 1)], "N s/m"),
+            ("beside waves in pitch", damping[(2, 2)], "N m s"),
+        ]
+    });
+    let given = parts.into_iter().chain(afloat);
+    let given = given.filter(|(_, value, _)| *value > 0.0);
+    given
+        .map(|(name, value, unit)| format!("{name} {value} {unit}"))
+        .collect()
+}
