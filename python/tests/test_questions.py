@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 import urllib.error
 import urllib.request
+from pathlib import Path
 
 import pytest
 import snapload
 from playwright.sync_api import expect
 from snapload import _engine
 
+DOCS = Path(__file__).parents[2] / "docs"
 VALUES = {"f_o": 0.31, "t_end": 2}
 
 
@@ -42,7 +44,6 @@ def test_every_question_has_the_same_answer_everywhere(questions, url, command):
         name = question["name"]
         python = _engine.answer(name, case._engine, {}, None)
         line = command(name, *settings, "--json", "-").rstrip("\n")
-        assert all(len(told) <= 100 for told in command(name, "--help").splitlines()), name
         # Not only equal: the same text of every number.
         assert python.endswith(f'"answer":{line}}}')
         page = asked(url, name, values=VALUES).decode()
@@ -73,6 +74,15 @@ def test_every_question_is_a_verb_with_its_options(questions, url, command):
                 assert page["message"] == f'{option["name"]} = "x" is not allowed; allowed: {option["allowed"]}'
                 with pytest.raises(ValueError, match=f'{option["name"]} = "x" is not allowed; allowed: '):
                     _engine.answer(name, snapload.Case()._engine, {option["name"]: "x"}, None)
+
+
+def test_every_question_is_a_function_that_the_manual_knows(questions):
+    told = {file: (DOCS / file).read_text(encoding="utf-8") for file in ("api.md", "python.md", "cases.md")}
+    for question in questions:
+        name = question["name"]
+        assert name in snapload.__all__ and callable(getattr(snapload, name))
+        assert f"\n.. autofunction:: {name}\n" in told["api.md"] and f"`snapload.{name}(" in told["python.md"]
+        assert f"`snapload {name}`" in told["cases.md"]
 
 
 def test_what_is_no_question_or_option_is_refused(url):

@@ -27,12 +27,12 @@ has it. With --switch the branch that is born at a period doubling is followed i
 length; given again, that of four times the length, and so on.
 
 Examples:
-  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
-      --along f_o=1.2:4 --plot branch.svg --json -
-  snapload branch --set omega=3 --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666 \\
-      --along f_o=0.25:0.35 --out branch.parquet
-  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
-      --along f_o=1.2:2 --step 0.002 --switch period_doubling --json -
+  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
+      --set omega=3.1 --along f_o=1.2:4 --plot branch.svg --json -
+  snapload branch --set omega=3 --along f_o=0.25:0.35 --out branch.parquet \\
+      --start x=-0.065,y=0.118,theta=0.479,vx=0.387,vy=0.647,vtheta=-1.666
+  snapload branch --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
+      --set omega=3.1 --along f_o=1.2:2 --step 0.002 --switch period_doubling --json -
       the orbits of two periods that are born at f_o = 1.6805";
 
 /// Which case, which orbit, which key.

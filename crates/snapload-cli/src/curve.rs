@@ -32,8 +32,8 @@ once, to rounding. A curve ends at the ranges, at a corner, and where another sn
   ns      a pair of multipliers is on the unit circle       graze   a cable is touched at no speed
 
 Examples:
-  snapload curve --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1 \\
-      --follow fold --along f_o=1:2,omega=2.5:3.5 --plot fold.svg --out fold.parquet
+  snapload curve --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
+      --set omega=3.1 --follow fold --along f_o=1:2,omega=2.5:3.5 --plot fold.svg --out fold.parquet
       where in (f_o, omega) the stable orbit of two snaps begins
   snapload curve --set body=point --set r=1.6 --set e=0.6 --set f_o=1.4 --set nu=1 --set omega=3.3 \\
       --start x=-0.0086,y=0.7632,vx=1.0527,vy=-0.7738 --follow ns --along f_o,e --json -

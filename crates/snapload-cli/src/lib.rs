@@ -22,6 +22,7 @@ mod elastic;
 #[cfg(feature = "explore")]
 mod explore;
 mod failure;
+mod help;
 #[cfg(feature = "structure")]
 mod hydro;
 #[cfg(feature = "structure")]
@@ -81,10 +82,10 @@ Examples:
   snapload sweep --vary f_o=0.01:0.6:60 --vary omega=0.4:2.4:51 --out map.parquet
                                                a map of 3060 cases
   snapload assess cylinder.toml --out note.html
-                                               a structure in metres, with waves: do its lines break?
+                                               a structure in metres and waves: do its lines break?
   snapload hydro pontoon.nc --out pontoon.html
-                                               a floating body's coefficients: memory, periods, response
-  snapload explore                             the standard case on a page in the browser, to look at and change
+                                               a floating body: memory, periods, response to waves
+  snapload explore                             the standard case on a page in the browser
 
 Exit status: 0 done, 1 failed, 2 bad input, 130 interrupted.";
 
@@ -160,7 +161,7 @@ pub fn command(line: impl IntoIterator<Item = OsString>) -> u8 {
     let words = WORDS.get_or_init(|| line.iter().skip(1).cloned().collect());
     let name = OsString::from("snapload");
     let line = std::iter::once(&name).chain(words);
-    let command = whole::with_negative_numbers(Cli::command());
+    let command = help::flowing(whole::with_negative_numbers(Cli::command()));
     let matches = command.try_get_matches_from(line);
     let cli = matches.and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = cli.unwrap_or_else(|error| refuse(error));

@@ -23,7 +23,8 @@ Newton's method on the sequence of its events, and then run: a sequence that clo
 `admissible` says whether this one is, and if not, why. The stops by settling are off.
 
 Examples:
-  snapload orbit --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 --set omega=3.1
+  snapload orbit --set body=point --set r=1.7 --set e=0.35 --set f_o=1.4 --set nu=0.8 \\
+      --set omega=3.1
       the orbit that the motion of the start comes to
   snapload orbit --set omega=3 --start x=-0.06,y=0.12,theta=0.48,vx=0.39,vy=0.65,vtheta=-1.67
       the one near a start, which may be unstable

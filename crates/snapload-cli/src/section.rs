@@ -25,13 +25,14 @@ With --at impacts the table and the picture have a point an impact instead: when
 which cable, at which v_n, and the state just before and after.
 
 Examples:
-  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
-      --set x=0 --set y=0.4 --set vx=0.1 --plot torus.svg
+  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
+      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --plot torus.svg
       a point mass whose motion never repeats itself: its points lie on closed curves
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
       a table of the last 50 points
-  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 --set f_o=1.6 \\
-      --set x=0 --set y=0.4 --set vx=0.1 --at impacts --out impacts.parquet --plot impacts.svg
+  snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
+      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --at impacts \\
+      --out impacts.parquet --plot impacts.svg
       v_n of each impact against the phase of the forcing";
 
 /// Which case, and how long.
