@@ -36,6 +36,13 @@ pub(crate) fn has_fma() -> bool {
     is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
 }
 
+/// Numbers that begin where a line of the processor's cache does. What it takes in at once then
+/// never lies across two lines, nor across two pieces in which it has just been written: it would
+/// wait for both.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Aligned<T>(pub(crate) T);
+
 /// Does the work by the best instructions that the processor has for it.
 #[cfg(target_arch = "x86_64")]
 #[inline]

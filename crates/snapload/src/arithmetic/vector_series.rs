@@ -1,6 +1,7 @@
 //! Truncated power series side by side: of several quantities that one pass of sums serves.
 
 use crate::arithmetic::polynomial::ORDER;
+use crate::arithmetic::processor::Aligned;
 use crate::arithmetic::real::Real;
 use std::ops::{Index, IndexMut};
 
@@ -9,8 +10,10 @@ const BLOCK: usize = 4;
 /// Zeros on either side, so that what is summed can be rounded up to whole blocks.
 const MARGIN: usize = BLOCK - 1;
 
-/// `W` power series up to [`ORDER`], lowest power first, with zeros around them.
+/// `W` power series up to [`ORDER`], lowest power first, with zeros around them. What a processor
+/// takes in at once never lies across two lines of its cache.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 pub(crate) struct VectorSeries<T, const W: usize>([[T; W]; MARGIN + ORDER + 1 + MARGIN]);
 
 impl<T: Real, const W: usize> Default for VectorSeries<T, W> {
@@ -37,9 +40,9 @@ impl<T, const W: usize> IndexMut<usize> for VectorSeries<T, W> {
 impl<T: Real, const W: usize> VectorSeries<T, W> {
     /// Σ a_j b_{k−j}, 0 ≤ j ≤ k: the k-th coefficients of the products. One that is not known yet
     /// is zero, so that its products are left out; all have to be finite, as those beyond k meet
-    /// zeros.
+    /// zeros. Where this is one quantity alone, it is a factor of each of the others.
     #[inline(always)]
-    pub(crate) fn convolve(&self, other: &Self, k: usize) -> [T; W] {
+    pub(crate) fn convolve<const V: usize>(&self, other: &VectorSeries<T, V>, k: usize) -> [T; V] {
         let [sums] = convolve([(self, other)], k);
         sums
     }
@@ -47,13 +50,17 @@ impl<T: Real, const W: usize> VectorSeries<T, W> {
     /// Σ |a_i b_j| s^{i+j−p}, i + j ≥ p = [`ORDER`] + 1: a bound on what the products have beyond the
     /// last order at `s`, but for the factor s^p.
     #[inline(always)]
-    pub(crate) fn beyond_product(&self, other: &Self, s: T) -> [T; W] {
-        let (mut rest, mut sums) = ([T::ZERO; W], [T::ZERO; W]);
+    pub(crate) fn beyond_product<const V: usize>(
+        &self,
+        other: &VectorSeries<T, V>,
+        s: T,
+    ) -> [T; V] {
+        let (mut rest, mut sums) = ([T::ZERO; V], [T::ZERO; V]);
         for i in 1..=ORDER {
             let (a, b) = (&self[i], &other[ORDER + 1 - i]);
-            for w in 0..W {
+            for w in 0..V {
                 rest[w] = rest[w].mul_add(s, b[w].abs());
-                sums[w] = a[w].abs().mul_add(rest[w], sums[w]);
+                sums[w] = a[w % W].abs().mul_add(rest[w], sums[w]);
             }
         }
         sums
@@ -62,8 +69,8 @@ impl<T: Real, const W: usize> VectorSeries<T, W> {
 
 /// The k-th coefficients of several products, in one pass.
 #[inline(always)]
-pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
-    factors: [(&VectorSeries<T, W>, &VectorSeries<T, W>); N],
+pub(crate) fn convolve<T: Real, const V: usize, const W: usize, const N: usize>(
+    factors: [(&VectorSeries<T, V>, &VectorSeries<T, W>); N],
     k: usize,
 ) -> [[T; W]; N] {
     let mut sums = [[[T::ZERO; W]; 2]; N];
@@ -86,15 +93,15 @@ pub(crate) fn convolve<T: Real, const W: usize, const N: usize>(
     }
     // A compiler that sees what becomes of the sums makes them across the lanes, with more
     // shuffling than arithmetic.
-    std::hint::black_box(products)
+    std::hint::black_box(Aligned(products)).0
 }
 
 /// Adds the block of products of the k-th coefficient that begins there, the other factor's
 /// coefficients in reverse, to two sums that take turns: a processor can do several at once.
 #[inline(always)]
-fn add_block<T: Real, const W: usize>(
+fn add_block<T: Real, const V: usize, const W: usize>(
     [even, odd]: &mut [[T; W]; 2],
-    (a, b): (&VectorSeries<T, W>, &VectorSeries<T, W>),
+    (a, b): (&VectorSeries<T, V>, &VectorSeries<T, W>),
     k: usize,
     from: usize,
 ) {
@@ -107,9 +114,13 @@ fn add_block<T: Real, const W: usize>(
 }
 
 #[inline(always)]
-fn add_products<T: Real, const W: usize>(sums: &mut [T; W], a: &[T; W], b: &[T; W]) {
+fn add_products<T: Real, const V: usize, const W: usize>(
+    sums: &mut [T; W],
+    a: &[T; V],
+    b: &[T; W],
+) {
     for w in 0..W {
-        sums[w] = a[w].mul_add(b[w], sums[w]);
+        sums[w] = a[w % V].mul_add(b[w], sums[w]);
     }
 }
 

@@ -59,8 +59,8 @@ impl<T: Real> CableSeries<T> {
     #[inline(always)]
     pub(crate) fn begin(&mut self, system: &System<T>) {
         apart!(T, {
-            self.pairs
-                .resize(system.cables.len().div_ceil(2), CablePair::default());
+            let pairs = system.cables.len().div_ceil(2);
+            self.pairs.resize_with(pairs, CablePair::default);
             for (pair, cables) in self.pairs.iter_mut().zip(system.cables.chunks(2)) {
                 for series in [
                     &mut pair.lever,

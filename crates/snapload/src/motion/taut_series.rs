@@ -84,8 +84,8 @@ pub(crate) struct Series<T: Real> {
     theta: Polynomial<T>,
     /// cos θ and sin θ.
     circle: VectorSeries<T, 2>,
-    /// k θ_k, twice.
-    spin: VectorSeries<T, 2>,
+    /// k θ_k.
+    spin: VectorSeries<T, 1>,
     /// The forces, those by the water included.
     force: [Polynomial<T>; 2],
     /// What the water turns the body by: a moment, or of a unit mass θ̈.
@@ -154,12 +154,15 @@ impl<T: Real> Series<T> {
         apart!(T, {
             self.active = active;
             self.contacts = *contacts;
-            self.lines.resize(system.cables.len(), Line::default());
+            let cables = system.cables.len();
+            self.lines.resize_with(cables, Line::default);
             for (cable, tether) in system.cables.iter().enumerate() {
                 self.touch[cable] = tether.length().squared() * T::EPSILON * 4.0;
             }
             self.force = around.force;
-            self.drag.begin(&around.water);
+            if system.drag.is_some() {
+                self.drag.begin(&around.water);
+            }
             if let Some(series) = &mut self.water {
                 series.begin(&around.excitation, memory);
             }
@@ -211,7 +214,7 @@ impl<T: Real> Series<T> {
     #[inline(always)]
     fn turn(&mut self, k: usize, theta: T) {
         self.theta[k] = theta;
-        self.spin[k] = [theta * k as f64; 2];
+        self.spin[k] = [theta * k as f64];
     }
 
     /// Coefficients of order k of sin θ and cos θ: k S_k = Σ j θ_j C_{k−j}, k C_k = −Σ j θ_j
