@@ -301,20 +301,20 @@ impl<T: Real> Simulation<T> {
             return None;
         }
         let (t_start, start, mut active) = (self.t, self.state, self.active);
-        let (event, bounced) = match self.next_bounce() {
-            Some(bounce) => self.take(&bounce),
+        let mut result = None;
+        let event = match &self.next_bounce() {
+            Some(bounce) => self.take(bounce, &mut result),
             None => {
                 let crossing = self.next_crossing();
                 active = self.active;
                 self.advance(&crossing);
                 self.before = self.state;
-                (self.event(crossing.reached), None)
+                self.event(crossing.reached)
             }
         };
-        let result = match bounced {
-            Some(result) => Some(result),
-            None => self.apply_law(&event),
-        };
+        if result.is_none() {
+            result = self.apply_law(&event);
+        }
         if self.stop.is_none() && event.reached != Reached::default() {
             self.check_rules(event.reached.gaps.intersection(self.active.taut));
         }

@@ -92,9 +92,10 @@ impl Trajectory {
             end: End::of(&simulation),
             norms: Norms::default(),
         };
-        while let Some(step) = simulation.step() {
-            run.take(&simulation, &step);
-            if watch(&simulation, &step).is_break() {
+        // A step is large, so it stays where it is.
+        while let Some(step) = &simulation.step() {
+            run.take(&simulation, step);
+            if watch(&simulation, step).is_break() {
                 return (run, ControlFlow::Break(()));
             }
         }

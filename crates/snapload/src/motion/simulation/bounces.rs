@@ -116,10 +116,15 @@ impl<T: Real> Simulation<T> {
         }
     }
 
-    /// Makes a bounce: moves to its end. The result is none where the law is still to be applied,
-    /// as what follows is more than one cable's impulse.
+    /// Makes a bounce: moves to its end. The result stays none where the law is still to be
+    /// applied, as what follows is more than one cable's impulse. It is written where it is kept,
+    /// as it is large.
     #[inline(always)]
-    pub(super) fn take(&mut self, bounce: &Bounce<T>) -> (Event, Option<ImpactResult<T>>) {
+    pub(super) fn take(
+        &mut self,
+        bounce: &Bounce<T>,
+        result: &mut Option<ImpactResult<T>>,
+    ) -> Event {
         apart!(T, {
             let next = &bounce.next;
             self.cover(bounce);
@@ -139,19 +144,19 @@ impl<T: Real> Simulation<T> {
             };
             if !bounce.plain {
                 self.state = bounce.before;
-                return (event, None);
+                return event;
             }
             self.state = next.state;
             self.facts = Some(bounce.facts);
             self.end_slow_row();
-            let result = ImpactResult::of_one(
+            let found = result.insert(ImpactResult::of_one(
                 struck,
                 [bounce.v_n, bounce.v_after],
                 bounce.impulse,
                 next.state,
-            );
-            self.count(&result, closed);
-            (event, Some(result))
+            ));
+            self.count(found, closed);
+            event
         })
     }
 
