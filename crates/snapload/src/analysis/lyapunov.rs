@@ -1,6 +1,6 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
-use crate::arithmetic::processor::{Kernel, dispatch};
+use crate::arithmetic::processor::{Aligned, Kernel, dispatch};
 use crate::motion::bounce_map::BounceMap;
 use crate::motion::step_map::{Block, StepMap};
 
@@ -10,7 +10,7 @@ use crate::motion::step_map::{Block, StepMap};
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// The directions are columns; two more are zero.
-    directions: Block<8>,
+    directions: Aligned<Block<8>>,
     /// Their rows of the water's memory, if the body floats.
     memory: Vec<[f64; 8]>,
     logs: [f64; 6],
@@ -46,7 +46,7 @@ impl Frame {
             row[i] = 1.0;
         }
         Self {
-            directions,
+            directions: Aligned(directions),
             memory: Vec::new(),
             logs: [0.0; 6],
             lengths: [1.0; 6],
@@ -66,7 +66,7 @@ impl Frame {
             self.make_orthogonal();
         }
         self.memory.resize(map.memory_rows(), [0.0; 8]);
-        map.carry_at_one_time(&mut self.directions, &mut self.memory);
+        map.carry_at_one_time(&mut self.directions.0, &mut self.memory);
         self.make_orthogonal();
     }
 
@@ -74,15 +74,28 @@ impl Frame {
     /// grown much, several times before they are made orthogonal again.
     #[inline(always)]
     pub(crate) fn follow_bounce(&mut self, map: &BounceMap<f64>) {
-        map.at_one_time(&mut self.directions);
+        map.at_one_time(&mut self.directions.0);
         self.bounces += 1;
-        let mut largest = 0.0_f64;
-        for entry in self.directions[..6].as_flattened() {
-            largest = largest.max(entry.abs());
-        }
-        if self.bounces == MOST_BOUNCES || largest >= GROWN {
+        if self.bounces == MOST_BOUNCES || self.has_grown() {
             self.make_orthogonal();
         }
+    }
+
+    /// Whether a component has grown so far that the directions have to be made orthogonal. It is
+    /// found column by column: one maximum of all would have to wait for forty-eight comparisons,
+    /// one after the other.
+    #[inline(always)]
+    fn has_grown(&self) -> bool {
+        let mut largest = [0.0; 8];
+        for row in &self.directions.0[..6] {
+            for (largest, entry) in largest.iter_mut().zip(row) {
+                let size = entry.abs();
+                *largest = if size > *largest { size } else { *largest };
+            }
+        }
+        largest
+            .iter()
+            .fold(false, |any, size| any | (*size >= GROWN))
     }
 
     /// Gram and Schmidt's procedure: each direction is taken off all that follow, at once, and all
@@ -108,7 +121,7 @@ impl Frame {
             // A direction that the law has closed stays closed.
             *scale = if *square > 0.0 { 1.0 / *square } else { 0.0 };
         }
-        for row in self.directions[..6].iter_mut().chain(&mut self.memory) {
+        for row in self.directions.0[..6].iter_mut().chain(&mut self.memory) {
             for (entry, scale) in row.iter_mut().zip(scales) {
                 *entry *= scale;
             }
@@ -126,7 +139,7 @@ impl Frame {
     #[inline(always)]
     fn take_off<const I: usize>(&mut self, squares: &mut [f64; 8]) {
         let [mut along, mut more] = [[0.0; 8]; 2];
-        for pair in self.directions[..6].chunks_exact(2) {
+        for pair in self.directions.0[..6].chunks_exact(2) {
             for k in 0..8 {
                 along[k] += pair[0][I] * pair[0][k];
                 more[k] += pair[1][I] * pair[1][k];
@@ -146,7 +159,7 @@ impl Frame {
         for (k, part) in along.iter_mut().enumerate() {
             *part = if k > I { *part * scale } else { 0.0 };
         }
-        for row in self.directions[..6].iter_mut().chain(&mut self.memory) {
+        for row in self.directions.0[..6].iter_mut().chain(&mut self.memory) {
             let direction = row[I];
             for (entry, part) in row.iter_mut().zip(along) {
                 *entry -= direction * part;

@@ -85,6 +85,8 @@ pub(crate) struct BounceMap<L> {
     s: L,
     /// ż₋ − Φ ż₊ of x, y, ẋ and ẏ; a free flight does not change θ̇.
     lag: [L; 4],
+    /// n·ρ of the cable that snaps.
+    swing: L,
     /// ẋ, ẏ and θ̇ before the impact, and after it.
     velocities: [[L; 3]; 2],
     /// The acceleration at the end.
@@ -133,6 +135,7 @@ impl<L: Lane> BounceMap<L> {
                 last.x - first.x,
                 last.y - first.y,
             ],
+            swing,
             velocities: [before, after].map(|state| [state.vx, state.vy, state.vtheta]),
             force: last,
             delay: [normal.n.x, normal.n.y, normal.arm].map(|g| -(g * sooner)),
@@ -284,6 +287,17 @@ impl BounceMap<f64> {
         ];
         let square = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>();
         square(&jump) * square(&self.delay)
+    }
+
+    /// Whether the normal acceleration n·f + |Ṗ|²/r − θ̇² n·ρ is above zero by far more than
+    /// rounding, even without its second summand.
+    #[inline(always)]
+    pub(crate) fn surely_quickens(&self) -> bool {
+        let Vector2 { x, y } = self.force;
+        let [[_, _, spin], _] = self.velocities;
+        let turning = spin * spin * self.swing;
+        let along = self.normal.n.dot(self.force);
+        along - turning > 1e-9 * (x.abs() + y.abs() + turning.abs())
     }
 
     /// ż just before the impact.

@@ -13,10 +13,10 @@
 )]
 
 use crate::analysis::trust::causes::REACH;
-use crate::analysis::trust::parts::{COLUMNS, LAST, Parts, square, squares};
+use crate::analysis::trust::parts::{COLUMNS, Parts, square, squares};
 use crate::analysis::trust::rounding::{BOUND_OF_GAP, ROUNDING};
 use crate::analysis::trust::spread::ERROR;
-use crate::arithmetic::lane::Lane;
+use crate::arithmetic::lane::{Lane, Mask};
 use crate::arithmetic::plane::Vector2;
 use crate::model::cable::Normal;
 use crate::motion::bounce_map::{BounceMap, Bounced, Rows};
@@ -34,11 +34,10 @@ pub(super) struct Followed<L> {
     pub(super) tolerance: L,
 }
 
-/// What a bounce made of it.
+/// What is known of the neighbours of a bounce.
 pub(super) struct Through<L: Lane> {
     /// Squares of the standard deviations just before the impact.
     pub(super) met: [L; 7],
-    pub(super) after: Parts<L>,
     /// Whether it is certain that no neighbour has another event, and that the error is within the
     /// tolerance.
     pub(super) within_tolerance: L::Mask,
@@ -64,11 +63,11 @@ impl<L: Lane> Followed<L> {
         [along, rows]
     }
 
+    /// Carries the parts through a bounce, where they are, as they are many.
     #[inline(always)]
-    pub(super) fn through(&self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
+    pub(super) fn carry(&mut self, bounced: &Bounced<L>, map: &BounceMap<L>) -> Through<L> {
         let rounding = BounceRounding::of(self, bounced);
-        let mut after = self.parts;
-        let rows = &mut after.rows;
+        let rows = &mut self.parts.rows;
         map.along(rows);
         rounding.add_location(bounced, rows);
         let later = map.meet(rows);
@@ -87,10 +86,9 @@ impl<L: Lane> Followed<L> {
             & reach.meets_all(bounced)
             & reach.leaves_the_other_open(bounced)
             & reach.stops_nowhere(bounced);
-        after.rotate();
+        self.parts.rotate();
         Through {
             met,
-            after,
             within_tolerance,
         }
     }
@@ -178,32 +176,38 @@ impl<L: Lane> BounceRounding<L> {
     #[inline(always)]
     fn add_location(&self, bounced: &Bounced<L>, rows: &mut Rows<L, COLUMNS>) {
         let n = bounced.facts.normal.n;
-        rows[0][LAST] = self.location.mul_add(n.x, rows[0][LAST]);
-        rows[1][LAST] = self.location.mul_add(n.y, rows[1][LAST]);
+        let location = [None, None, None, Some(self.location)];
+        add_products(half(&mut rows[0], 1), location, n.x);
+        add_products(half(&mut rows[1], 1), location, n.y);
     }
 
     /// What is stored after the impact, and what its law is told: each part in a place of its own.
     #[inline(always)]
     fn add(&self, map: &BounceMap<L>, rows: &mut Rows<L, COLUMNS>) {
-        for (k, along) in self.along.into_iter().enumerate() {
-            rows[0][k] = along.mul_add(self.across.x, rows[0][k]);
-            rows[1][k] = along.mul_add(self.across.y, rows[1][k]);
-        }
+        let [first, second] = self.along.map(Some);
+        add_products(
+            half(&mut rows[0], 0),
+            [first, second, None, None],
+            self.across.x,
+        );
+        add_products(
+            half(&mut rows[1], 0),
+            [first, second, None, None],
+            self.across.y,
+        );
         for i in 0..3 {
-            rows[i][2] = rows[i][2] + self.turned[i];
-        }
-        for (i, size) in [self.speed, self.speed, self.spin, self.time]
-            .into_iter()
-            .enumerate()
-        {
-            rows[3 + i][3 + i] = rows[3 + i][3 + i] + size;
+            let turned = Some(self.turned[i]);
+            add(half(&mut rows[i], 0), [None, None, turned, None]);
         }
         let by_direction = map.law_of_turning(L::ZERO, self.direction, self.direction);
         let by_turn = map.law_of_turning(L::ZERO, L::ZERO, -self.turn);
-        for i in 0..3 {
-            rows[3 + i][0] = rows[3 + i][0] + by_direction[i];
-            rows[3 + i][2] = rows[3 + i][2] + by_turn[i];
+        for (i, speed) in [Some(self.speed), None, None].into_iter().enumerate() {
+            let law = [Some(by_direction[i]), None, Some(by_turn[i]), speed];
+            add(half(&mut rows[3 + i], 0), law);
         }
+        add(half(&mut rows[4], 1), [Some(self.speed), None, None, None]);
+        add(half(&mut rows[5], 1), [None, Some(self.spin), None, None]);
+        add(half(&mut rows[6], 1), [None, None, Some(self.time), None]);
     }
 
     /// A bound on the squares of what is added to the place and the time.
@@ -217,6 +221,33 @@ impl<L: Lane> BounceRounding<L> {
             sum = part.mul_add(part, sum);
         }
         sum
+    }
+}
+
+/// Half of a row: as much as a processor takes in at once.
+#[inline(always)]
+fn half<L>(row: &mut [L; COLUMNS], which: usize) -> &mut [L; COLUMNS / 2] {
+    &mut row.as_chunks_mut().0[which]
+}
+
+/// Adds what there is to half of a row. Of one run zeros are added to the rest of it: an entry that
+/// is written by itself has to reach the cache before the row can be taken in again.
+#[inline(always)]
+fn add<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2]) {
+    for (entry, more) in half.iter_mut().zip(more) {
+        if more.is_some() || L::Mask::WIDTH == 1 {
+            *entry = *entry + more.unwrap_or(L::ZERO);
+        }
+    }
+}
+
+/// The same with products of what there is and a factor.
+#[inline(always)]
+fn add_products<L: Lane>(half: &mut [L; COLUMNS / 2], more: [Option<L>; COLUMNS / 2], factor: L) {
+    for (entry, more) in half.iter_mut().zip(more) {
+        if more.is_some() || L::Mask::WIDTH == 1 {
+            *entry = more.unwrap_or(L::ZERO).mul_add(factor, *entry);
+        }
     }
 }
 

@@ -62,11 +62,8 @@ impl<L: Doubles> LaneFollowers<L> for Followed<L> {
 
     #[inline(always)]
     fn bounced(&self, plain: L::Mask, bounced: &Bounced<L>) -> (Self, L::Mask) {
-        let through = self.through(bounced, &BounceMap::of(bounced));
-        let after = Self {
-            parts: through.after,
-            ..*self
-        };
+        let mut after = *self;
+        let through = after.carry(bounced, &BounceMap::of(bounced));
         (after, plain & through.within_tolerance)
     }
 

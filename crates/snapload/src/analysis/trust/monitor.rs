@@ -154,6 +154,7 @@ impl Records<'_> {
         let square = map.magnification_squared();
         let (simulation, step) = self.latest;
         if square > MAGNIFIES * MAGNIFIES
+            && !map.surely_quickens()
             && let Some(closing) = map.closing(simulation, step)
             && closing.alpha < 0.0
         {

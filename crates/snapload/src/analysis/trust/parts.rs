@@ -25,8 +25,9 @@ pub(super) const COLUMNS: usize = 8;
 /// The place of the parts beside those of the seven components.
 pub(super) const LAST: usize = COLUMNS - 1;
 
-/// Deviations one standard deviation long, as columns.
+/// Deviations one standard deviation long, as columns. A row fills a line of a processor's cache.
 #[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
 pub(super) struct Parts<L> {
     pub(super) rows: Rows<L, COLUMNS>,
     signs: Signs<L>,
@@ -60,11 +61,8 @@ impl<L: Lane> Parts<L> {
     #[inline(always)]
     pub(super) fn rotate(&mut self) {
         for row in &mut self.rows {
-            let last = row[LAST];
-            for k in (1..COLUMNS).rev() {
-                row[k] = row[k - 1];
-            }
-            row[0] = last;
+            let [a, b, c, d, e, f, g, last] = *row;
+            *row = [last, a, b, c, d, e, f, g];
         }
         self.signs = self.signs.next();
     }

@@ -65,6 +65,16 @@ impl LinearMap<'_> {
         }
     }
 
+    /// Whether it is certain, without a look at the system, that the closing of the gap does not
+    /// slow down.
+    #[inline(always)]
+    pub(super) fn surely_quickens(&self) -> bool {
+        match self {
+            Self::Bounce(map) => map.surely_quickens(),
+            Self::Step(_) => false,
+        }
+    }
+
     #[inline(always)]
     fn approach(&self) -> Approach {
         match self {
@@ -291,19 +301,20 @@ impl SpreadMonitor {
         bounced: &Bounced<f64>,
         map: &BounceMap<f64>,
     ) -> f64 {
-        let followed = self.followed();
-        let through = followed.through(bounced, map);
+        let mut followed = self.followed();
+        let through = followed.carry(bounced, map);
         if !through.within_tolerance && self.horizon.is_none() {
+            let before = self.followed().before(bounced, map);
             dispatch(Asking {
                 monitor: self,
                 simulation,
                 step,
-                before: followed.before(bounced, map),
+                before,
                 map,
             });
         }
-        self.covariance.parts = through.after;
-        let after = squares(&through.after.rows);
+        self.covariance.parts = followed.parts;
+        let after = squares(&followed.parts.rows);
         self.judge(step, &[through.met, after])
     }
 
