@@ -12,7 +12,6 @@ pub(crate) mod read;
 pub(crate) mod schema;
 pub(crate) mod value;
 
-use crate::arithmetic::processor::{Kernel, dispatch};
 use crate::arithmetic::real::Real;
 use crate::case::error::CaseError;
 use crate::case::parameters::{Parameters, natural_inertia};
@@ -65,12 +64,13 @@ impl Case {
     }
 
     fn of_checked(parameters: Parameters) -> Result<Self, CaseError> {
-        let begun = dispatch(Begin(&parameters));
-        let simulation = begun.map_err(|error| explain(error, &parameters))?;
-        Ok(Self {
-            parameters,
-            simulation,
-        })
+        match begin(&parameters) {
+            Ok(simulation) => Ok(Self {
+                parameters,
+                simulation: Box::new(simulation),
+            }),
+            Err(error) => Err(explain(error, &parameters)),
+        }
     }
 
     /// The values.
@@ -156,18 +156,6 @@ impl Outcome {
     }
 }
 
-/// A start over doubles, by the best instructions for it.
-struct Begin<'a>(&'a Parameters);
-
-impl Kernel for Begin<'_> {
-    type Output = Result<Box<Simulation>, StartError>;
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        begin(self.0).map(Box::new)
-    }
-}
-
-#[inline(always)]
 fn begin<T: Real>(p: &Parameters<T>) -> Result<Simulation<T>, StartError> {
     Simulation::new(system(p), p.rules(), T::ZERO, start(p))
 }

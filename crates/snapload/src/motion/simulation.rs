@@ -1,8 +1,6 @@
 //! The one loop: fly to the earliest event, apply its law, choose the next taut set.
 
-use crate::arithmetic::dual::Dual;
-use crate::arithmetic::precise::Precise;
-use crate::arithmetic::processor::{Kernel, apart, dispatch_over};
+use crate::arithmetic::processor::{apart, dispatch_over};
 use crate::arithmetic::real::Real;
 use crate::model::floating::Complex;
 use crate::model::rules::Rules;
@@ -29,8 +27,11 @@ mod bounces;
 #[cfg(feature = "comparisons")]
 pub(crate) mod comparisons;
 mod event_laws;
+mod kernels;
 pub(super) mod within;
 
+pub use kernels::Steps;
+use kernels::begin;
 use within::StateAt;
 
 /// So many instants of impact in a row on the same cables count as a converging series.
@@ -130,37 +131,6 @@ pub(crate) struct Event {
     pub(crate) still: TautSet,
 }
 
-/// A step to be made, by the best instructions for it.
-struct NextStep<'a, T: Real>(&'a mut Simulation<T>);
-
-impl<T: Real> Kernel for NextStep<'_, T> {
-    type Output = Option<Step<T>>;
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        self.0.step_here()
-    }
-}
-
-/// Numbers over which a motion can be stepped. The step over doubles is compiled here, once: it is
-/// the whole engine, which every crate that steps would otherwise compile anew.
-pub trait Steps: Real {
-    /// [`Simulation::step`].
-    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
-        dispatch_over::<Self, _>(NextStep(simulation))
-    }
-}
-
-impl Steps for f64 {
-    #[inline(never)]
-    fn step(simulation: &mut Simulation<Self>) -> Option<Step<Self>> {
-        dispatch_over::<Self, _>(NextStep(simulation))
-    }
-}
-
-impl<T: Real, const N: usize> Steps for Dual<T, N> {}
-
-impl<const WORDS: usize> Steps for Precise<WORDS> {}
-
 impl<T: Real> Step<T> {
     /// The impacts at the end of the stretch: one for each cable with an impulse.
     pub fn impacts(&self) -> impl Iterator<Item = Impact<T>> + '_ {
@@ -189,6 +159,16 @@ impl<T: Real> Simulation<T> {
     /// [`StartError`] if the start violates a cable, a stop rule or is not finite.
     #[inline(never)]
     pub fn new(
+        system: System<T>,
+        rules: Rules<T>,
+        t: T,
+        state: State<T>,
+    ) -> Result<Self, StartError> {
+        begin(system, rules, t, state)
+    }
+
+    #[inline(always)]
+    fn start_here(
         system: System<T>,
         rules: Rules<T>,
         t: T,
