@@ -3,7 +3,8 @@
 
 use crate::arithmetic::processor::plain;
 use crate::motion::bounce_map::{BounceMap, Rows};
-use crate::motion::simulation::{NextStep, Simulation, Step};
+use crate::motion::simulation::kernels::NextStep;
+use crate::motion::simulation::{Simulation, Step};
 
 /// What a bounce does to deviations (w, τ), a column for each of them: by itself and, where the name
 /// says so, with all before it.

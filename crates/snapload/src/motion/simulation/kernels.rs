@@ -33,7 +33,7 @@ pub(super) fn begin<T: Real>(
 }
 
 /// A step to be made, by the best instructions for it.
-struct NextStep<'a, T: Real>(&'a mut Simulation<T>);
+pub(super) struct NextStep<'a, T: Real>(pub(super) &'a mut Simulation<T>);
 
 impl<T: Real> Kernel for NextStep<'_, T> {
     type Output = Option<Step<T>>;
