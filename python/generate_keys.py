@@ -54,13 +54,14 @@ def tupled(names: str) -> str:
 def ends() -> str:
     """Why a run ends, as a type and as names."""
     stops = _engine.stops()
-    reasons = ", ".join(f'"{name}"' for name, _ in stops)
+    reasons = "".join(f'    "{name}",\n' for name, _ in stops)
     limits = {name: meaning for name, meaning in stops if meaning is not None}
     names = "".join(f'"{name}", ' for name in limits)
     fields = "".join(f"    {name}: float | None = None\n" for name in limits)
     told = "".join(f"    {name} : float, optional\n        The run ends where {limits[name]}.\n" for name in limits)
     return f"""#: Why a run ends.
-Reason = Literal[{reasons}]
+Reason = Literal[
+{reasons}]
 
 #: The same as names.
 REASONS: tuple[Reason, ...] = get_args(Reason)

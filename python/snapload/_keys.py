@@ -8,7 +8,14 @@ from typing import Any, Literal, TypedDict, get_args
 from numpy.typing import ArrayLike
 
 #: Why a run ends.
-Reason = Literal["settled", "rotation_limit", "upper_bound", "sliding_start", "end_time", "impact_limit"]
+Reason = Literal[
+    "settled",
+    "rotation_limit",
+    "upper_bound",
+    "sliding_start",
+    "end_time",
+    "impact_limit",
+]
 
 #: The same as names.
 REASONS: tuple[Reason, ...] = get_args(Reason)

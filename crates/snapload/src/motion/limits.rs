@@ -171,6 +171,30 @@ pub(crate) struct TautMotion<'a, T> {
     pub(crate) circle: &'a VectorSeries<T, 2>,
     /// How long the step is.
     pub(crate) step: T,
+    /// What the series of the place leave out of it within the step, at most.
+    pub(crate) left_out: T,
+}
+
+/// An event function that may be reached within a step, as a power series.
+#[derive(Clone, Debug)]
+pub(crate) struct Watched<T> {
+    pub(crate) function: EventFunction,
+    pub(crate) series: Polynomial<T>,
+    /// The last order that is known.
+    pub(crate) order: usize,
+    /// What it leaves out within the step, at most.
+    pub(crate) left_out: T,
+}
+
+impl<T: Real> Watched<T> {
+    /// Whether it provably stays below zero.
+    #[inline(always)]
+    pub(crate) fn stays_negative(&self, step: T) -> bool {
+        let Self {
+            order, left_out, ..
+        } = *self;
+        self.series.stays_negative(step, order, left_out)
+    }
 }
 
 impl<T: Real> Limits<T> {
@@ -228,18 +252,14 @@ impl<T: Real> Limits<T> {
     /// Their event functions in taut motion, as power series added to those that are watched; the
     /// ones that provably are not reached within the step are left out.
     #[inline(always)]
-    pub(crate) fn watch_series(
-        &self,
-        motion: &TautMotion<T>,
-        watched: &mut Vec<(EventFunction, Polynomial<T>, usize)>,
-    ) {
+    pub(crate) fn watch_series(&self, motion: &TautMotion<T>, watched: &mut Vec<Watched<T>>) {
         let [_, y, theta] = motion.place;
         for (limit, bound) in self.bounds.iter() {
             match limit {
                 Limit::Rotation => {
                     for mut side in [*theta, theta.negated()] {
                         side[0] -= bound;
-                        watch(limit, &side, motion.step, watched);
+                        watch(limit, side, motion.left_out, motion.step, watched);
                     }
                 }
                 Limit::UpperBound => {
@@ -250,7 +270,7 @@ impl<T: Real> Limits<T> {
                             top[k] = y[k] + px * sine + py * cosine;
                         }
                         top[0] = top[0] + self.radius - bound;
-                        watch(limit, &top, motion.step, watched);
+                        watch(limit, top, motion.left_out, motion.step, watched);
                     }
                 }
             }
@@ -258,16 +278,23 @@ impl<T: Real> Limits<T> {
     }
 }
 
-/// Adds an event function, if it may be reached within the step.
+/// Adds an event function that is known to the last order, if it may be reached within the step.
 #[inline(always)]
 fn watch<T: Real>(
     limit: Limit,
-    series: &Polynomial<T>,
+    series: Polynomial<T>,
+    left_out: T,
     step: T,
-    watched: &mut Vec<(EventFunction, Polynomial<T>, usize)>,
+    watched: &mut Vec<Watched<T>>,
 ) {
-    if !series.stays_negative(step, ORDER, T::ZERO) {
-        watched.push((EventFunction::Limit(limit), *series, ORDER));
+    let event = Watched {
+        function: EventFunction::Limit(limit),
+        series,
+        order: ORDER,
+        left_out,
+    };
+    if !event.stays_negative(step) {
+        watched.push(event);
     }
 }
 

@@ -55,9 +55,8 @@ use crate::motion::active_set::ActiveSet;
 use crate::motion::cable_series::CableSeries;
 use crate::motion::complementarity::Factored;
 use crate::motion::contact::{Contact, Contacts};
-use crate::motion::events::EventFunction;
 use crate::motion::extremes::rises_above_zero;
-use crate::motion::limits::Limits;
+use crate::motion::limits::{Limits, Watched};
 use crate::motion::water_series::WaterSeries;
 use crate::motion::waves::sinusoids::Expanded;
 
@@ -106,7 +105,7 @@ pub(crate) struct Series<T: Real> {
     step: T,
     /// What may be reached within the step: event functions, as far as they are not the gaps of
     /// `lines`.
-    watched: Vec<(EventFunction, Polynomial<T>, usize)>,
+    watched: Vec<Watched<T>>,
 }
 
 impl<T: Real> Series<T> {

@@ -3,6 +3,7 @@
 
 use crate::agrees_with_closed_forms::string;
 use crate::floating_random::Random;
+use snapload::analysis::TrustMonitor;
 use snapload::{
     Body, Cable, Forcing, Harmonic, Limit, LimitBounds, Rules, Shape, Simulation, State, Stop,
     System, Trajectory, natural_inertia,
@@ -142,6 +143,63 @@ fn body_of(kind: &str, random: &mut Random) -> (System, State) {
         ..State::default()
     };
     (system, start)
+}
+
+/// Whether a run is told to be known to its end, if its start may be off by `size`, and how it ends.
+fn followed(system: &System, rules: Rules, start: State, size: f64) -> (bool, Stop) {
+    let simulation = Simulation::new(system.clone(), rules, 0.0, start);
+    let mut simulation = simulation.expect("a legal start");
+    let mut monitor = TrustMonitor::new(&simulation, &[size; 6], 1.0);
+    let mut end = Stop::EndTime;
+    while let Some(step) = simulation.step() {
+        monitor.follow(&simulation, &step);
+        end = step.stop.unwrap_or(end);
+    }
+    (monitor.verdict().horizon.is_none(), end)
+}
+
+/// With a bound close to the largest value that the quantity comes to, neighbours may meet the limit
+/// or not: then the end is not certain; and where it is told to be, they all end alike.
+#[test]
+fn a_limit_that_neighbours_may_meet_ends_trust() {
+    const SIZE: f64 = 1e-6;
+    for limit in Limit::ALL {
+        for kind in KINDS {
+            let mut random = Random(1944);
+            let mut told = [0, 0];
+            for case in 0..40 {
+                let (system, start) = body_of(kind, &mut random);
+                let rules = Rules {
+                    max_impacts: 12,
+                    v_stick: 1e-6,
+                    ..Rules::until(random.between(0.5, 2.0))
+                };
+                let free = Free::of(&system, rules, start, limit);
+                let largest = free.seen.iter().map(|(_, value)| *value);
+                let largest = largest.fold(f64::MIN, f64::max);
+                let bound = largest + 40.0 * SIZE * random.next().powi(3);
+                if bound <= free.seen[0].1 + 100.0 * SIZE {
+                    continue;
+                }
+                let rules = Rules {
+                    limits: LimitBounds::none().with(limit, bound),
+                    ..rules
+                };
+                let (certain, end) = followed(&system, rules, start, SIZE);
+                told[usize::from(certain)] += 1;
+                for _ in 0..if certain { 12 } else { 0 } {
+                    let near = start.components().map(|value| value + SIZE * random.next());
+                    let near = record(&system, rules, State::from_components(near));
+                    let about = format!("{limit:?}, {kind}, {case}");
+                    assert_eq!(near.end().reason, end, "{about}: certain");
+                }
+            }
+            assert!(
+                told.iter().all(|count| *count > 2),
+                "{limit:?}, {kind}: {told:?}"
+            );
+        }
+    }
 }
 
 /// A motion without limits, and what a limit would bound along it.

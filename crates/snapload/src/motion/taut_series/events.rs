@@ -4,7 +4,7 @@ use crate::arithmetic::polynomial::{ORDER, Polynomial};
 use crate::arithmetic::real::Real;
 use crate::motion::active_set::ActiveSet;
 use crate::motion::events::{EventFunction, HasEvents, Jet, Jets};
-use crate::motion::limits::TautMotion;
+use crate::motion::limits::{TautMotion, Watched};
 use crate::motion::taut_series::Series;
 
 /// A tension below this along a whole step is none \[F\].
@@ -31,40 +31,43 @@ impl<T: Real> Series<T> {
         let idle = |cable: usize| taut.contains(cable) && !carrying.contains(cable);
         for cable in (0..self.lines.len()).filter(|&cable| !idle(cable)) {
             let line = &self.lines[cable];
-            let (function, series, order, error) = if carrying.contains(cable) {
-                let tension = line.tension.negated();
-                (EventFunction::Tension(cable), tension, ORDER - 2, T::ZERO)
+            let event = if carrying.contains(cable) {
+                Watched {
+                    function: EventFunction::Tension(cable),
+                    series: line.tension.negated(),
+                    order: ORDER - 2,
+                    left_out: T::ZERO,
+                }
             } else {
-                let error = self.contacts[cable].error + self.left_out[cable];
-                (EventFunction::Gap(cable), line.gap, ORDER, error)
+                Watched {
+                    function: EventFunction::Gap(cable),
+                    series: line.gap,
+                    order: ORDER,
+                    left_out: self.contacts[cable].error + self.left_out[cable],
+                }
             };
             // Where not all taut cables carry, one whose tension is zero all along is no event.
             let nothing = taut != carrying
                 && carrying.contains(cable)
-                && series.derivative_bound(0, step, order) <= T::from_decimal(NOTHING);
-            if !nothing && !series.stays_negative(step, order, error) {
-                self.watched.push((function, series, order));
+                && event.series.derivative_bound(0, step, event.order) <= T::from_decimal(NOTHING);
+            if !nothing && !event.stays_negative(step) {
+                self.watched.push(event);
             }
         }
         let motion = TautMotion {
             place: [&self.x, &self.y, &self.theta],
             circle: &self.circle,
             step,
+            left_out: self.left_out_of_motion(step),
         };
         self.limits.watch_series(&motion, &mut self.watched);
     }
 
     #[inline(always)]
-    fn jet(
-        &self,
-        function: EventFunction,
-        polynomial: &Polynomial<T>,
-        order: usize,
-        s: T,
-    ) -> Jet<T> {
-        let ([value, rate, accel], noise) = polynomial.jet_and_noise(s, order);
+    fn jet(&self, function: EventFunction, series: &Polynomial<T>, order: usize, s: T) -> Jet<T> {
+        let ([value, rate, accel], noise) = series.jet_and_noise(s, order);
         Jet {
-            third: polynomial.derivative_bound(3, self.step, order),
+            third: series.derivative_bound(3, self.step, order),
             noise,
             ..Jet::new(function, value, rate, accel)
         }
@@ -99,10 +102,16 @@ impl<T: Real> Series<T> {
 impl<T: Real> HasEvents<T> for Series<T> {
     #[inline(always)]
     fn jets_at(&self, s: T, jets: &mut Jets<T>) {
-        for (function, polynomial, order) in &self.watched {
-            jets.push(match *function {
+        for event in &self.watched {
+            jets.push(match event.function {
                 EventFunction::Gap(cable) => self.gap_jet(cable, s),
-                other => self.jet(other, polynomial, *order, s),
+                other => {
+                    let jet = self.jet(other, &event.series, event.order, s);
+                    Jet {
+                        noise: jet.noise + event.left_out,
+                        ..jet
+                    }
+                }
             });
         }
     }

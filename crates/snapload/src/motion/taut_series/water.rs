@@ -93,7 +93,7 @@ impl<T: Real> Series<T> {
     /// memory where there is one. With drag or taut cables that is no sum of known terms: the last
     /// ones of the series are below rounding there, and nothing is added.
     #[inline(always)]
-    fn left_out_of_motion(&self, s: T) -> T {
+    pub(super) fn left_out_of_motion(&self, s: T) -> T {
         match &self.water {
             Some(water) => water.remainder(s),
             None if self.active.taut.is_empty() => {
