@@ -32,8 +32,8 @@ Examples:
   snapload certify --check square.cert
       check it again, from nothing but the case in it
 
-Exit status: 0 proved, 1 not proved to the end (nothing is written then without --partial), 2 bad input.
-With --check: 0 proved, 1 refused, 2 undecided or proved in part, 3 no certificate.";
+Exit status: 0 proved to the end or, without --taut, to where a cable sticks; 1 not proved so far (nothing is
+written then without --partial), 2 bad input. With --check: 0 proved, 1 refused, 2 undecided or proved in part, 3 no certificate.";
 
 /// The largest certificate: ten million impacts have less than a hundred bytes each.
 const LARGEST: u64 = 1 << 30;
@@ -139,6 +139,10 @@ fn in_words(proof: &Certification, seconds: f64) -> String {
     let (impacts, bits) = (proof.impacts, proof.bits);
     let s = if impacts == 1 { "" } else { "s" };
     match &proof.end {
+        Ended::Proved(Reason::Sticks) => format!(
+            "proved up to t = {}, where a cable sticks: {impacts} impact{s} ({bits} bits, {seconds:.1} s)",
+            proof.t
+        ),
         Ended::Proved(reason) => {
             let reason = reason.name().replace('_', " ");
             format!(
@@ -181,6 +185,7 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
         Verdict::Undecided(why) => ("undecided", None, None, Some(why.as_str())),
         Verdict::Malformed(why) => ("no certificate", None, None, Some(why.as_str())),
     };
+    let shown = path.display();
     let row = Row {
         verdict: word,
         impacts,
@@ -192,7 +197,7 @@ fn run_check(args: &Args, path: &Path) -> Result<(), Failure> {
             (Some(impacts), Some(bits)) => {
                 format!("{word}: {impacts} impacts ({bits} bits, {seconds:.1} s)")
             }
-            _ => format!("{word}: {}", why.unwrap_or_default()),
+            _ => format!("{word}: {shown}: {}", why.unwrap_or_default()),
         };
         if let Verdict::Proved { reason, t, .. } = &verdict {
             let _ = write!(words, ", {} at t = {t}", reason.name().replace('_', " "));

@@ -21,7 +21,8 @@ stops at a limit the next value begins with the case's own start again, and `res
 Examples:
   snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --vary f_o=1.5:2.1:61 --out up.parquet
-  snapload diagram ... --vary f_o=1.5:2.1:61 --down --out down.parquet
+  snapload diagram --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
+      --vary f_o=1.5:2.1:61 --down --out down.parquet
       downwards: another attractor may be found";
 
 /// Which case, which values, and how long.

@@ -116,7 +116,7 @@ enum Verb {
     Diagram(diagram::Args),
     /// Run a window of starts: which of them stay below the limits
     Basin(basin::Args),
-    /// The same for values of a third key: how the safe part is eroded
+    /// Run such a window for values of a third key: how its safe part is eroded
     Erosion(basin::ErosionArgs),
     /// Reproduce the chapter's tables, figures and claims as one report
     #[cfg(feature = "reproduce")]

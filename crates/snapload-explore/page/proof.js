@@ -54,8 +54,10 @@ export class Proof {
     $("prove").textContent = button;
   }
 
-  #seal({ proved, t, words, further, certificate }) {
-    const title = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
+  #seal({ proved, t, leaves, words, further, certificate }) {
+    const reach = proved ? "proved to the end" : `proved up to t = ${number(Number(t), 5)}`;
+    // What is shown is the run of doubles, and not what is proved.
+    const title = leaves === null ? reach : `${reach}; this run leaves the proof at impact ${leaves}`;
     $("seal").classList.toggle("whole", proved);
     $("seal-sign").setAttribute("d", proved ? SIGNS.whole : SIGNS.part);
     $("seal-title").textContent = title;

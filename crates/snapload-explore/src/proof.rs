@@ -27,6 +27,8 @@ struct Answer {
     /// As far as it reaches.
     t: String,
     impacts: usize,
+    /// The row of the table of impacts at which the run of doubles leaves it, if it does.
+    leaves: Option<usize>,
     /// What is proved, how it ends, and where the run of doubles leaves it.
     words: String,
     /// The command that proves further, where there is one.
@@ -57,6 +59,10 @@ pub(crate) fn answer(request: Request, allowance: &Allowance) -> Result<Vec<u8>,
         proved: matches!(proof.end, Ended::Proved(_)) && !sticks,
         t: proof.t.clone(),
         impacts: proof.impacts,
+        leaves: certified
+            .departure
+            .filter(|_| !sticks)
+            .map(|departure| departure.impact),
         words: match sticks {
             // The run goes on, so that all there is to compare is what comes before.
             true => proved_in_words(proof),

@@ -22,7 +22,8 @@ pub struct Certified {
 /// The first impact of a run that is not the proved one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Departure {
-    /// By number from 1; one more than there are impacts where only the end is another.
+    /// By its row in the table of impacts, from 1; one more than there are where only the end is
+    /// another, or where impacts are missing.
     pub impact: usize,
     /// What is another.
     pub differs: Differs,
@@ -91,14 +92,12 @@ impl Certified {
         let mut proved = proof.proved_impacts();
         let (mut departure, mut astray) = (None, false);
         let mut confirmed = Vec::new();
-        let mut number = 0;
-        for impact in run.impacts() {
+        for (number, impact) in (1..).zip(run.impacts()) {
             // An impulse that passes into a taut cable is no impact.
             if impact.v_n <= 0.0 {
                 confirmed.push(None);
                 continue;
             }
-            number += 1;
             let exact = proved.next();
             astray |= exact.is_some_and(|exact| exact.cable != impact.cable);
             let close = exact.filter(|_| !astray);
@@ -120,7 +119,7 @@ impl Certified {
                 .then_some(Differs::End),
         };
         departure = departure.or(rest.map(|differs| Departure {
-            impact: number + 1,
+            impact: run.impacts().len() + 1,
             differs,
         }));
         drop(proved);
@@ -148,6 +147,14 @@ impl Certified {
         }
     }
 
+    /// To how many digits the proof confirms when a run ends, if it is proved to end likewise.
+    pub(crate) fn confirmed_end(&self, run: &Trajectory) -> Option<f64> {
+        let end = run.end();
+        let reason = ended(&self.proof)?;
+        let exact = nearest(&self.proof.t);
+        (reason == Reason::Stop(end.reason)).then(|| confirmed_digits(end.t, exact))
+    }
+
     /// What is proved, and on a line of its own where the run leaves it.
     pub fn in_words(&self) -> String {
         let proved = proved_in_words(&self.proof);
@@ -165,11 +172,11 @@ impl Certified {
             None if self.proof.impacts == 0 => return None,
             None => "up to there the run has the same in five digits".to_owned(),
             Some(Departure {
-                impact,
                 differs: Differs::End,
+                ..
             }) => format!(
                 "the run has the same {}, and another end",
-                impacts(impact - 1)
+                impacts(self.proof.impacts)
             ),
             Some(Departure { impact, differs }) => format!(
                 "the run leaves it at impact {impact}, which {}",

@@ -41,7 +41,7 @@ pub fn summary_lines(
     let run = &trusted.run;
     let mut lines = vec![
         ("Case", case_in_words(name, parameters)),
-        ("End", end_known(trusted, parameters)),
+        ("End", end_known(trusted, parameters, certified)),
     ];
     if let Some(limit) = run.end().t_limit {
         let limit = digits(limit);
@@ -60,12 +60,13 @@ pub fn summary_lines(
     let rho2 = norm("rho2", norms.rho2, &known.rho2);
     let rho3 = norm("rho3", norms.rho3, &known.rho3);
     lines.push(("Norms", format!("{rho1}, {rho2}, {rho3}")));
-    let y_max = norm("y_max", norms.y_max, &known.y_max);
-    let (turned, turned_known) = (digits(norms.theta_max), known.theta_max);
-    lines.push((
-        "",
-        format!("{y_max}, theta_max = {turned} rad ({turned_known})"),
-    ));
+    let mut reached = norm("y_max", norms.y_max, &known.y_max);
+    // A point mass does not turn.
+    if !parameters.is_point() {
+        let turned = digits(norms.theta_max);
+        let _ = write!(reached, ", theta_max = {turned} rad ({})", known.theta_max);
+    }
+    lines.push(("", reached));
     let doubt = doubt_at(trusted, run.end().t);
     lines.push(("Modes", modes(run.modes()) + doubt));
     if (2..=FEW_MODES).contains(&run.modes().len()) {
@@ -150,21 +151,30 @@ fn known(value: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite()) else {
         return NOT_CERTAIN.to_owned();
     };
-    let digits = digits_within(error / value.abs().max(1.0)).floor();
+    in_digits(digits_within(error / value.abs().max(1.0)))
+}
+
+fn in_digits(digits: f64) -> String {
+    let digits = digits.floor();
     let plural = if digits == 1.0 { "" } else { "s" };
     format!("{digits} digit{plural}")
 }
 
-/// How a run ended, and how well it is known when.
-fn end_known(trusted: &Trusted, parameters: &Parameters) -> String {
+/// How a run ended, and how well it is known when: by its proof where there is one.
+fn end_known(trusted: &Trusted, parameters: &Parameters, certified: Option<&Certified>) -> String {
     let (end, trust) = (trusted.run.end(), &trusted.trust);
     let words = end_in_words(&trusted.run, parameters);
     if end.reason == Stop::EndTime {
         return words;
     }
     let error = Some(trust.end_error).filter(|error| error.is_finite());
+    let proved = certified.and_then(|certified| certified.confirmed_end(&trusted.run));
+    let known = match proved {
+        Some(digits) => format!("{} by the proof", in_digits(digits)),
+        None => known(end.t, error),
+    };
     let at = format!("t = {}", digits(end.t));
-    words.replacen(&at, &format!("{at} ({})", known(end.t, error)), 1)
+    words.replacen(&at, &format!("{at} ({known})"), 1)
 }
 
 /// What the limits of the thesis's case come to, which says more than what they are in general.
@@ -202,8 +212,8 @@ pub fn end_in_words(trajectory: &Trajectory, parameters: &Parameters) -> String 
     }
 }
 
-/// How many snaps each cable had, and how many in all are certain where not all are. Rows with
-/// v_n = 0 are impulses passed into a taut cable.
+/// How many rows the table of impacts has, as horizons count them, and how many are certain where
+/// not all are: snaps of each cable, and impulses passed into a taut cable, which have v_n = 0.
 fn impacts(trusted: &Trusted) -> String {
     let impacts = trusted.run.impacts();
     let mut of_cable = [0_usize; snapload::MAX_CABLES];
@@ -214,24 +224,22 @@ fn impacts(trusted: &Trusted) -> String {
             _ => passed += 1,
         }
     }
-    let total: usize = of_cable.iter().sum();
-    let mut text = match total {
-        0 => "none".to_owned(),
-        _ => format!("{total}"),
-    };
-    if let Some(horizon) = trusted.trust.horizon.filter(|_| total > 0) {
-        let known = impacts.iter().take(horizon.impact.saturating_sub(1));
-        let known = known.filter(|impact| impact.v_n > 0.0).count();
+    if impacts.is_empty() {
+        return "none".to_owned();
+    }
+    let mut text = format!("{}", impacts.len());
+    if let Some(horizon) = trusted.trust.horizon {
+        let known = horizon.impact.saturating_sub(1).min(impacts.len());
         let _ = write!(text, " ({known} certain)");
     }
-    let mut join = ": ";
-    for (cable, count) in of_cable.iter().enumerate().filter(|(_, count)| **count > 0) {
-        let _ = write!(text, "{join}{count} of cable {}", cable + 1);
-        join = ", ";
-    }
+    let cables = of_cable.iter().zip(1..).filter(|(count, _)| **count > 0);
+    let mut parts: Vec<String> = cables
+        .map(|(count, cable)| format!("{count} of cable {cable}"))
+        .collect();
     if passed > 0 {
-        let _ = write!(text, "; {passed} impulses passed into a taut cable");
+        parts.push(format!("{passed} passed into a taut cable"));
     }
+    let _ = write!(text, ": {}", parts.join(", "));
     text
 }
 

@@ -78,7 +78,11 @@ impl List {
         let keys = keys(path, &names)?;
         let sha256 = digest(path).map_err(|error| input(&error))?;
         if count == 0 {
-            return Err(input(&"it holds no case, only names of columns"));
+            let words = match names.is_empty() {
+                true => "it is empty; its first line names keys, such as f_o,omega",
+                false => "it holds no case, only names of columns",
+            };
+            return Err(input(&words));
         }
         Ok(Self {
             path: path.to_owned(),

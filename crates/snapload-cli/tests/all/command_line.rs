@@ -374,7 +374,18 @@ fn bad_files_are_refused_with_the_line() {
             b"e = 0.5\ne = 0.6\n",
             &["bad.toml", "line 2, column 1", "the key e stands twice"],
         ),
-        (b"e = \n", &["bad.toml", "line 1, column 5"]),
+        (
+            b"e = \n",
+            &["bad.toml", "line 1, column 5", "e has no value"],
+        ),
+        (
+            b"stop_when_settled = True\n",
+            &["stop_when_settled = True has capital letters; write true"],
+        ),
+        (
+            b"[run]\nr = 1.5\n",
+            &["bad.toml, line 1", "leave out the line [run]"],
+        ),
         (b"h = 1.2\n", &["bad.toml, line 1", "derived"]),
         (
             b"a = 0.2\nr = 0.8\n",

@@ -153,6 +153,19 @@ fn errors_name_the_line_the_key_and_what_to_do() {
     );
     let table = told("[site]", "[stie]");
     assert!(table.contains("did you mean site?"), "{table}");
+    let twice = told("[site]", "[body]");
+    assert!(
+        twice.contains("[body] stands twice; write all its keys below one"),
+        "{twice}"
+    );
+    let lines = told("[[line]]", "[line]");
+    assert!(lines.contains("[[line]]"), "{lines}");
+    let mut entries = read(example);
+    let above = entries.set("height=2").expect_err("no table").to_string();
+    assert!(
+        above.contains("hint: write body.height or wave.height"),
+        "{above}"
+    );
     let kind = told("depth = 10", "depth = \"ten\"");
     assert!(
         kind.contains(

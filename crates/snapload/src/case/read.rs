@@ -2,7 +2,7 @@
 //! files opens them.
 
 use crate::case::entries::Entries;
-use crate::case::error::{CaseError, SET, echo};
+use crate::case::error::{CaseError, Fault, SET, echo};
 use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
 use toml::Spanned;
@@ -31,7 +31,9 @@ impl Entries {
                     }
                 }
                 (_, Some(table)) => entries.read(table, 0, word, value.get_ref(), &line(at))?,
-                (Err(unknown), None) => return Err(unknown.at(line(at))),
+                (Err(unknown), None) => {
+                    return Err(below_its_line(schema, word, unknown).at(line(at)));
+                }
             }
         }
         Ok(entries)
@@ -51,7 +53,18 @@ impl Entries {
                 self.keep_written(digits_of(value));
                 Ok(())
             }
-            Err(shown) => Err(refuse(table, &table.path(index, key), key, shown).at(place)),
+            Err(shown) => {
+                let error = refuse(table, &table.path(index, key), key, shown).at(place);
+                let heading = value.is_table() && table.heading == Heading::None;
+                Err(match error.fault {
+                    Fault::UnknownKey { .. } if heading => error.with_hint(format!(
+                        "the keys of {} stand below no heading; leave out the line [{}]",
+                        table.meaning,
+                        echo(key)
+                    )),
+                    _ => error,
+                })
+            }
         }
     }
 
@@ -88,7 +101,14 @@ impl Entries {
             return Ok((table, 0..1, path));
         }
         let (name, rest) = path.split_once('.').unwrap_or((path, ""));
-        let table = self.schema.table(name)?;
+        let table = self.schema.table(name).map_err(|error| {
+            let with_key = self.schema.with_key(path).into_iter();
+            let paths: Vec<String> = with_key.map(|of| format!("{}.{path}", of.name)).collect();
+            match paths.is_empty() {
+                true => error,
+                false => error.with_hint(format!("write {}", paths.join(" or "))),
+            }
+        })?;
         if rest.is_empty() {
             let keys = table.keys.iter().map(|key| format!("{name}.{}", key.name));
             let allowed = format!("one of its keys: {}", keys.collect::<Vec<_>>().join(", "));
@@ -173,6 +193,19 @@ fn tables<'a, 'i>(
     })
 }
 
+/// Of a key that stands above all headings, below which one it belongs.
+fn below_its_line(schema: &Schema, key: &str, error: CaseError) -> CaseError {
+    let with_key = schema.with_key(key).into_iter();
+    let headers: Vec<String> = with_key.map(Table::header).collect();
+    match headers.is_empty() {
+        true => error,
+        false => error.with_hint(format!(
+            "{key} is a key of {}; write it below that line",
+            headers.join(" and of ")
+        )),
+    }
+}
+
 fn refuse(table: &Table, path: &str, key: &str, shown: &str) -> CaseError {
     match table.key(path, key) {
         Ok(key) => key.refuse(path, shown),
@@ -213,6 +246,37 @@ fn line_of(text: &str, at: usize) -> usize {
     text.bytes().take(at).filter(|byte| *byte == b'\n').count() + 1
 }
 
+/// What stands twice: a key, or a heading.
+fn twice(schema: &Schema, name: &str, line: &str) -> String {
+    let name = echo(name);
+    if !line.trim_start().starts_with('[') {
+        return format!("the key {name} stands twice");
+    }
+    match schema.table(&name) {
+        Ok(table) if table.heading == Heading::Many => {
+            format!("[{name}] stands twice; write {} for each", table.header())
+        }
+        _ => format!("[{name}] stands twice; write all its keys below one"),
+    }
+}
+
+/// What is wrong with a line in words of its own: no value, or a yes or no in capital letters.
+fn slip(line: &str) -> Option<String> {
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next().unwrap_or_default().trim();
+    let (key, value) = (echo(key.trim()), echo(value));
+    let small = value.to_ascii_lowercase();
+    if value.is_empty() {
+        Some(format!("{key} has no value"))
+    } else if ["true", "false"].contains(&small.as_str()) {
+        Some(format!(
+            "{key} = {value} has capital letters; write {small}"
+        ))
+    } else {
+        None
+    }
+}
+
 /// Text that is no TOML: where, and what the reader of TOML says. The line itself is not repeated,
 /// since it may be long, or hold what a terminal would obey; a key that stands twice is named.
 fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -> CaseError {
@@ -220,11 +284,10 @@ fn malformed(schema: &Schema, name: &str, text: &str, error: &toml::de::Error) -
     let at = span.start;
     let before = text.get(..at).unwrap_or_default();
     let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    let line = text.lines().nth(line_of(text, at) - 1).unwrap_or_default();
     let said = match text.get(span) {
-        Some(key) if error.message() == "duplicate key" => {
-            format!("the key {} stands twice", echo(key))
-        }
-        _ => error.message().to_owned(),
+        Some(name) if error.message() == "duplicate key" => twice(schema, name, line),
+        _ => slip(line).unwrap_or_else(|| error.message().to_owned()),
     };
     let said: String = said.chars().filter(|c| !c.is_control()).collect();
     let form = schema.form;

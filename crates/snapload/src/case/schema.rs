@@ -192,19 +192,14 @@ impl Schema {
             return Ok(table);
         }
         let known: Vec<&'static str> = self.headed().map(|table| table.name).collect();
-        let error = CaseError::unknown_key(name, nearest(name, known.iter().copied()), &known);
-        let of = self
-            .headed()
-            .find(|table| table.keys.iter().any(|key| key.name == name));
-        Err(match of {
-            Some(table) => {
-                let header = table.header();
-                error.with_hint(format!(
-                    "{name} is a key of {header}; write it below that line"
-                ))
-            }
-            None => error,
-        })
+        let meant = nearest(name, known.iter().copied());
+        Err(CaseError::unknown_key(name, meant, &known))
+    }
+
+    /// The tables below a heading that have a key of this name.
+    pub(crate) fn with_key(&self, name: &str) -> Vec<&'static Table> {
+        let has = |table: &&Table| table.keys.iter().any(|key| key.name == name);
+        self.headed().filter(has).collect()
     }
 
     /// The table of those at the top of a file that has a key of this name; the first of them where
