@@ -232,7 +232,10 @@ class Case(KeyValues, HasOrbits):
         return self._engine.values()
 
     def __getitem__(self, key: str) -> Any:
-        return self.keys()[key]
+        keys = self.keys()
+        if key not in keys:
+            raise _Unknown(f"there is no key {key!r}; the keys are {', '.join(keys)}")
+        return keys[key]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.keys())
@@ -353,8 +356,8 @@ def _restore(cls: type[Case], name: str, given: dict[str, Any]) -> Case:
     return cls._of(_engine.Case(name, given))
 
 
-class _UnknownCase(KeyError):
-    """No such code, told without the quotes that a KeyError puts about its words."""
+class _Unknown(KeyError):
+    """No such key or code, told without the quotes that a KeyError puts about its words."""
 
     def __str__(self) -> str:
         return Exception.__str__(self)
@@ -383,7 +386,7 @@ class Cases(Mapping[str, Case]):
         try:
             return Case._of(_engine.named_case(code))
         except ValueError as error:
-            raise _UnknownCase(str(error)) from None
+            raise _Unknown(str(error)) from None
 
     def __contains__(self, code: object) -> bool:
         return code in self._all()

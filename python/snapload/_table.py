@@ -139,7 +139,10 @@ class Table:
             If there is no such row.
         """
         if not isinstance(place, str):
-            row = range(len(self))[place]
+            try:
+                row = range(len(self))[place]
+            except IndexError:
+                raise IndexError(f"there is no row {place}; there are {len(self)} rows, from 0") from None
             if not isinstance(row, int):
                 raise TypeError(f"{place!r} is not allowed; allowed: the name of a column or the number of a row")
             return {name: self[name][row : row + 1].tolist()[0] for name in self._names}

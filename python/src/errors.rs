@@ -9,7 +9,7 @@ use std::fmt::Display;
 
 /// A value that is not allowed.
 pub(crate) fn of_case(error: CaseError) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    PyValueError::new_err(error.off_the_command_line().to_string())
 }
 
 /// A value that is not allowed, or work that was interrupted.

@@ -152,8 +152,10 @@ def test_a_table_reads_as_rows_everywhere():
         assert table[0] == next(iter(table)) and table[-1] == list(table)[-1]
         for name in table.columns:
             assert np.asarray(table)[name].tolist() == table[name].tolist()
-    with pytest.raises(IndexError):
+    with pytest.raises(IndexError, match="there is no row 1000000; there are "):
         run.impacts[10**6]
+    with pytest.raises(KeyError, match="^there is no key 'q'; the keys are r, e, "):
+        snapload.Case()["q"]
 
 
 def test_a_flight_is_drawn_smoothly():

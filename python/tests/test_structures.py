@@ -59,6 +59,9 @@ def test_errors_name_the_key() -> None:
     structure = snapload.Structure.example()
     with pytest.raises(ValueError, match=r"body\.mass"):
         structure.replace({"body.mass": 1e9})
+    # Nobody has written --set here.
+    with pytest.raises(ValueError, match=r"^there is no key \"wave.heigth\".*did you mean height\?"):
+        structure.replace({"wave.heigth": 2})
     with pytest.raises(TypeError, match="a number, a text"):
         structure.replace({"body.mass": object()})
     with pytest.raises(ValueError, match="allowed is one of wave"):

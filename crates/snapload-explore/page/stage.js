@@ -85,7 +85,7 @@ export class Stage {
       ["ρ<sub>3</sub> = Σ <i>v</i><sub>n</sub>", number(norms.rho3, 5), "rho3"],
       ["<i>y</i><sub>max</sub>", `${number(norms.y_max, 5)} L`, "y_max"],
       ["|<i>θ</i>|<sub>max</sub>", `${number(norms.theta_max, 5)} rad`, "theta_max"],
-      ["Hardest impulse", number(this.run.hardest, 5)],
+      ["Hardest impulse", `${number(this.run.hardest, 5)} m L/T`],
       ["Time taut", `${number(timeTaut, 4)} T`],
     ];
     // What is counted over the whole run is no more certain than its end.

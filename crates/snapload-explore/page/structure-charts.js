@@ -127,7 +127,7 @@ const CHARTS = [
     id: "x",
     symbol: "x",
     unit: "m",
-    name: "Sway",
+    name: "Surge",
     range: (run) => atLeast(0.01, span(both(run, "x"))),
     draw: line("x"),
     value: (moment) => moment.x,

@@ -81,8 +81,8 @@ pub fn trajectory(path: &[Leg], boundaries: [&[Point]; 2], marks: &[Mark]) -> Pl
     layers.push(Layer::Letters(marks.to_vec()));
     Plot {
         description: "Path of the body's centre, y against x".to_string(),
-        x: Axis::new("*x* (nondimensional)", Range::Auto),
-        y: Axis::new("*y* (nondimensional)", Range::Auto),
+        x: Axis::new("*x* (L)", Range::Auto),
+        y: Axis::new("*y* (L)", Range::Auto),
         equal_scale: true,
         layers,
         ..Plot::default()
@@ -112,7 +112,7 @@ pub fn snap_velocities(cables: [&[Point]; 2], horizon: Option<f64>) -> Plot {
         Layer::Markers(cables[k].to_vec(), shape, colour, name.to_string())
     };
     let layers = vec![of_cable(0, Shape::Cross), of_cable(1, Shape::Circle)];
-    let y = Axis::new("*v*ₙ⁻ (nondimensional)", Range::AtLeast(0.0, 0.0));
+    let y = Axis::new("*v*ₙ⁻ (L/T)", Range::AtLeast(0.0, 0.0));
     let plot = over_time("Normal velocity before each snap", y, horizon, layers);
     noted_if_empty(plot, "no cable snapped taut")
 }
@@ -125,7 +125,7 @@ pub fn tensions(cables: [&[Vec<Point>]; 2], horizon: Option<f64>) -> Plot {
     let line = |(pieces, (name, stroke)): (&[Vec<Point>], (&str, Stroke))| {
         Layer::Line(pieces.to_vec(), stroke, name.to_string())
     };
-    let y = Axis::new("*T* (nondimensional)", Range::AtLeast(0.0, 0.0));
+    let y = Axis::new("*T* (F)", Range::AtLeast(0.0, 0.0));
     let plot = over_time(
         "Tension of each cable",
         y,
@@ -138,7 +138,7 @@ pub fn tensions(cables: [&[Vec<Point>]; 2], horizon: Option<f64>) -> Plot {
 /// The energy against time; a snap is two points at one time. For `horizon` see [`rotation`].
 pub fn energy(points: &[Point], horizon: Option<f64>) -> Plot {
     let line = Layer::Line(vec![points.to_vec()], Stroke::default(), String::new());
-    let y = Axis::new("*E* (nondimensional)", Range::Auto);
+    let y = Axis::new("*E* (F L)", Range::Auto);
     over_time("Energy", y, horizon, vec![line])
 }
 
@@ -147,7 +147,7 @@ fn over_time(what: &str, y: Axis, horizon: Option<f64>, mut layers: Vec<Layer>) 
     layers.splice(0..0, horizon.map(shade));
     Plot {
         description: format!("{what} against time"),
-        x: Axis::new("*t* (nondimensional)", Range::Auto),
+        x: Axis::new("*t* (T)", Range::Auto),
         y,
         layers,
         ..Plot::default()

@@ -5,7 +5,7 @@ pub type Point = [f64; 2];
 
 /// One plot. Write the fields that matter and leave the rest to `..Plot::default()`.
 ///
-/// In every text, letters between asterisks are set in italics: `"*t* (nondimensional)"`.
+/// In every text, letters between asterisks are set in italics: `"*t* (T)"`.
 /// An asterisk without its partner is printed as it stands.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plot {

@@ -123,8 +123,8 @@ fn every_figure_contains_its_labels() {
     assert_says(
         trajectory(&legs, [&up, &down], &marks),
         &[
-            "x (nondimensional)",
-            "y (nondimensional)",
+            "x (L)",
+            "y (L)",
             "g₁ = 0, θ = 0",
             "g₂ = 0, θ = 0",
             "I",
@@ -137,7 +137,7 @@ fn every_figure_contains_its_labels() {
         rotation(&wave, Some(4.0)),
         &[
             "θ (rad)",
-            "t (nondimensional)",
+            "t (T)",
             "π/2",
             "−π/2",
             "beyond the horizon",
@@ -146,8 +146,8 @@ fn every_figure_contains_its_labels() {
     assert_says(
         snap_velocities([&wave, &wave], None),
         &[
-            "vₙ⁻ (nondimensional)",
-            "t (nondimensional)",
+            "vₙ⁻ (L/T)",
+            "t (T)",
             "cable 1",
             "cable 2",
         ],
@@ -155,15 +155,15 @@ fn every_figure_contains_its_labels() {
     assert_says(
         tensions([&[up], &[down]], None),
         &[
-            "T (nondimensional)",
-            "t (nondimensional)",
+            "T (F)",
+            "t (T)",
             "cable 1",
             "cable 2",
         ],
     );
     assert_says(
         energy(&wave, None),
-        &["E (nondimensional)", "t (nondimensional)"],
+        &["E (F L)", "t (T)"],
     );
 }
 

@@ -83,7 +83,7 @@ impl Curve {
         let plot = Plot {
             description: format!("Critical force against {name}"),
             x: Axis::new(symbol, Range::AtLeast(from, to)),
-            y: Axis::new("critical force (nondimensional)", Range::AtLeast(0.0, 0.0)),
+            y: Axis::new("critical force (F)", Range::AtLeast(0.0, 0.0)),
             layers: Reading::BOTH.map(layer).to_vec(),
             ..Plot::default()
         };
@@ -123,7 +123,7 @@ impl Curve {
         }
         let plot = Plot {
             description: format!("{what} against force amplitude"),
-            x: Axis::new("*f*ₒ (nondimensional)", Range::AtLeast(0.0, 0.0)),
+            x: Axis::new("*f*ₒ (F)", Range::AtLeast(0.0, 0.0)),
             // With room for a whole marker at the top.
             y: Axis::new(&figure.axis, Range::AtLeast(0.0, 1.08 * largest)),
             layers,

@@ -116,8 +116,8 @@ impl StateFigure {
         let caption = format!("{}{why} A state of a real run, at t = {t}:", self.what);
         let plot = Plot {
             description: caption.clone(),
-            x: Axis::new("*x* (nondimensional)", Range::Auto),
-            y: Axis::new("*y* (nondimensional)", Range::Auto),
+            x: Axis::new("*x* (L)", Range::Auto),
+            y: Axis::new("*y* (L)", Range::Auto),
             equal_scale: true,
             layers: drawing.layers(self.marks),
             ..Plot::default()
