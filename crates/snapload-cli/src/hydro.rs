@@ -132,7 +132,8 @@ impl Args {
                 covered,
             }
         };
-        Ok(floating.responses.iter().map(row).collect())
+        // Between the file's frequencies there may be a narrow resonance.
+        Ok(floating.fine.iter().map(row).collect())
     }
 }
 

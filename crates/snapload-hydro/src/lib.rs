@@ -23,9 +23,9 @@ pub use coefficients::{
 };
 pub use error::{HydroError, Warning};
 pub use linear::{
-    Body, Decay, Line, Mode, Natural, Response, Rest, Swing, Weight, decay, decay_of_the_damping,
-    eigenvalues, natural_of_the_file, natural_of_the_memory, response_of_the_file,
-    response_of_the_memory, rest, significant, swings,
+    Body, Decay, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
+    decay_of_the_damping, eigenvalues, fine_responses, natural_of_the_file, natural_of_the_memory,
+    response_of_the_file, response_of_the_memory, rest, significant, swings,
 };
 pub use memory::{
     BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, Memory, Term, TermRow,

@@ -3,11 +3,13 @@
 mod body;
 mod decay;
 mod natural;
+mod resonance;
 mod response;
 mod rest;
 
 pub use body::{Body, Weight};
 pub use decay::{Decay, Swing, decay, decay_of_the_damping, swings};
 pub use natural::{Mode, Natural, eigenvalues, natural_of_the_file, natural_of_the_memory};
+pub use resonance::{Peak, fine_responses};
 pub use response::{Response, response_of_the_file, response_of_the_memory, significant};
 pub use rest::{Line, Rest, rest};

@@ -43,11 +43,7 @@ pub fn response_of_the_memory(
     added_mass_inf: &Matrix3<f64>,
     direction: f64,
 ) -> Result<Response, HydroError> {
-    let of = |_: usize, omega: f64| {
-        let transform = memory.transform(omega);
-        let added = added_mass_inf + transform.map(|k| k.im / omega);
-        (added, transform.map(|k| k.re))
-    };
+    let of = |_: usize, omega: f64| of_the_memory(memory, added_mass_inf, omega);
     response(hydro, body, direction, of)
 }
 
@@ -60,22 +56,42 @@ fn response(
     let force = &hydro.excitation_to(direction)?.force;
     let mut amplitude = Vec::with_capacity(force.len());
     for (k, omega) in hydro.omega_rad_s.iter().enumerate() {
-        let (added, damping) = coefficients(k, *omega);
-        let real = body.stiffness - (body.mass + added) * (omega * omega);
-        let imaginary = -(damping + body.damping) * *omega;
-        let matrix = real.zip_map(&imaginary, Complex::new);
-        let solution = matrix.lu().solve(&force[k]).ok_or_else(|| {
+        let solution = solved(body, *omega, coefficients(k, *omega), &force[k]);
+        amplitude.push(solution.ok_or_else(|| {
             HydroError::Impossible(format!(
                 "the motion in waves of ω = {omega} rad/s has no bound: there is no damping"
             ))
-        })?;
-        amplitude.push(solution);
+        })?);
     }
     Ok(Response {
         direction,
         omega_rad_s: hydro.omega_rad_s.clone(),
         amplitude,
     })
+}
+
+/// ξ of one frequency by A and B there; none where nothing bounds it.
+pub(super) fn solved(
+    body: &Body,
+    omega: f64,
+    (added, damping): (Matrix3<f64>, Matrix3<f64>),
+    force: &Vector3<Complex<f64>>,
+) -> Option<Vector3<Complex<f64>>> {
+    let real = body.stiffness - (body.mass + added) * (omega * omega);
+    let imaginary = -(damping + body.damping) * omega;
+    let matrix = real.zip_map(&imaginary, Complex::new);
+    matrix.lu().solve(force)
+}
+
+/// A and B of the exponentials at ω.
+pub(super) fn of_the_memory(
+    memory: &Memory,
+    added_mass_inf: &Matrix3<f64>,
+    omega: f64,
+) -> (Matrix3<f64>, Matrix3<f64>) {
+    let transform = memory.transform(omega);
+    let added = added_mass_inf + transform.map(|k| k.im / omega);
+    (added, transform.map(|k| k.re))
 }
 
 impl Response {
@@ -93,7 +109,7 @@ impl Response {
             Spline::new(&self.omega_rad_s, &values)
         });
         let [first, last] = moduli[0].ends();
-        let steps = 4000;
+        let steps = 40_000;
         // The spectrum's own range is wider than the file's.
         let top = 4.0 * last;
         let width = top / f64::from(steps);

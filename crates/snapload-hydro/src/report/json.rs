@@ -7,6 +7,7 @@ use crate::linear::{Mode, Natural, Response};
 use crate::memory::{BlockQuality, EntryQuality, TermRow};
 use nalgebra::{Complex, Matrix3, Vector3};
 use serde::Serialize;
+use std::f64::consts::PI;
 
 type Rows = [[f64; 3]; 3];
 type Pair = [f64; 2];
@@ -92,6 +93,19 @@ struct ResponseRow {
     direction: f64,
     of_the_file: Vec<[Pair; 3]>,
     of_the_memory: Vec<[Pair; 3]>,
+    /// Of each freedom, between the file's frequencies, too.
+    largest: [PeakRow; 3],
+}
+
+#[derive(Serialize)]
+struct PeakRow {
+    freedom: &'static str,
+    /// None where nothing bounds it.
+    amplitude: Option<f64>,
+    omega_rad_s: f64,
+    period_s: f64,
+    /// Of a resonance so narrow that its height is only as good as its damping.
+    narrow_damping_ratio: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -117,13 +131,29 @@ fn natural(natural: &[Natural], modes: &[Mode]) -> Vec<NaturalRow> {
 }
 
 impl Floating {
+    fn largest_rows(&self, response: usize) -> [PeakRow; 3] {
+        let peaks = self.largest(response);
+        std::array::from_fn(|freedom| {
+            let (peak, narrow) = peaks[freedom];
+            PeakRow {
+                freedom: FREEDOMS[freedom],
+                amplitude: Some(peak.amplitude).filter(|amplitude| amplitude.is_finite()),
+                omega_rad_s: peak.omega_rad_s,
+                period_s: 2.0 * PI / peak.omega_rad_s,
+                narrow_damping_ratio: narrow,
+            }
+        })
+    }
+
     fn row(&self) -> FloatingRow {
         let body = &self.body;
         let all = |response: &Response| response.amplitude.iter().map(pairs).collect();
-        let responses = self.responses.iter().map(|[file, memory]| ResponseRow {
+        let responses = self.responses.iter().enumerate();
+        let responses = responses.map(|(index, [file, memory])| ResponseRow {
             direction: file.direction,
             of_the_file: all(file),
             of_the_memory: all(memory),
+            largest: self.largest_rows(index),
         });
         let rest = self.rest.as_ref().map(|(rest, held, modes)| RestRow {
             q: rest.q.into(),

@@ -15,16 +15,21 @@ use words::plain;
 use crate::coefficients::transport;
 use crate::error::{HydroError, Warning};
 use crate::linear::{
-    Body, Line, Mode, Natural, Response, Rest, Weight, natural_of_the_file, natural_of_the_memory,
-    response_of_the_file, response_of_the_memory, rest,
+    Body, Line, Mode, Natural, Peak, Response, Rest, Weight, fine_responses, natural_of_the_file,
+    natural_of_the_memory, response_of_the_file, response_of_the_memory, rest,
 };
 use crate::memory::{Fit, FitOptions, TermRow, fit, given};
 use crate::read::{Format, Reading};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Radiation damping of pitch below this part of critical is not all that stops a resonance.
+/// Damping below this part of critical makes a narrow peak; that of waves in pitch is then not all that
+/// stops the resonance.
 const WEAK: f64 = 0.02;
+/// A peak within this part of the frequency of a natural motion is its resonance.
+const RESONANT: f64 = 0.02;
+/// Damping below this part of critical bounds nothing.
+const UNDAMPED: f64 = 1e-6;
 
 /// A memory that was computed before, as it stands in this program's JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,6 +96,8 @@ pub struct Floating {
     pub modes: Vec<Mode>,
     /// Response to waves for each direction, by the file and by the exponentials.
     pub responses: Vec<[Response; 2]>,
+    /// The same between the file's frequencies, too, as close as the peaks want it.
+    pub fine: Vec<[Response; 2]>,
     /// Rest on lines with the small motion about it, if there are lines.
     pub rest: Option<(Rest, Vec<Natural>, Vec<Mode>)>,
 }
@@ -159,13 +166,19 @@ impl Floating {
         let (memory, inf) = (&fit.memory, &fit.added_mass_inf);
         let natural = natural_of_the_file(hydro, &body)?;
         let modes = natural_of_the_memory(&body, memory, inf, &natural)?;
-        let mut responses = Vec::new();
+        let own = natural.iter().map(|natural| natural.omega_rad_s);
+        let damped = modes.iter().map(|mode| mode.eigenvalue.norm());
+        let frequencies: Vec<f64> = own.chain(damped).collect();
+        let (mut responses, mut fine) = (Vec::new(), Vec::new());
         for excitation in &hydro.excitation {
             let direction = excitation.direction;
             responses.push([
                 response_of_the_file(hydro, &body, direction)?,
                 response_of_the_memory(hydro, &body, memory, inf, direction)?,
             ]);
+            let exponentials = (memory, inf);
+            let close = fine_responses(hydro, &body, exponentials, direction, &frequencies)?;
+            fine.push(close);
         }
         let rest = match request.lines.is_empty() {
             true => None,
@@ -180,8 +193,29 @@ impl Floating {
             natural,
             modes,
             responses,
+            fine,
             rest,
         })
+    }
+
+    /// The largest response of each freedom in waves of a direction, by the file's coefficients, with
+    /// the damping ratio of the resonance that it is, if it is a narrow one.
+    pub fn largest(&self, response: usize) -> [(Peak, Option<f64>); 3] {
+        let of = |peak: Peak| {
+            let apart = |mode: &&Mode| {
+                let omega = mode.eigenvalue.norm();
+                mode.damping_ratio < WEAK && (peak.omega_rad_s / omega - 1.0).abs() < RESONANT
+            };
+            let narrow = self.modes.iter().find(apart).map(|mode| mode.damping_ratio);
+            let bounded = narrow.is_none_or(|ratio| ratio > UNDAMPED);
+            let amplitude = if bounded {
+                peak.amplitude
+            } else {
+                f64::INFINITY
+            };
+            (Peak { amplitude, ..peak }, narrow)
+        };
+        self.fine[response][0].peaks().map(of)
     }
 
     fn warn(&self, reading: &Reading, warnings: &mut Vec<Warning>) {

@@ -50,7 +50,7 @@ pub(super) fn all(report: &Report) -> Result<Vec<Picture>, FigureError> {
         )?,
     ];
     if let Ok(floating) = &report.floating {
-        let plots = each(|i| response(&floating.responses, i));
+        let plots = each(|i| response(&floating.fine, i));
         pictures.push(draw("response", Width::Column, &plots)?);
     }
     Ok(pictures)

@@ -1,8 +1,9 @@
 //! The answers in a few lines of text, each a label and its words.
 
-use super::{Floating, Report};
+use super::{Floating, Report, UNDAMPED};
 use crate::coefficients::FREEDOMS;
-use crate::linear::{Mode, Natural, Response};
+use crate::linear::{Mode, Natural, Peak};
+use std::f64::consts::PI;
 
 /// A body is in balance by itself if it floats within so many metres of where the file has it.
 const BALANCED: f64 = 0.01;
@@ -81,13 +82,13 @@ impl Floating {
     fn say_responses(&self, say: &mut impl FnMut(&str, String)) {
         // A body that is its own mirror image answers alike to waves from either side.
         let mut told: Vec<(String, Vec<&str>)> = Vec::new();
-        for [response, _] in &self.responses {
+        for (index, [response, _]) in self.responses.iter().enumerate() {
             let to = if response.direction > 0.0 {
                 "+x"
             } else {
                 "−x"
             };
-            let words = largest(response);
+            let words = largest(&self.largest(index));
             match told.iter_mut().find(|(known, _)| *known == words) {
                 Some((_, directions)) => directions.push(to),
                 None => told.push((words, vec![to])),
@@ -152,22 +153,39 @@ pub(super) fn plain(value: f64, unit: f64) -> f64 {
     if value.abs() < 0.5 * unit { 0.0 } else { value }
 }
 
-/// The largest response of each freedom, and where it is.
-fn largest(response: &Response) -> String {
-    let peak = |i: usize| {
-        let sizes = response.amplitude.iter().map(|xi| xi[i].norm());
-        let pairs = sizes.zip(&response.omega_rad_s);
-        let (size, omega) = pairs.fold((0.0, 0.0), |most, (size, omega)| {
-            if size > most.0 { (size, *omega) } else { most }
-        });
+/// The largest response of each freedom, and where it is; and of narrow peaks what they hang on.
+fn largest(peaks: &[(Peak, Option<f64>); 3]) -> String {
+    let period = |peak: &Peak| 2.0 * PI / peak.omega_rad_s;
+    let of = |i: usize| {
+        let peak = &peaks[i].0;
         let (size, unit) = match i {
-            2 => (size.to_degrees(), "°/m"),
-            _ => (size, "m/m"),
+            2 => (peak.amplitude.to_degrees(), "°/m"),
+            _ => (peak.amplitude, "m/m"),
         };
-        let period = 2.0 * std::f64::consts::PI / omega;
-        format!("{} {size:.2} {unit} at {period:.2} s", FREEDOMS[i])
+        let size = match size.is_finite() {
+            true => format!("{} {unit}", three_digits(size)),
+            false => "without bound, as nothing damps it,".to_owned(),
+        };
+        format!("{} {size} at {:.2} s", FREEDOMS[i], period(peak))
     };
-    (0..3).map(peak).collect::<Vec<_>>().join(", ")
+    let mut words = (0..3).map(of).collect::<Vec<_>>().join(", ");
+    let narrow = (0..3).filter_map(|i| Some((i, peaks[i].1?)));
+    let narrow: Vec<(usize, f64)> = narrow.collect();
+    if let Some((_, ratio)) = narrow.iter().find(|(_, ratio)| *ratio > UNDAMPED) {
+        let names: Vec<&str> = narrow.iter().map(|(i, _)| FREEDOMS[*i]).collect();
+        words += &format!(
+            ". The peak of {} is so narrow that it is only as good as the damping, {:.2} % of critical",
+            names.join(" and "),
+            100.0 * ratio
+        );
+    }
+    words
+}
+
+/// A positive number with three digits, as more are not known.
+fn three_digits(value: f64) -> String {
+    let before = value.max(1e-9).log10().floor() as i32;
+    format!("{value:.*}", (2 - before).clamp(0, 9) as usize)
 }
 
 /// Natural periods with their damping, in words.

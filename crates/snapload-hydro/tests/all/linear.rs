@@ -6,8 +6,8 @@ use nalgebra::{Complex, Matrix3, Vector3};
 use serde_json::Value;
 use snapload_hydro::{
     Body, Fit, FitOptions, Hydrodynamics, Memory, TermRow, Weight, decay, decay_of_the_damping,
-    eigenvalues, fit, natural_of_the_file, natural_of_the_memory, response_of_the_file,
-    response_of_the_memory, swings,
+    eigenvalues, fine_responses, fit, natural_of_the_file, natural_of_the_memory,
+    response_of_the_file, response_of_the_memory, swings,
 };
 
 pub(crate) fn file(body: &str) -> &'static str {
@@ -243,6 +243,75 @@ fn long_waves_carry_the_body() {
     // Waves from either side are the same to a body that is its own mirror image.
     assert!((a[0] - b[0]).abs() < 1e-3 * a[0] && (a[1] - b[1]).abs() < 1e-3 * a[1]);
     assert!(a[1] > 0.9 * variance.sqrt() && a[1] < 2.0 * variance.sqrt());
+}
+
+/// The same coefficients at frequencies so close that every peak is seen.
+fn close(hydro: &Hydrodynamics, [low, high]: [f64; 2], count: usize) -> Hydrodynamics {
+    let step = (high - low) / (count - 1) as f64;
+    let omega: Vec<f64> = (0..count).map(|k| low + step * k as f64).collect();
+    let (added, damping) = (hydro.added_mass_curve(), hydro.damping_curve());
+    let mut close = hydro.clone();
+    close.added_mass = omega.iter().map(|w| added.at(*w)).collect();
+    close.damping = omega.iter().map(|w| damping.at(*w)).collect();
+    for excitation in &mut close.excitation {
+        let force = hydro.excitation_curve(excitation.direction).expect("waves");
+        let at = |w: &f64| force.at(*w).expect("a force");
+        excitation.force = omega.iter().map(at).collect();
+    }
+    close.omega_rad_s = omega;
+    close
+}
+
+/// A pontoon whose pitch is damped by 0.6 % of critical has a peak that lies between the file's
+/// frequencies: it is found, drawn with enough points, and in the root mean square of a sea.
+#[test]
+fn narrow_peaks_are_found_between_the_frequencies() {
+    let hydro = hydro("pontoon-deep.nc");
+    let Fit {
+        memory,
+        added_mass_inf,
+        ..
+    } = fit(&hydro, FitOptions::default()).expect("a fit");
+    let mut body = Body::new(&hydro, &Weight::default()).expect("a body");
+    let natural = natural_of_the_file(&hydro, &body).expect("motions");
+    let pitch = natural.iter().find(|natural| natural.freedom == 2);
+    let own = pitch.expect("pitch").omega_rad_s;
+    let band = [0.9 * own, 1.1 * own];
+    let in_band = |w: f64| f64::from(u8::from((band[0]..=band[1]).contains(&w)));
+    for more in [0.0, 2e4] {
+        body.damping[(2, 2)] = more;
+        let dense = close(&hydro, band, 40_001);
+        let expected = response_of_the_file(&dense, &body, 1.0).expect("a response");
+        let fine = |centres: &[f64]| {
+            let exponentials = (&memory, &added_mass_inf);
+            fine_responses(&hydro, &body, exponentials, 1.0, centres).expect("responses")
+        };
+        let [of_file, of_memory] = fine(&[own]);
+        let (found, known) = (of_file.peaks()[2], expected.peaks()[2]);
+        near(found.amplitude, known.amplitude, 2e-4, "the peak");
+        near(found.omega_rad_s, known.omega_rad_s, 2e-4, "its place");
+        near(
+            of_memory.peaks()[2].amplitude,
+            known.amplitude,
+            0.05,
+            "by the exponentials",
+        );
+        let high = |xi: &&Vector3<Complex<f64>>| xi[2].norm() > 0.7 * known.amplitude;
+        let points = of_file.amplitude.iter().filter(high).count();
+        assert!(points > 10, "{points} points draw the peak");
+        let step = (band[1] - band[0]) / 40_000.0;
+        let sum: f64 = expected
+            .amplitude
+            .iter()
+            .map(|xi| xi[2].norm_sqr() * step)
+            .sum();
+        near(
+            of_file.in_a_sea(in_band).0[2],
+            sum.sqrt(),
+            5e-3,
+            "the root mean square",
+        );
+    }
 }
 
 /// The sphere let go from a metre: by the exponentials to rounding, by the damping without them,

@@ -74,3 +74,41 @@ fn files_without_hydrostatics_say_so() {
         4
     );
 }
+
+/// The largest response is that of the resonance, between the file's frequencies, and a narrow peak is
+/// said to hang on its damping; JSON has the same.
+#[test]
+fn the_largest_response_is_that_of_the_resonance() {
+    let answer = |damping: f64| {
+        let mut request = request();
+        request.fit = FitOptions::default();
+        request.damping = [0.0, 0.0, damping];
+        Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
+    };
+    let told = |report: &Report| {
+        let rows = report.summary();
+        let row = rows.into_iter().find(|(label, _)| label == "response");
+        row.expect("a row").1
+    };
+    let report = answer(0.0);
+    let json = serde_json::to_value(report.to_json()).expect("JSON");
+    let floating = &json["floating"];
+    let largest = &floating["responses"][0]["largest"][2];
+    let of = |name: &str| largest[name].as_f64().expect("a number");
+    // It is where the natural motion is, which none of the file's frequencies is near enough to.
+    let mode = &floating["natural"][0];
+    assert_eq!(mode["freedom"], "pitch");
+    let damped = mode["damped_period_s"].as_f64().expect("a period");
+    assert!((of("period_s") - damped).abs() < 2e-3 * damped);
+    let on_the_grid = |xi: &nalgebra::Vector3<nalgebra::Complex<f64>>| xi[2].norm();
+    let floating = report.floating.as_ref().expect("answers");
+    let amplitudes = floating.responses[0][0].amplitude.iter();
+    let coarse = amplitudes.map(on_the_grid).fold(0.0, f64::max);
+    assert!(of("amplitude") > 2.0 * coarse, "{largest} {coarse}");
+    let words = told(&report);
+    let degrees = format!("pitch {:.0} °/m at 3.80 s", of("amplitude").to_degrees());
+    assert!(words.contains(&degrees), "{words}");
+    assert!(words.contains("pitch is so narrow that it is only as good as the damping, 0.61 %"));
+    let damped = told(&answer(5e4));
+    assert!(!damped.contains("narrow"), "{damped}");
+}
