@@ -9,7 +9,7 @@ use crate::physics::waterline::Waterline;
 use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
-use crate::runs::quantile::quantile;
+use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::Seas;
 use crate::structure::Structure;
 use serde_json::{Value, json};
@@ -137,6 +137,8 @@ impl Seas {
                 "largest": sorted.last(), "smallest": sorted.first(),
             })
         };
+        let mut troughs_row = quantiles(&troughs);
+        troughs_row["slack_part"] = json!((!troughs.is_empty()).then(|| slack_part(&troughs)));
         json!({
             "case": name,
             "body": body(&self.prepared.structure),
@@ -155,7 +157,7 @@ impl Seas {
             "warnings": self.warnings,
             "checks": self.checks(),
             "crests_n": quantiles(&crests),
-            "troughs_n": quantiles(&troughs),
+            "troughs_n": troughs_row,
             "largest_tensions_n": self.largest_n(),
             "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
             "fastest_m_s": self.speeds_m_s(),

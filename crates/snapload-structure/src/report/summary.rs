@@ -13,7 +13,7 @@ use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::design::Check;
 use crate::runs::outcome::Outcome;
-use crate::runs::quantile::quantile;
+use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
 use crate::words::{decimals, laid_out};
@@ -177,6 +177,23 @@ fn rest_words(rest: &Equilibrium) -> String {
     let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
     let turned = decimals(&rest.theta_rad.to_degrees(), 2);
     format!("x = {x} m, z = {z} m, turned by {turned} degrees")
+}
+
+/// The troughs of all waves of tension: how many of them are slack, and how low the others go.
+fn troughs_words(sorted_n: &[f64]) -> String {
+    let slack = slack_part(sorted_n);
+    let mut words = Vec::new();
+    if slack > 0.0 {
+        words.push(format!("slack (0 kN) in {:.1} %", 100.0 * slack));
+    }
+    let told = [(0.5, "half below"), (0.01, "99 % above")];
+    for (value, what) in told.map(|(part, what)| (quantile(sorted_n, part), what)) {
+        // Of those that are slack all is said.
+        if let Some(value) = value.filter(|value| *value > 0.0) {
+            words.push(format!("{what} {:.0} kN", value / 1e3));
+        }
+    }
+    words.join(", ")
 }
 
 fn pull_words(pull: &Pull) -> String {

@@ -15,3 +15,9 @@ pub fn quantile(sorted: &[f64], part: f64) -> Option<f64> {
     let high = (low + 1).min(last);
     Some(sorted[low] + (sorted[high] - sorted[low]) * (at - low as f64))
 }
+
+/// The part of some tensions in order in which the line is slack.
+pub(crate) fn slack_part(sorted_n: &[f64]) -> f64 {
+    let slack = sorted_n.partition_point(|tension| *tension <= 0.0);
+    slack as f64 / sorted_n.len().max(1) as f64
+}

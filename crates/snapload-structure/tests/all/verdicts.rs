@@ -164,6 +164,41 @@ fn a_sea_on_lines_that_stretch_decides() {
     assert!(*crests.last().unwrap() <= largest && troughs[0] >= 0.0);
 }
 
+/// Where a line is slack in most troughs that is what is told, and not that they are above nothing.
+#[test]
+fn slack_troughs_are_told_as_slack() {
+    let told = |height: &str| {
+        let text = SEA.replace("[run]", "[run]\nduration = 600");
+        let text = text.replace("hs = 1.2", &format!("hs = {height}"));
+        let result = seas(structure(&text), 3, Lines::Inextensible, &unwatched).unwrap();
+        let [_, troughs] = result.crests_and_troughs_n();
+        let slack = troughs.iter().filter(|trough| **trough == 0.0).count();
+        let part = slack as f64 / troughs.len() as f64;
+        let json = result.to_json("case");
+        assert_eq!(json["troughs_n"]["slack_part"], part);
+        let words = result
+            .summary("case")
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        (part, words)
+    };
+    let (part, words) = told("1.2");
+    assert!(part > 0.5, "{part}");
+    let slack = format!("troughs slack (0 kN) in {:.1} %", 100.0 * part);
+    assert!(
+        words.contains(&slack) && !words.contains("above 0 kN"),
+        "{words}"
+    );
+    // Low waves leave no line slack.
+    let (part, words) = told("0.05");
+    assert_eq!(part, 0.0);
+    assert!(
+        words.contains("troughs half below") && !words.contains("(0 kN)"),
+        "{words}"
+    );
+}
+
 /// The verdict's run with the case's own restitution stands among those with less and more.
 #[test]
 fn the_restitution_is_varied() {
