@@ -107,6 +107,7 @@ struct SeasWords {
     exceeding: usize,
     cut_short: usize,
     records: usize,
+    length_s: f64,
     max_snaps: u64,
     tensions_known: bool,
     fastest_m_s: f64,
@@ -251,6 +252,15 @@ impl Seas {
         left_open(&self.warnings).is_some()
     }
 
+    /// The time that is judged, as a beginning of a sentence.
+    pub(crate) fn judged_words(&self) -> String {
+        let from = self.prepared.structure.transient_s;
+        match self.records.len() {
+            1 => format!("in the one record from {from:.0} s on"),
+            count => format!("in all {count} records from {from:.0} s on"),
+        }
+    }
+
     /// The answer in a sentence or two.
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter());
@@ -259,6 +269,7 @@ impl Seas {
             exceeding: self.exceeding(),
             cut_short: self.cut_short(),
             records: self.records.len(),
+            length_s: self.prepared.structure.duration_s,
             max_snaps: self.prepared.structure.max_snaps,
             tensions_known: self.prepared.structure.tensions_known(),
             fastest_m_s: speeds.last().copied().unwrap_or(0.0),

@@ -199,6 +199,41 @@ fn slack_troughs_are_told_as_slack() {
     );
 }
 
+/// Numbers that stand beside each other may be of three hours, of all records or of one: each says so.
+#[test]
+fn every_line_of_a_sea_names_what_it_is_of() {
+    let text = SEA.replace("[run]", "[run]\nduration = 600");
+    let result = seas(structure(&text), 10, Lines::Inextensible, &unwatched).unwrap();
+    let summary = result.summary("case");
+    let mut rows: Vec<String> = Vec::new();
+    for line in summary.lines() {
+        match line.strip_prefix("            ") {
+            Some(more) => *rows.last_mut().unwrap() += &format!(" {more}"),
+            None => rows.push(line.trim().to_owned()),
+        }
+    }
+    let row = |label: &str| {
+        let found = rows.iter().find(|row| row.starts_with(label));
+        found.unwrap_or_else(|| panic!("{label} in {summary}"))
+    };
+    let judged = "in all 10 records from 60 s on";
+    assert!(row("line 1").ends_with("of the whole time, the mean over the records"));
+    assert!(row("snaps").contains("in three hours, the mean over the records; in all 10"));
+    assert!(row("snaps").contains(judged) && row("waves").contains(judged));
+    assert!(row("fastest").contains("in three hours"));
+    assert!(
+        row("verdict").contains("of 10 records of 600 s"),
+        "{summary}"
+    );
+    let calm = text.replace("hs = 1.2", "hs = 0.05");
+    let calm = seas(structure(&calm), 1, Lines::Inextensible, &unwatched).unwrap();
+    let told = calm.summary("case");
+    assert!(
+        told.contains("none of 1 cm/s or more in the one record from 60 s on"),
+        "{told}"
+    );
+}
+
 /// The verdict's run with the case's own restitution stands among those with less and more.
 #[test]
 fn the_restitution_is_varied() {
