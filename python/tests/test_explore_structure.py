@@ -68,6 +68,17 @@ def test_a_structure_is_told_as_assess_tells_it(open_structure, assessed):
     assert answer["verdict"]["words"].split(". ")[0] in re.sub(r"\s+", " ", page.locator("#summary").inner_text())
 
 
+def test_what_is_not_judged_is_told_as_that(open_structure):
+    page = open_structure("t=0&wave.height=12")
+    expect(page.locator("#lines-words")).to_contain_text("so that nothing is judged")
+    row = page.locator("#lines tbody tr").first
+    # Held, snap peak, slack, fastest, snaps and least: of none of them is anything known.
+    cells = row.locator("td").all_text_contents()
+    assert [cells[k] for k in (3, 4, 5, 6, 7, 9)] == ["–"] * 6, cells
+    page.locator("#pin").click()
+    expect(page.locator("#pins li").first).to_contain_text("nothing judged")
+
+
 def test_a_slider_changes_the_wave_and_a_link_holds_it(open_structure, assessed):
     page = open_structure(f"{SHORT}&t=0")
     before = count(page)

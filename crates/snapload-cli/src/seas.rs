@@ -87,16 +87,21 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);
         let peak = outcome.peak_n().map(|peak| peak.to_string());
+        // Of a record that ends before anything is judged there is nothing to tell.
+        let judged = |told: String| match outcome.is_unjudged() {
+            true => String::new(),
+            false => told,
+        };
         table.write_record([
             seed.to_string(),
             outcome.end_s.to_string(),
             end_words(outcome.stop).to_owned(),
-            outcome.snaps().to_string(),
-            outcome.speed_m_s().to_string(),
+            judged(outcome.snaps().to_string()),
+            judged(outcome.speed_m_s().to_string()),
             peak.unwrap_or_default(),
-            outcome.largest_n().to_string(),
+            judged(outcome.largest_n().to_string()),
             least.map(|least| least.to_string()).unwrap_or_default(),
-            slack.fold(0.0, f64::max).to_string(),
+            judged(slack.fold(0.0, f64::max).to_string()),
         ])?;
     }
     table.flush()

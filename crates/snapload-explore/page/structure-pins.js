@@ -10,9 +10,10 @@ const MOST_PINS = 5;
 function gist(run) {
   const known = run.lines.map(({ utilisation }) => utilisation);
   const largest = known.includes(null) ? null : Math.max(...known);
+  const judged = run.lines.some(({ snaps }) => snaps !== null);
   const fastest = Math.max(0, ...run.lines.map((line) => line.fastest_snap_m_s));
   const slack = Math.max(...run.lines.map((line) => line.slack_fraction));
-  return { standing: run.standing, largest, fastest, slack };
+  return { standing: run.standing, judged, largest, fastest, slack };
 }
 
 export class StructurePins {
@@ -58,9 +59,12 @@ function line({ values, water, waterNow, gist: of, preview }, i, shown) {
   const more = Number(far) === 0 ? "as now" : `${far} ${difference > 0 ? "more" : "less"} than now`;
   const much = of.largest === null ? `fastest snap ${fixed(of.fastest, 2)} m/s` : `utilisation ${fixed(of.largest, 2)}`;
   const first = preview ? ", of its first minutes" : "";
+  const comes = of.judged
+    ? `${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack ${fixed(100 * of.slack, 1)} % at most`
+    : "nothing judged";
   return (
     `<li><button type="button" class="back" data-pin="${i}" title="Show this again">${what}</button>: <b>${of.standing}</b>` +
-    `${first}, ${much} (${more}), fastest snap ${number(of.fastest, 3)} m/s, slack ${fixed(100 * of.slack, 1)} % at most ` +
+    `${first}, ${comes} ` +
     `<button type="button" class="unpin" data-pin="${i}" aria-label="Unpin ${what}">×</button></li>`
   );
 }

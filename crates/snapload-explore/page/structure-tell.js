@@ -7,7 +7,7 @@ import { fixed, number, round, sentence } from "./words.js";
 const [LISTED, EARLY] = [10, 3];
 
 const kilo = (newtons) => (newtons === null || newtons === undefined ? "–" : round(newtons / 1e3, 4));
-const percent = (part) => fixed(100 * part, 1);
+const percent = (part) => (part === null ? "–" : fixed(100 * part, 1));
 const cell = (text, kind = "num") => `<td class="${kind}">${text}</td>`;
 /** @param {string} text */
 const escape = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
@@ -33,7 +33,7 @@ function lineRow(line, elastic) {
     cell(percent(line.slack_fraction)) +
     beside(({ slack_fraction }) => percent(slack_fraction)) +
     cell(line.snaps ? fixed(line.fastest_snap_m_s, 2) : "–") +
-    cell(String(line.snaps)) +
+    cell(line.snaps === null ? "–" : String(line.snaps)) +
     cell(kilo(line.rest_tension_n)) +
     cell(kilo(line.least_tension_n)) +
     "</tr>"
@@ -56,8 +56,9 @@ export function tellLines(run) {
   const { end } = run.assessment;
   const names = [...new Set(run.lines.map(({ name }) => name))];
   const named = names.length === 1 && names[0] ? `Lines of ${names[0]}. ` : "";
+  const nothing = run.lines.every(({ snaps }) => snaps === null) ? ", so that nothing is judged" : "";
   $("lines-words").textContent =
-    `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on. Held: the largest ` +
+    `${named}The run ${end.reason}, ${round(end.t_s)} s; judged from ${round(run.transient_s)} s on${nothing}. Held: the largest ` +
     "tension while a line stays taut; snap peak: estimated; slack: part of the time. Utilisation: the larger of the two " +
     "over the breaking load; the safety factor is its inverse, with no factor of any rule in it." +
     (elastic ? " Elastic: the same on lines that stretch, as snapload elastic has it." : "");

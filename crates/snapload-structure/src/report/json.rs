@@ -10,7 +10,7 @@ use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
 use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
-use crate::runs::seas::Seas;
+use crate::runs::seas::{SeaOutcome, Seas};
 use crate::structure::Structure;
 use serde_json::{Value, json};
 use snapload::Stop;
@@ -56,6 +56,14 @@ fn afloat(prepared: &Prepared, seen: Option<&Waterline>) -> Option<Value> {
     }))
 }
 
+/// What a line comes to as far as it is judged: null where nothing is.
+const JUDGED: [&str; 4] = [
+    "snaps",
+    "fastest_snap_m_s",
+    "held_tension_n",
+    "slack_fraction",
+];
+
 impl Assessment {
     /// All of it; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
@@ -65,6 +73,9 @@ impl Assessment {
         let line = |index: usize| {
             let line = &structure.lines[index];
             let mut row = json!(self.outcome.lines[index]);
+            if self.outcome.is_unjudged() {
+                JUDGED.iter().for_each(|key| row[*key] = Value::Null);
+            }
             row["line"] = json!(index + 1);
             row["name"] = json!(line.name);
             row["length_m"] = json!(line.length_m);
@@ -129,6 +140,10 @@ impl Seas {
                 "quantile_90": fit.quantile(0.9),
             })
         };
+        let fastest = |record: &SeaOutcome| {
+            let outcome = &record.outcome;
+            (!outcome.is_unjudged()).then(|| outcome.speed_m_s())
+        };
         let [crests, troughs] = self.crests_and_troughs_n();
         let quantiles = |sorted: &[f64]| {
             let at = |part| quantile(sorted, part);
@@ -152,15 +167,15 @@ impl Seas {
                 "failing": share.count, "of": share.of, "part": share.part(),
                 "interval_95": share.interval(),
             })),
-            "snaps_in_three_hours": self.snaps_in_three_hours(),
-            "slack_fraction": self.slack_fractions(),
+            "snaps_in_three_hours": (self.judged_s() > 0.0).then(|| self.snaps_in_three_hours()),
+            "slack_fraction": (self.judged_s() > 0.0).then(|| self.slack_fractions()),
             "warnings": self.warnings,
             "checks": self.checks(),
             "crests_n": quantiles(&crests),
             "troughs_n": troughs_row,
             "largest_tensions_n": self.largest_n(),
             "peaks_n": self.records.iter().map(|record| record.outcome.peak_n()).collect::<Vec<_>>(),
-            "fastest_m_s": self.speeds_m_s(),
+            "fastest_m_s": self.records.iter().map(fastest).collect::<Vec<_>>(),
         })
     }
 }
@@ -171,12 +186,13 @@ impl BothModels {
         let structure = &self.prepared.structure;
         let lines = self.springs.iter().enumerate().map(|(index, spring)| {
             let [rate, damping] = self.si(spring);
+            let judged = !self.outcome.is_unjudged();
             json!({
                 "line": index + 1,
                 "spring_rate_n_m": rate,
                 "damping_n_s_m": damping,
-                "slack_fraction": self.elastic.slack_fraction(index),
-                "peak_n": self.elastic.peaks_n[index],
+                "slack_fraction": judged.then(|| self.elastic.slack_fraction(index)),
+                "peak_n": judged.then(|| self.elastic.peaks_n[index]),
                 "rest_tension_n": self.sprung.rest.tension_n[index],
                 "breaking_load_n": structure.lines[index].breaking_load_n,
             })

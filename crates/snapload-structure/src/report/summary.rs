@@ -97,18 +97,21 @@ impl Assessment {
     /// What the verdict would rest on with less and with more restitution, in words.
     pub fn rebound_words(&self) -> String {
         let rows = self.by_restitution();
-        let utilisations: Option<Vec<f64>> =
-            rows.iter().map(|row| row.largest_utilisation).collect();
-        let (what, values) = match utilisations {
-            Some(values) => ("largest utilisation", values),
-            None => {
-                let speeds = rows.iter().map(|row| row.fastest_snap_m_s);
-                ("fastest snap (m/s)", speeds.collect())
-            }
+        let utilisations: Vec<_> = rows.iter().map(|row| row.largest_utilisation).collect();
+        let speeds = rows.iter().map(|row| row.fastest_snap_m_s).collect();
+        let (what, values) = match utilisations.iter().all(Option::is_some) {
+            true => ("largest utilisation", utilisations),
+            false => ("fastest snap (m/s)", speeds),
         };
-        let restitutions: Vec<f64> = rows.iter().map(|row| row.restitution).collect();
-        let [values, restitutions] = [values, restitutions].map(|numbers| {
-            let all = numbers.iter().map(|number| format!("{number:.2}"));
+        if values.iter().all(Option::is_none) {
+            return "nothing is judged with more or less restitution either".to_owned();
+        }
+        let restitutions = rows.iter().map(|row| Some(row.restitution)).collect();
+        let [values, restitutions] = [values, restitutions].map(|numbers: Vec<Option<f64>>| {
+            let one = |number: Option<f64>| {
+                number.map_or("not judged".to_owned(), |number| format!("{number:.2}"))
+            };
+            let all = numbers.into_iter().map(one);
             all.collect::<Vec<_>>().join(", ")
         });
         format!("{what} {values} with a restitution of {restitutions}")

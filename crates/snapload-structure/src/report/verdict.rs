@@ -187,7 +187,7 @@ fn verdict(
         transient_s: structure.transient_s,
         early,
         open,
-        unjudged: outcome.end_s <= structure.transient_s,
+        unjudged: outcome.is_unjudged(),
         stretching,
     };
     Verdict {

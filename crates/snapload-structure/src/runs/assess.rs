@@ -59,8 +59,8 @@ pub struct ByRestitution {
     pub restitution: f64,
     /// The largest utilisation of any line; none where that of one is not known.
     pub largest_utilisation: Option<f64>,
-    /// The fastest snap of any line \[m/s\].
-    pub fastest_snap_m_s: f64,
+    /// The fastest snap of any line; none where nothing is judged \[m/s\].
+    pub fastest_snap_m_s: Option<f64>,
 }
 
 /// As many neighbours as there are where nothing else is said.
@@ -281,7 +281,7 @@ impl Assessment {
             ByRestitution {
                 restitution,
                 largest_utilisation: all.map(|all| all.into_iter().fold(0.0, f64::max)),
-                fastest_snap_m_s: outcome.speed_m_s(),
+                fastest_snap_m_s: (!outcome.is_unjudged()).then(|| outcome.speed_m_s()),
             }
         };
         let mut rows = vec![of(structure.restitution, &self.outcome)];
@@ -329,10 +329,11 @@ impl Assessment {
         reach
     }
 
-    /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none
-    /// \[N\].
+    /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none, or
+    /// one of them ended before anything is judged \[N\].
     pub fn spread(&self) -> Option<[f64; 3]> {
-        if !self.prepared.structure.tensions_known() {
+        let unjudged = self.neighbours.iter().any(Outcome::is_unjudged);
+        if unjudged || !self.prepared.structure.tensions_known() {
             return None;
         }
         let peaks = self

@@ -96,6 +96,12 @@ impl Outcome {
         speeds.fold(0.0, f64::max)
     }
 
+    /// Whether the run ended before anything of it is judged: what its lines come to is then nothing
+    /// that could be told.
+    pub fn is_unjudged(&self) -> bool {
+        self.lines.iter().all(|line| line.least_n.is_none())
+    }
+
     /// Snaps of all lines.
     pub fn snaps(&self) -> u64 {
         self.lines.iter().map(|line| line.snaps).sum()

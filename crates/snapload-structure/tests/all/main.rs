@@ -10,6 +10,7 @@ mod current;
 mod design;
 mod elastic;
 mod equilibrium;
+mod judged;
 mod manual;
 mod moordyn;
 mod moordyn_keys;

@@ -1,0 +1,98 @@
+//! What is judged of a run, and what is said where nothing is, or where the worst is not.
+
+use crate::verdicts::{source, structure};
+use snapload::analysis::unwatched;
+use snapload_structure::note::{page, seas_page};
+use snapload_structure::{Lines, Prepared, assess, both_models, seas};
+
+const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
+const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
+
+/// On one line, as the text breaks where it likes.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Waves of 12 m throw the body onto the floor before anything is judged: no number is told of what
+/// the lines come to, in words, in JSON or on the page.
+#[test]
+fn where_nothing_is_judged_no_numbers_are_told() {
+    let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
+    assert_ne!(text, EXAMPLE);
+    let assessment = assess(structure(&text), 4, &unwatched).unwrap();
+    assert!(assessment.outcome.end_s < 10.0 && assessment.outcome.is_unjudged());
+    let told = flat(&assessment.summary("case"));
+    for words in [
+        "of which nothing is judged, as that begins at 60 s",
+        "kN at rest; nothing is judged; breaks at 1319 kN",
+        "rebound nothing is judged",
+        "4 turn over or touch the floor",
+        "The mooring fails",
+        "before the 60 s were over after which it is judged",
+    ] {
+        assert!(told.contains(words), "{words} in {told}");
+    }
+    for words in [
+        " 0 kN",
+        "slack 100",
+        "slack 0",
+        "0 snaps",
+        "0.00 m/s",
+        "fastest snap",
+    ] {
+        assert!(!told.contains(words), "{words} in {told}");
+    }
+    let json = assessment.to_json("case");
+    for line in json["lines"].as_array().unwrap() {
+        for key in [
+            "snaps",
+            "fastest_snap_m_s",
+            "peak_tension_n",
+            "held_tension_n",
+            "least_tension_n",
+            "slack_fraction",
+            "utilisation",
+        ] {
+            assert!(line[key].is_null(), "{key}: {line}");
+        }
+        assert!(line["rest_tension_n"].as_f64().unwrap() > 0.0);
+    }
+    assert!(json["by_restitution"][0]["fastest_snap_m_s"].is_null());
+    assert!(json["trust"]["peak_tension_quantiles_n"].is_null());
+    let note = flat(&page(source("case"), &assessment, None).unwrap());
+    assert!(note.contains("nothing is judged</td>") && note.contains("before anything is judged"));
+    assert!(!note.contains("No line snaps at 1 cm/s or more"));
+}
+
+/// The same of lines that stretch, and of records.
+#[test]
+fn nothing_judged_is_told_of_springs_and_records() {
+    let text = EXAMPLE.replace("height = 2\n", "height = 12\n");
+    let prepared = Prepared::for_springs(structure(&text)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    assert!(both.outcome.is_unjudged());
+    let told = flat(&both.summary("case"));
+    assert!(
+        told.contains("kN at rest; nothing is judged line 2"),
+        "{told}"
+    );
+    let line = &both.to_json("case")["lines"][0];
+    assert!(line["slack_fraction"].is_null() && line["peak_n"].is_null());
+    let high = SEA
+        .replace("hs = 1.2", "hs = 9")
+        .replace("[run]", "[run]\nduration = 300");
+    let records = seas(structure(&high), 2, Lines::Inextensible, &unwatched).unwrap();
+    assert_eq!(records.judged_s(), 0.0);
+    let told = flat(&records.summary("case"));
+    assert!(
+        told.contains("judged nothing, as no record lasts for the 60 s") && !told.contains("slack"),
+        "{told}"
+    );
+    let json = records.to_json("case");
+    assert!(
+        json["snaps_in_three_hours"].is_null()
+            && json["slack_fraction"].is_null()
+            && json["fastest_m_s"][0].is_null()
+    );
+    assert!(seas_page(source("case"), &records).is_ok());
+}
