@@ -53,7 +53,7 @@ class Assessment(_Answer):
     >>> import snapload
     >>> answer = snapload.Structure.example().assess(neighbours=0)
     >>> answer.standing
-    'holds'
+    'open'
     >>> answer.lines["slack_fraction"].dims
     ('line',)
     """
@@ -66,6 +66,8 @@ class Assessment(_Answer):
     def standing(self) -> str:
         """How it stands: ``holds``, ``breaks``, ``exceeds`` (turned over or on the floor), ``open`` or ``unknown``.
 
+        It is open where tensions are not to be relied on, or where a line would break before anything is judged.
+
         See Also
         --------
         snapload.Assessment.verdict : The same in words.
@@ -74,7 +76,7 @@ class Assessment(_Answer):
         --------
         >>> import snapload
         >>> snapload.Structure.example().assess(neighbours=0).standing
-        'holds'
+        'open'
         """
         return str(self.data["verdict"]["standing"])
 
@@ -342,7 +344,7 @@ class Elastic(_Answer):
         --------
         >>> import snapload
         >>> snapload.Structure.example().replace({"run.duration": 30}).elastic().standing
-        'holds'
+        'open'
         """
         return str(self.data["verdict"]["standing"])
 

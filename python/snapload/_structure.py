@@ -82,7 +82,7 @@ class Structure:
         ...     file = pathlib.Path(folder) / "pontoon.toml"
         ...     _ = file.write_text(snapload.Structure.example().to_toml())
         ...     snapload.Structure.from_toml(file).assess(neighbours=0).standing
-        'holds'
+        'open'
         """
         return cls.parse(Path(path).read_text(encoding="utf-8"), changes, name=fspath(path))
 
@@ -164,7 +164,7 @@ class Structure:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     snapload.Structure.example().to_moordyn(f"{folder}/lines.txt")
         ...     snapload.Structure.from_moordyn(f"{folder}/lines.txt").assess(neighbours=0).standing
-        'holds'
+        'open'
         """
         text = Path(path).read_text(encoding="utf-8")
         return cls(*_engine.Structure.from_moordyn(fspath(path), text, _changes(changes)))

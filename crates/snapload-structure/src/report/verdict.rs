@@ -1,7 +1,6 @@
 //! The answer in words, and how far it can be trusted.
 
 use crate::physics::gumbel::Gumbel;
-use crate::physics::snap::Snap;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
@@ -14,6 +13,7 @@ use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
 use snapload::analysis::{HorizonCause, Share, Trust};
+use std::cmp::Ordering;
 
 /// How it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -27,7 +27,8 @@ pub enum Standing {
     Exceeds,
     /// A tension or a breaking load is not known.
     Unknown,
-    /// A rule is broken that tensions hang on: another command decides.
+    /// A rule is broken that tensions hang on: another command decides. Or a line would break before
+    /// anything is judged, and only then.
     Open,
 }
 
@@ -128,11 +129,42 @@ fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
     Some((rules.join(" and "), *commands.first()?))
 }
 
-/// The hardest load that is not judged, where it is harder than those that are.
+/// A load that is not judged, as the transient is not over.
 struct Early {
     line: usize,
+    is_jolt: bool,
     speed_m_s: f64,
     peak_n: Option<f64>,
+    utilisation: Option<f64>,
+}
+
+impl Early {
+    /// The part of its line's breaking load, else its size, else its speed.
+    fn governs(&self) -> (Option<f64>, Option<f64>, f64) {
+        (self.utilisation, self.peak_n, self.speed_m_s)
+    }
+
+    /// Whether its line would break.
+    fn breaks(&self) -> bool {
+        self.utilisation.is_some_and(|part| part >= 1.0)
+    }
+
+    /// The hardest of them, where it is harder than all that is judged.
+    fn hardest(
+        all: impl Iterator<Item = Self>,
+        structure: &Structure,
+        outcome: &Outcome,
+    ) -> Option<Self> {
+        let order = |a: &Self, b: &Self| a.governs().partial_cmp(&b.governs());
+        let hardest = all.max_by(|a, b| order(a, b).unwrap_or(Ordering::Equal))?;
+        let judged = outcome.utilisations(structure).into_iter().flatten();
+        let harder = match (hardest.utilisation, hardest.peak_n) {
+            (Some(part), _) => judged.reduce(f64::max).is_none_or(|judged| part > judged),
+            (None, Some(peak)) => peak > outcome.largest_n(),
+            (None, None) => hardest.speed_m_s > outcome.speed_m_s(),
+        };
+        harder.then_some(hardest)
+    }
 }
 
 /// Whether the lines go slack, how hard they snap, and whether one breaks; `stretching` is whether
@@ -174,6 +206,8 @@ fn verdict(
         Standing::Breaks
     } else if outcome.stop == Stop::ImpactLimit || !all_known {
         Standing::Unknown
+    } else if early.as_ref().is_some_and(Early::breaks) {
+        Standing::Open
     } else {
         Standing::Holds
     };
@@ -202,13 +236,16 @@ impl BothModels {
         let (structure, outcome) = (&self.sprung.structure, &self.outcome);
         let pulls = self.elastic.pulls.iter();
         let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
-        let hardest = early.max_by(|a, b| a.peak_n.total_cmp(&b.peak_n));
-        let early = hardest.filter(|pull| pull.peak_n > outcome.largest_n());
         let early = early.map(|pull| Early {
             line: pull.line,
+            is_jolt: false,
             speed_m_s: pull.speed_m_s,
             peak_n: Some(pull.peak_n),
+            utilisation: structure.lines[pull.line]
+                .breaking_load_n
+                .map(|load| pull.peak_n / load),
         });
+        let early = Early::hardest(early, structure, outcome);
         verdict(structure, outcome, &self.warnings(), early, true)
     }
 }
@@ -217,17 +254,16 @@ impl Assessment {
     /// Whether the lines go slack, how hard they snap, and whether one breaks.
     pub fn verdict(&self) -> Verdict {
         let (structure, outcome) = (&self.prepared.structure, &self.outcome);
-        let early = self
-            .snaps
-            .iter()
-            .filter(|snap| snap.t_s < structure.transient_s);
-        let hardest = early.max_by(|a, b| a.speed_m_s.total_cmp(&b.speed_m_s));
-        let harder = |snap: &&Snap| snap.speed_m_s > outcome.speed_m_s() && snap.counts();
-        let early = hardest.filter(harder).map(|snap| Early {
+        let early = self.snaps.iter();
+        let early = early.filter(|snap| snap.counts() && snap.t_s < structure.transient_s);
+        let early = early.map(|snap| Early {
             line: snap.line,
+            is_jolt: snap.is_jolt,
             speed_m_s: snap.speed_m_s,
             peak_n: snap.peak_n,
+            utilisation: snap.utilisation,
         });
+        let early = Early::hardest(early, structure, outcome);
         verdict(structure, outcome, &self.warnings, early, false)
     }
 

@@ -3,7 +3,7 @@
 use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
 use snapload_structure::note::{page, seas_page};
-use snapload_structure::{Lines, Prepared, assess, both_models, seas};
+use snapload_structure::{Lines, Prepared, Standing, assess, both_models, seas};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
@@ -95,4 +95,58 @@ fn nothing_judged_is_told_of_springs_and_records() {
             && json["fastest_m_s"][0].is_null()
     );
     assert!(seas_page(source("case"), &records).is_ok());
+}
+
+/// What is not judged would break a line that holds from then on: it is told with its part of the
+/// breaking load, and the verdict is open, in words, in JSON and in the colour of the page. Where the beginning is judged, the line breaks.
+#[test]
+fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
+    let assessment = assess(structure(EXAMPLE), 2, &unwatched).unwrap();
+    let early = assessment.snaps.iter().filter(|snap| snap.t_s < 60.0);
+    let hardest = early
+        .filter_map(|snap| snap.utilisation)
+        .fold(0.0, f64::max);
+    assert!(hardest > 2.0);
+    let verdict = assessment.verdict();
+    assert_eq!(verdict.standing, Standing::Open);
+    for words in [
+        "Of what is judged no line breaks".to_owned(),
+        format!("kN, {hardest:.2} of its breaking load. It would break there"),
+        "run.transient = 0".to_owned(),
+    ] {
+        assert!(
+            verdict.words.contains(&words),
+            "{words} in {}",
+            verdict.words
+        );
+    }
+    assert!(!verdict.words.contains("lines that do not stretch"));
+    assert_eq!(assessment.to_json("case")["verdict"]["standing"], "open");
+    let note = page(source("case"), &assessment, None).unwrap();
+    assert!(note.contains("class=\"verdict open\"") && !note.contains("class=\"verdict holds\""));
+    let all = EXAMPLE.replace("[run]", "[run]\ntransient = 0");
+    let all = assess(structure(&all), 0, &unwatched).unwrap();
+    assert_eq!(all.verdict().standing, Standing::Breaks);
+    // Lines that stretch are told of alike.
+    let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
+    let prepared = Prepared::for_springs(structure(&short)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let verdict = both.verdict();
+    assert_eq!(verdict.standing, Standing::Open);
+    assert!(
+        verdict.words.contains("1.83 of its breaking load"),
+        "{}",
+        verdict.words
+    );
+    assert!(verdict.words.contains("snapload seas --elastic"));
+    // Where it would not break, the line holds, and what is not judged is told with its part.
+    let strong = EXAMPLE.replace("diameter = 0.038", "diameter = 0.038\nbreaking_load = 4e6");
+    let strong = assess(structure(&strong), 0, &unwatched).unwrap().verdict();
+    assert_eq!(strong.standing, Standing::Holds);
+    assert!(
+        strong.words.contains("0.77 of its breaking load."),
+        "{}",
+        strong.words
+    );
+    assert!(!strong.words.contains("It would break"));
 }
