@@ -201,7 +201,7 @@ impl BothModels {
             let snap = |snap: &Snap| {
                 json!({
                     "line": snap.line + 1, "t_s": snap.t_s, "speed_m_s": snap.speed_m_s,
-                    "energy_peak_n": snap.energy_peak_n,
+                    "energy_peak_n": snap.energy_peak_n, "peak_n": snap.peak_n,
                 })
             };
             json!({

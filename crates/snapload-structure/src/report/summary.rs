@@ -67,6 +67,8 @@ struct ElasticText<'a> {
     rows: Vec<String>,
     /// How many snaps there are of lines that do not stretch.
     snaps: usize,
+    /// The hardest of them with all that is estimated, the line's own mass included \[N\].
+    hardest_n: Option<f64>,
     all: usize,
 }
 
@@ -169,6 +171,7 @@ impl BothModels {
             zeta: damping_ratio(e),
             lines: lines.collect(),
             snaps: snaps.len(),
+            hardest_n: snaps.iter().filter_map(|snap| snap.peak_n).reduce(f64::max),
             rows: (0..all.min(LISTED)).map(row).collect(),
             all,
         })

@@ -150,3 +150,25 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     );
     assert!(!strong.words.contains("It would break"));
 }
+
+/// One snap has one tension: the table beside the lines that stretch says what its numbers leave out,
+/// and tells the one that the assessment has.
+#[test]
+fn the_hardest_snap_is_told_alike_beside_springs() {
+    let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
+    let assessment = assess(structure(&short), 0, &unwatched).unwrap();
+    let peaks = assessment.snaps.iter().filter_map(|snap| snap.peak_n);
+    let hardest = peaks.fold(0.0, f64::max) / 1e3;
+    let prepared = Prepared::for_springs(structure(&short)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let told = flat(&both.summary("case"));
+    let words = format!(
+        "what the line's own mass adds is left out. With it, as snapload assess has them, the hardest is {hardest:.0} kN"
+    );
+    assert!(told.contains(&words), "{words} in {told}");
+    let snap = &both.to_json("case")["inextensible"]["snaps"][0];
+    let of = |key: &str| snap[key].as_f64().unwrap();
+    assert!(of("peak_n") > of("energy_peak_n"));
+    let manual = include_str!("../../../../docs/structures.md");
+    assert!(manual.contains(&format!("about {hardest:.0} kN where the chain breaks")));
+}
