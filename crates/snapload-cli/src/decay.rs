@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
         let swings = swings(&motion, freedom);
-        text += &told(called, &words(&swings, freedom));
+        text += &words(called, &swings, freedom);
         rows.extend(swings.into_iter().map(|swing| SwingRow {
             freedom: called,
             from_s: swing.from_s,
@@ -113,23 +113,38 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     answers.finish(&answer, text)
 }
 
-fn words(swings: &[Swing], freedom: usize) -> String {
+/// The swings of a freedom as a small table below its name.
+fn words(called: &str, swings: &[Swing], freedom: usize) -> String {
     if swings.is_empty() {
-        return "it does not swing".to_owned();
+        return told(called, "it does not swing");
     }
     let unit = ["m", "m", "rad"][freedom];
-    let one = |swing: &Swing| {
-        format!(
-            "{:.4} {unit} at {:.2} s, then {:.3} s with {:.2} % of critical damping",
-            swing.amplitude,
+    // A swing begins at every turning point; those of one side are told.
+    let side = || swings.iter().step_by(2);
+    let few = match side().count() > SHOWN {
+        true => format!("the first {SHOWN} "),
+        false => String::new(),
+    };
+    let what =
+        format!("{few}swings from the side that it was let go from, each to the next turn there");
+    let mut text = told(called, &what);
+    let amplitude = format!("amplitude {unit}");
+    let _ = writeln!(
+        text,
+        "            {:>8}{amplitude:>15}{:>10}{:>26}",
+        "from s", "period s", "damping, % of critical"
+    );
+    for swing in side().take(SHOWN) {
+        let _ = writeln!(
+            text,
+            "            {:>8.2}{:>15.4}{:>10.3}{:>26.2}",
             swing.from_s,
+            swing.amplitude,
             swing.period_s,
             100.0 * swing.damping_ratio
-        )
-    };
-    // A swing begins at every turning point; those of one side are told.
-    let side = swings.iter().step_by(2).take(SHOWN);
-    side.map(one).collect::<Vec<_>>().join("; ")
+        );
+    }
+    text
 }
 
 fn table(motion: &Decay) -> String {

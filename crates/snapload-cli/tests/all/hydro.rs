@@ -95,7 +95,7 @@ fn hydro_answers_in_a_few_lines_a_page_and_json() {
 #[test]
 fn decay_tells_its_swings() {
     let room = room();
-    snapload(room.path())
+    let output = snapload(room.path())
         .args([
             "decay",
             "pontoon.nc",
@@ -108,8 +108,26 @@ fn decay_tells_its_swings() {
         ])
         .args(["--out", "decay.csv", "--json", "decay.json"])
         .assert()
-        .success()
-        .stdout(contains("pitch").and(contains("% of critical damping")));
+        .success();
+    // A row a swing below the names of its columns, each as JSON has it.
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    let mut rows = text.lines().skip_while(|row| !row.contains("from s"));
+    let names = rows.next().expect("the names of the columns");
+    assert!(
+        names.contains("amplitude rad") && names.ends_with("% of critical"),
+        "{text}"
+    );
+    let row: Vec<f64> = rows
+        .next()
+        .expect("a swing")
+        .split_whitespace()
+        .map(|cell| cell.parse().unwrap())
+        .collect();
+    let first = json(&room, "decay.json")["swings"][0].clone();
+    let of = |key: &str| first[key].as_f64().unwrap();
+    assert_eq!((row[0], row[1]), (0.0, 0.1));
+    assert!((row[2] - of("period_s")).abs() < 1e-3);
+    assert!((row[3] - 100.0 * of("damping_ratio")).abs() < 1e-2);
     let table = fs::read_to_string(room.path().join("decay.csv")).unwrap();
     assert_eq!(table.lines().count(), 402);
     assert!(table.starts_with("t_s,surge_m,heave_m,pitch_rad\n0,0,0,0.1\n"));

@@ -150,7 +150,7 @@ impl BothModels {
         let row = |row: usize| {
             let left = pulls.get(row).map_or(String::new(), pull_words);
             let right = snaps.get(row).map_or(String::new(), snap_words);
-            format!("{left:<43}{right}")
+            format!("{left:<47}{right}")
         };
         let all = pulls.len().max(snaps.len());
         let lines = self.springs.iter().enumerate().map(|(line, spring)| {
@@ -207,7 +207,7 @@ fn pull_words(pull: &Pull) -> String {
         .rebound_m_s
         .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
     format!(
-        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8.0}{rebound:>6}",
+        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8.0}{rebound:>10}",
         pull.line + 1,
         pull.from_s,
         pull.to_s,

@@ -172,3 +172,34 @@ fn the_hardest_snap_is_told_alike_beside_springs() {
     let manual = include_str!("../../../../docs/structures.md");
     assert!(manual.contains(&format!("about {hardest:.0} kN where the chain breaks")));
 }
+
+/// Every column of the table of pulls has its unit, stands above its numbers, and is explained.
+#[test]
+fn the_columns_of_pulls_are_explained() {
+    let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");
+    let prepared = Prepared::for_springs(structure(&short)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    let summary = both.summary("case");
+    let mut rows = summary
+        .lines()
+        .skip_while(|row| !row.starts_with("  line  from s"));
+    let (names, first) = (rows.next().unwrap(), rows.next().unwrap());
+    // Numbers end where their names do.
+    for name in ["line", "from s", "to s", "m/s", "kN", "back m/s"] {
+        let end = names.find(name).unwrap() + name.len();
+        let cell = first[..end].split_whitespace().last().unwrap();
+        assert!(
+            cell.parse::<f64>().is_ok(),
+            "{name}: {cell} in\n{names}\n{first}"
+        );
+        assert!(first[end..].starts_with(' '), "{name} in\n{names}\n{first}");
+    }
+    let told = flat(&summary);
+    for column in [
+        "from, to: when",
+        "kN: its largest tension",
+        "back: how fast it gets shorter",
+    ] {
+        assert!(told.contains(column), "{column} in {told}");
+    }
+}
