@@ -70,6 +70,12 @@ impl Body {
         })
     }
 
+    /// The moment of inertia about the centre of gravity, I_O − m (x_G² + z_G²) \[kg m²\].
+    pub fn inertia_about_centre_kg_m2(&self) -> f64 {
+        let [mz, mx] = [self.mass[(0, 2)], self.mass[(1, 2)]];
+        self.mass[(2, 2)] - (mz * mz + mx * mx) / self.mass_kg
+    }
+
     /// 𝓜 = M + A.
     ///
     /// # Errors

@@ -68,6 +68,8 @@ struct Quality<'a> {
 struct FloatingRow {
     mass_kg: f64,
     centre_of_gravity_m: Pair,
+    /// About the centre of gravity.
+    moment_of_inertia_kg_m2: f64,
     mass_matrix: Rows,
     stiffness: Rows,
     damping: Rows,
@@ -165,6 +167,7 @@ impl Floating {
         FloatingRow {
             mass_kg: body.mass_kg,
             centre_of_gravity_m: body.centre_m,
+            moment_of_inertia_kg_m2: body.inertia_about_centre_kg_m2(),
             mass_matrix: rows(&body.mass),
             stiffness: rows(&body.stiffness),
             damping: rows(&body.damping),

@@ -26,6 +26,8 @@ use serde::{Deserialize, Serialize};
 /// Damping below this part of critical makes a narrow peak; that of waves in pitch is then not all that
 /// stops the resonance.
 const WEAK: f64 = 0.02;
+/// A mass within this part of the displaced one is that of the file's body.
+const SAME_MASS: f64 = 0.01;
 /// A peak within this part of the frequency of a natural motion is its resonance.
 const RESONANT: f64 = 0.02;
 /// Damping below this part of critical bounds nothing.
@@ -141,6 +143,7 @@ impl Report {
         let mut warnings = reading.warnings.clone();
         warnings.extend(fit.warnings.clone());
         if let Ok(floating) = &floating {
+            warnings.extend(inertia_of_another_mass(&reading, &floating.body, request));
             floating.warn(&reading, &mut warnings);
         }
         Ok(Self {
@@ -151,6 +154,24 @@ impl Report {
             warnings,
         })
     }
+}
+
+/// The mass is the user's and the moment of inertia still that of the file's body.
+fn inertia_of_another_mass(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
+    let displaced = reading.hydro.hydrostatics.displaced_mass_kg?;
+    let own = request.weight.inertia_kg_m2.is_some();
+    if own || (displaced / body.mass_kg - 1.0).abs() <= SAME_MASS {
+        return None;
+    }
+    let words = format!(
+        "the mass is {:.1} t where the file's body displaces {:.1} t, and the moment of inertia is that of \
+         the file all the same, {:.1} t m² about the centre of gravity: give its own (--inertia; \
+         body.moment_of_inertia in a case)",
+        body.mass_kg / 1e3,
+        displaced / 1e3,
+        body.inertia_about_centre_kg_m2() / 1e3
+    );
+    Some(Warning::new("moment of inertia", words))
 }
 
 impl Floating {

@@ -105,12 +105,12 @@ impl Floating {
         say(
             "body",
             format!(
-                "{:.4} t, centre of gravity ({}, {}) m, {:.4} t m² about the reference point; stiffness \
-                 {:.4} kN/m in heave, {:.4} kN m in pitch",
+                "{:.4} t, centre of gravity ({}, {}) m, moment of inertia {:.4} t m² about it; stiffness {:.4} \
+                 kN/m in heave, {:.4} kN m in pitch about the reference point",
                 body.mass_kg / 1e3,
                 body.centre_m[0],
                 body.centre_m[1],
-                body.mass[(2, 2)] / 1e3,
+                body.inertia_about_centre_kg_m2() / 1e3,
                 body.stiffness[(1, 1)] / 1e3,
                 body.stiffness[(2, 2)] / 1e3,
             ),

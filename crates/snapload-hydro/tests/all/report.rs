@@ -112,3 +112,41 @@ fn the_largest_response_is_that_of_the_resonance() {
     let damped = told(&answer(5e4));
     assert!(!damped.contains("narrow"), "{damped}");
 }
+
+/// A mass of one's own with the inertia of the file's body is warned of, in words and in JSON; what is
+/// told is about the point that `--inertia` is given about.
+#[test]
+fn an_inertia_that_is_not_given_with_a_mass_is_told() {
+    let answer = |mass: Option<f64>, inertia: Option<f64>| {
+        let mut request = request();
+        request.weight.mass_kg = mass;
+        request.weight.inertia_kg_m2 = inertia;
+        Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
+    };
+    let warned = |report: &Report| {
+        let warning = |(label, words): &(String, String)| {
+            label == "warning" && words.starts_with("moment of inertia: the mass is 80.0 t")
+        };
+        let json = serde_json::to_value(report.to_json()).expect("JSON");
+        let rows = json["warnings"].as_array().expect("warnings").clone();
+        let in_json = rows.iter().any(|row| row["what"] == "moment of inertia");
+        assert_eq!(in_json, report.summary().iter().any(warning));
+        in_json
+    };
+    assert!(warned(&answer(Some(8e4), None)));
+    assert!(!warned(&answer(None, None)) && !warned(&answer(Some(98_400.0), None)));
+    let own = answer(Some(8e4), Some(133_000.0));
+    assert!(!warned(&own));
+    let rows = own.summary();
+    let (_, body) = rows
+        .iter()
+        .find(|(label, _)| label == "body")
+        .expect("a row");
+    assert!(
+        body.contains("moment of inertia 133.0000 t m² about it"),
+        "{body}"
+    );
+    let json = serde_json::to_value(own.to_json()).expect("JSON");
+    let inertia = json["floating"]["moment_of_inertia_kg_m2"].as_f64();
+    assert!((inertia.expect("a number") - 133_000.0).abs() < 1e-6);
+}

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use snapload::{CaseError, Entries, Fields, FromValue};
 use snapload_hydro::{
     FirstColumn, FitOptions, Format, Given, GivenMemory, HydroError, Reading, Report, Request,
-    SectionBody, Shape, Warning, Water, Weight, read,
+    SectionBody, Shape, Water, Weight, read,
 };
 use std::path::{Path, PathBuf};
 
@@ -84,16 +84,8 @@ impl Afloat {
         };
         let file: Option<String> = fields.get("file")?;
         let name = file.as_deref().unwrap_or(SECTION);
-        let mut report = Report::new(name, reading, &request).map_err(bad)?;
+        let report = Report::new(name, reading, &request).map_err(bad)?;
         let floating = report.floating.clone().map_err(bad)?;
-        let displaced = report.reading.hydro.hydrostatics.displaced_mass_kg;
-        let other = displaced.is_some_and(|mass| (mass / body.mass_kg - 1.0).abs() > SAME_VOLUME);
-        if inertia.is_none() && uniform.is_none() && other {
-            let words = "body.mass is not the mass that the file's body displaces, and its moment of \
-                         inertia is that of the file's all the same: give body.moment_of_inertia";
-            let (what, words) = ("moment of inertia", words.to_owned());
-            report.warnings.push(Warning { what, words });
-        }
         Ok(Self {
             body: floating.body,
             report,
