@@ -48,8 +48,8 @@ pub(crate) struct HydroArgs {
     /// Its centre of gravity; without it the file's
     #[arg(long, value_name = "X,Z", value_parser = pair, allow_hyphen_values = true, help_heading = "The body")]
     centre: Option<[f64; 2]>,
-    /// Its moment of inertia about its centre of gravity in kg m²; without it the file's, of which a
-    /// warning tells where --mass is another
+    /// Its moment of inertia about its centre of gravity in kg m²; without it the file's, of which
+    /// a warning tells where --mass is another
     #[arg(long, value_name = "NUMBER", help_heading = "The body")]
     inertia: Option<f64>,
     /// Linear damping of surge, heave and pitch beside that of waves, in N s/m, N s/m, N m s

@@ -23,8 +23,8 @@ use crate::read::{Format, Reading};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Damping below this part of critical makes a narrow peak; that of waves in pitch is then not all that
-/// stops the resonance.
+/// Damping below this part of critical makes a narrow peak; that of waves in pitch is then not all
+/// that stops the resonance.
 const WEAK: f64 = 0.02;
 /// A mass within this part of the displaced one is that of the file's body.
 const SAME_MASS: f64 = 0.01;
@@ -219,8 +219,8 @@ impl Floating {
         })
     }
 
-    /// The largest response of each freedom in waves of a direction, by the file's coefficients, with
-    /// the damping ratio of the resonance that it is, if it is a narrow one.
+    /// The largest response of each freedom in waves of a direction, by the file's coefficients,
+    /// with the damping ratio of the resonance that it is, if it is a narrow one.
     pub fn largest(&self, response: usize) -> [(Peak, Option<f64>); 3] {
         let of = |peak: Peak| {
             let apart = |mode: &&Mode| {

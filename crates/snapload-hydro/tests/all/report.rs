@@ -75,8 +75,8 @@ fn files_without_hydrostatics_say_so() {
     );
 }
 
-/// The largest response is that of the resonance, between the file's frequencies, and a narrow peak is
-/// said to hang on its damping; JSON has the same.
+/// The largest response is that of the resonance, between the file's frequencies, and a narrow peak
+/// is said to hang on its damping; JSON has the same.
 #[test]
 fn the_largest_response_is_that_of_the_resonance() {
     let answer = |damping: f64| {
@@ -113,8 +113,8 @@ fn the_largest_response_is_that_of_the_resonance() {
     assert!(!damped.contains("narrow"), "{damped}");
 }
 
-/// A mass of one's own with the inertia of the file's body is warned of, in words and in JSON; what is
-/// told is about the point that `--inertia` is given about.
+/// A mass of one's own with the inertia of the file's body is warned of, in words and in JSON; what
+/// is told is about the point that `--inertia` is given about.
 #[test]
 fn an_inertia_that_is_not_given_with_a_mass_is_told() {
     let answer = |mass: Option<f64>, inertia: Option<f64>| {

@@ -27,8 +27,8 @@ pub enum Standing {
     Exceeds,
     /// A tension or a breaking load is not known.
     Unknown,
-    /// A rule is broken that tensions hang on: another command decides. Or a line would break before
-    /// anything is judged, and only then.
+    /// A rule is broken that tensions hang on: another command decides. Or a line would break
+    /// before anything is judged, and only then.
     Open,
 }
 

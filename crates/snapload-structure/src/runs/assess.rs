@@ -329,8 +329,8 @@ impl Assessment {
         reach
     }
 
-    /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none, or
-    /// one of them ended before anything is judged \[N\].
+    /// 5 %, 50 % and 95 % of the neighbours' largest tension in a snap; none where there is none,
+    /// or one of them ended before anything is judged \[N\].
     pub fn spread(&self) -> Option<[f64; 3]> {
         let unjudged = self.neighbours.iter().any(Outcome::is_unjudged);
         if unjudged || !self.prepared.structure.tensions_known() {

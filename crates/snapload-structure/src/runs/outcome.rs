@@ -25,7 +25,8 @@ pub struct LineOutcome {
     /// The largest tension while the line stays taut \[N\].
     #[serde(rename = "held_tension_n")]
     pub held_n: f64,
-    /// The smallest tension, 0 where it goes slack; none where the run ends before anything is judged \[N\].
+    /// The smallest tension, 0 where it goes slack; none where the run ends before anything is
+    /// judged \[N\].
     #[serde(rename = "least_tension_n")]
     pub least_n: Option<f64>,
     /// The part of the whole time without tension.
@@ -33,8 +34,8 @@ pub struct LineOutcome {
 }
 
 impl LineOutcome {
-    /// The larger of what it holds and what it carries in a snap; none where it snaps and that is not
-    /// known, or nothing is judged \[N\].
+    /// The larger of what it holds and what it carries in a snap; none where it snaps and that is
+    /// not known, or nothing is judged \[N\].
     pub fn largest_n(&self) -> Option<f64> {
         self.least_n?;
         let no_snap = (self.snaps + self.jolts == 0).then_some(0.0);
@@ -84,7 +85,8 @@ impl Outcome {
         peaks.reduce(f64::max)
     }
 
-    /// The largest tension of any line, in a snap as far as that is known or while it is taut \[N\].
+    /// The largest tension of any line, in a snap as far as that is known or while it is taut
+    /// \[N\].
     pub fn largest_n(&self) -> f64 {
         let held = self.lines.iter().map(|line| line.held_n);
         held.fold(self.peak_n().unwrap_or(0.0), f64::max)
@@ -96,8 +98,8 @@ impl Outcome {
         speeds.fold(0.0, f64::max)
     }
 
-    /// Whether the run ended before anything of it is judged: what its lines come to is then nothing
-    /// that could be told.
+    /// Whether the run ended before anything of it is judged: what its lines come to is then
+    /// nothing that could be told.
     pub fn is_unjudged(&self) -> bool {
         self.lines.iter().all(|line| line.least_n.is_none())
     }

@@ -98,7 +98,8 @@ fn nothing_judged_is_told_of_springs_and_records() {
 }
 
 /// What is not judged would break a line that holds from then on: it is told with its part of the
-/// breaking load, and the verdict is open, in words, in JSON and in the colour of the page. Where the beginning is judged, the line breaks.
+/// breaking load, and the verdict is open, in words, in JSON and in the colour of the page. Where
+/// the beginning is judged, the line breaks.
 #[test]
 fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     let assessment = assess(structure(EXAMPLE), 2, &unwatched).unwrap();
@@ -151,8 +152,8 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     assert!(!strong.words.contains("It would break"));
 }
 
-/// One snap has one tension: the table beside the lines that stretch says what its numbers leave out,
-/// and tells the one that the assessment has.
+/// One snap has one tension: the table beside the lines that stretch says what its numbers leave
+/// out, and tells the one that the assessment has.
 #[test]
 fn the_hardest_snap_is_told_alike_beside_springs() {
     let short = EXAMPLE.replace("[run]", "[run]\nduration = 12");

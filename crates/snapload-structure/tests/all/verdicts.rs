@@ -200,7 +200,8 @@ fn slack_troughs_are_told_as_slack() {
     );
 }
 
-/// Numbers that stand beside each other may be of three hours, of all records or of one: each says so.
+/// Numbers that stand beside each other may be of three hours, of all records or of one: each says
+/// so.
 #[test]
 fn every_line_of_a_sea_names_what_it_is_of() {
     let text = SEA.replace("[run]", "[run]\nduration = 600");
