@@ -59,7 +59,8 @@ def section(
     xarray.Dataset
         ``x`` to ``vtheta`` over ``k``, the number of the period; or over ``impact`` ``t``, ``phase``, ``cable``,
         ``v_n``, ``impulse`` and the state, with velocities before and after. Over ``direction`` the Lyapunov exponents
-        with their standard errors: ``exponent``, minus infinity where contact closes a direction, ``exponent_se``.
+        in a unit of time with their standard errors: ``exponent``, minus infinity where a taut cable closes a
+        direction, and ``exponent_se``, NaN where fewer than five periods are kept.
         Attributes: ``period`` of the motion in periods of the forcing (NaN if it has none), ``snaps`` a period,
         ``y_max``, ``theta_max``, and if it stopped at a limit ``stop`` and ``stop_t``.
 
@@ -131,7 +132,8 @@ class LyapunovSpectrum(Result):
     values : numpy.ndarray
         The exponents [1/T]: six, four of a point mass; minus infinity where contact closes a direction.
     standard_errors : numpy.ndarray
-        Their standard errors [1/T], from twenty batches of periods.
+        Their standard errors [1/T], from twenty batches of periods, with what growth that still slows down may fall
+        by; NaN of fewer than four periods.
     periods : int
         Over how many periods of the forcing they are means.
     transient : int
@@ -244,9 +246,10 @@ def orbit_diagram(
     -------
     xarray.Dataset
         ``x`` to ``vtheta`` over the key and ``k``, NaN where the motion stopped at a limit. Over the key ``period`` in
-        periods of the forcing (NaN without one), ``snaps`` a period, the largest Lyapunov ``exponent`` with
-        ``exponent_se``, ``y_max``, ``stop`` (empty if it did not), and ``restarted``: whether the value began with the
-        case's own start again. The values stand in the order in which they were followed.
+        periods of the forcing (NaN without one), ``snaps`` a period, the largest Lyapunov ``exponent`` (minus infinity
+        where taut cables close all directions) with ``exponent_se``, ``y_max``, ``stop`` (empty if it did not), and
+        ``restarted``: whether the value began with the case's own start again. The values stand in the order in which
+        they were followed.
 
     Raises
     ------
@@ -290,6 +293,8 @@ def orbit_diagram(
     }
     for name, meaning in _OF_VALUES.items():
         variables[name] = (key, numbers(rows, name), {"long_name": meaning})
+    closed = [row["exponent"] is None and row["exponent_se"] is not None for row in rows]
+    variables["exponent"][1][closed] = -np.inf
     stops = np.array([row["stop"] or "" for row in rows], dtype=object)
     variables["stop"] = (key, stops, {"long_name": "which limit stopped the motion"})
     restarted = np.array([row["restarted"] for row in rows], dtype=bool)
@@ -358,7 +363,11 @@ def _impacts(rows: list[dict[str, Any]]) -> dict[str, Any]:
 
 def _spectrum(rows: list[dict[str, float | None]]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     values = [-np.inf if row["value"] is None else row["value"] for row in rows]
-    return np.array(values, dtype=np.float64), np.array([row["se"] for row in rows], dtype=np.float64)
+    return np.array(values, dtype=np.float64), np.array([or_nan(row["se"]) for row in rows], dtype=np.float64)
+
+
+def _stopped(told: dict[str, Any]) -> str:
+    return f"stops at t = {told['stop']['t']:.4f}, {told['stop']['reason'].replace('_', ' ')}"
 
 
 def _count(values: str | NDArray[Any]) -> int:

@@ -62,6 +62,16 @@ def test_a_section_of_an_orbit_has_its_multipliers():
     assert stopped.attrs["stop"] == "rotation_limit" and stopped.attrs["stop_t"] == pytest.approx(10.0247, abs=1e-4)
 
 
+def test_directions_that_taut_cables_close_have_no_exponent():
+    rest, rocking = snapload.Case(body="point", f_o=0.2), snapload.Case(f_o=0.1)
+    assert np.isneginf(snapload.section(rest).exponent).all()
+    assert np.isneginf(snapload.lyapunov_spectrum(rest).values).tolist() == [True] * 4
+    assert np.isneginf(snapload.lyapunov_spectrum(rocking, periods=100).values).tolist() == [False] * 2 + [True] * 4
+    assert np.isneginf(snapload.orbit_diagram(rest, f_o=[0.2, 0.3], periods=50, keep=20).exponent).all()
+    few = snapload.lyapunov_spectrum(rocking, periods=3, transient=100)
+    assert np.isnan(few.standard_errors[:2]).all() and np.isfinite(few.values[:2]).all()
+
+
 def test_exponents_of_a_motion_sum_up_to_what_its_snaps_take():
     """Their sum is 2 ln e times the snaps in unit time, whatever the motion does."""
     spectrum = snapload.lyapunov_spectrum(snapload.Case(**TORUS), periods=400, transient=100)

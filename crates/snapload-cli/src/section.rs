@@ -20,7 +20,8 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 The state at t = (phase + k) T, T the period of the forcing, once the transient is over; with it the period of
-the motion, if it has one, and its Lyapunov exponents with their standard errors. The stops by settling are off.
+the motion, if it has one, and its Lyapunov exponents in a unit of time with their standard errors, -inf where a
+taut cable closes a direction. The stops by settling are off.
 With --at impacts the table and the picture have a point an impact instead: when, at which phase of the forcing,
 which cable, at which v_n, and the state just before and after.
 

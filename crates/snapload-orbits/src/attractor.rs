@@ -1,7 +1,7 @@
 //! Orbits from long motions: of the attractor that a start leads to, and of many random starts.
 
 use crate::hybrid::{Family, Point, distance};
-use crate::in_words::periods;
+use crate::in_words::{exponent_in_words, periods};
 use crate::lap::SAME;
 use crate::moored::Moored;
 use crate::multipliers::Stability;
@@ -42,19 +42,12 @@ pub fn of_attractor(
         ))));
     }
     let Some(period) = section.period() else {
-        let exponent = section
-            .exponents
-            .first()
-            .map_or(f64::NAN, |[mean, _]| *mean);
-        let error = section
-            .exponents
-            .first()
-            .map_or(f64::NAN, |[_, error]| *error);
+        let largest = section.exponents.first().copied();
+        let exponent = exponent_in_words(largest.unwrap_or([f64::NAN; 2]));
         return Ok(Err(NoOrbit(format!(
-            "the motion of this start repeats itself with no period up to {LONGEST_PERIOD} after {} \
-             periods of the forcing (largest Lyapunov exponent {exponent:.4} +- {error:.4}); look for \
-             unstable orbits with --find N, or at snapload section",
-            ATTRACTOR_PERIODS
+            "the motion of this start repeats itself after no number of periods of the forcing up to \
+             {LONGEST_PERIOD}, as far as {ATTRACTOR_PERIODS} of them tell (largest Lyapunov exponent \
+             {exponent}); look for unstable orbits with --find N, or at snapload section"
         ))));
     };
     if wanted

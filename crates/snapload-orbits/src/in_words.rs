@@ -70,6 +70,29 @@ pub(crate) fn periods(n: usize) -> String {
     }
 }
 
+/// An exponent with its standard error, which is rounded up, so that none is told as known better than
+/// it is.
+pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
+    let known = (error * 1e4).ceil().max(1.0) / 1e4;
+    match (mean.is_finite(), error.is_finite()) {
+        // Adding 0 makes 0 of -0.
+        (true, true) => format!("{:.4} +- {known:.4}", (mean * 1e4).round() / 1e4 + 0.0),
+        (true, false) => format!("{mean:.4} (of too few periods to know its error)"),
+        (false, _) => "-inf".to_owned(),
+    }
+}
+
+/// The exponents of a section in a line.
+fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
+    let left = exponents.iter().filter(|[mean, _]| mean.is_finite());
+    let mut all: Vec<String> = left.map(|both| exponent_in_words(*both)).collect();
+    let closed = exponents.len() - all.len();
+    if closed > 0 {
+        all.push(format!("{closed} of -inf, which contact closes"));
+    }
+    all.join(", ")
+}
+
 /// A section.
 pub fn section_in_words(section: &Section) -> String {
     let mut text = String::new();
@@ -90,12 +113,10 @@ pub fn section_in_words(section: &Section) -> String {
             section.longest_period()
         ),
     };
-    let exponent = |[mean, error]: &[f64; 2]| match mean.is_finite() {
-        true => format!("{mean:.4} +- {error:.4}"),
-        false => "closed".to_owned(),
-    };
-    let all: Vec<String> = section.exponents.iter().map(exponent).collect();
-    let _ = writeln!(text, "Exponents {}", all.join(", "));
+    if !section.exponents.is_empty() {
+        let all = exponents_in_words(&section.exponents);
+        let _ = writeln!(text, "Exponents in a unit of time: {all}");
+    }
     if let Some(kept) = &section.impacts {
         let velocities = || kept.points.iter().map(|impact| impact.v_n);
         let hardest = velocities().fold(0.0, f64::max);
@@ -120,7 +141,7 @@ pub fn diagram_in_words(key: &str, found: &[At]) -> String {
             .snaps()
             .map_or("-".to_owned(), |snaps| format!("{snaps:.3}"));
         let exponent = at.section.exponents.first();
-        let exponent = exponent.map_or("-".to_owned(), |[m, e]| format!("{m:.4} +- {e:.4}"));
+        let exponent = exponent.map_or("-".to_owned(), |both| exponent_in_words(*both));
         let value = six_digits(at.value);
         let _ = match at.stop() {
             Some(stop) => writeln!(text, "{value:<12} {}", stop.words()),

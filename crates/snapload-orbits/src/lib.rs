@@ -33,6 +33,7 @@ mod curve_rows;
 mod diagram;
 mod distances;
 mod erosion;
+mod exponents;
 mod hybrid;
 mod impact_map;
 mod in_words;

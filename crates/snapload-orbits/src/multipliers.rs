@@ -5,7 +5,7 @@
 //! is cut where most surfaces are held, and the problem is solved in the directions that are left
 //! there.
 
-use crate::hybrid::{Family, Hybrid, Point, variable};
+use crate::hybrid::{Family, Hybrid, Jet, Point, variable};
 use crate::lap::{Lap, Leg};
 use crate::newton::Closed;
 use crate::sequence::Sequence;
@@ -176,39 +176,48 @@ fn cut_within<F: Family>(lap: &Lap<F>, system: &F::Plain, legs: &[Leg], leg: usi
 /// An orthonormal basis of the deviations that leave held surfaces closed.
 fn directions_left<F: Family>(lap: &Lap<F>, held: TautSet, z: &Point) -> DMatrix<f64> {
     let (system, variables) = (lap.family.jets(lap.at), lap.family.variables());
-    let jets = variable(z);
-    let mut taken: Vec<DVector<f64>> = Vec::new();
-    for surface in held.iter() {
-        for closed in [system.gap(surface, &jets), system.speed(surface, &jets)] {
-            let row = variables.iter().map(|&i| closed.slope[i]);
-            let row = DVector::from_iterator(variables.len(), row);
-            taken.extend(orthogonal(row, &taken, 1e-9));
-        }
-    }
+    let mut taken = closed_by(&system, variables, held, z);
     let constraints = taken.len();
-    for i in 0..variables.len() {
-        let mut unit = DVector::zeros(variables.len());
-        unit[i] = 1.0;
-        taken.extend(orthogonal(unit, &taken, 0.2));
-    }
-    // Unit vectors that are nearly spanned were left out; the rest of the space is filled with them.
-    for i in 0..variables.len() {
-        if taken.len() < variables.len() {
-            let mut unit = DVector::zeros(variables.len());
-            unit[i] = 1.0;
-            taken.extend(orthogonal(unit, &taken, 1e-6));
+    // Unit vectors that are nearly spanned are left out; the rest of the space is filled with them.
+    for least in [0.2, 1e-6] {
+        for i in 0..variables.len() {
+            if taken.len() < variables.len() {
+                let mut unit = DVector::zeros(variables.len());
+                unit[i] = 1.0;
+                taken.extend(orthogonal(unit, &taken, least).map(|(left, _)| left));
+            }
         }
     }
     let left = &taken[constraints..];
     DMatrix::from_fn(variables.len(), left.len(), |i, j| left[j][i])
 }
 
-/// What of a vector is orthogonal to others, at unit length; none where that is hardly anything.
-fn orthogonal(
+/// An orthonormal basis of the deviations that held surfaces close: across them, of gap and velocity.
+pub(crate) fn closed_by<H: Hybrid<Jet>>(
+    system: &H,
+    variables: &[usize],
+    held: TautSet,
+    z: &Point,
+) -> Vec<DVector<f64>> {
+    let jets = variable(z);
+    let mut taken: Vec<DVector<f64>> = Vec::new();
+    for surface in held.iter() {
+        for closed in [system.gap(surface, &jets), system.speed(surface, &jets)] {
+            let row = variables.iter().map(|&i| closed.slope[i]);
+            let row = DVector::from_iterator(variables.len(), row);
+            taken.extend(orthogonal(row, &taken, 1e-9).map(|(left, _)| left));
+        }
+    }
+    taken
+}
+
+/// What of a vector is orthogonal to others, at unit length, and its length; none where that is hardly
+/// anything of the vector.
+pub(crate) fn orthogonal(
     mut vector: DVector<f64>,
     others: &[DVector<f64>],
     least: f64,
-) -> Option<DVector<f64>> {
+) -> Option<(DVector<f64>, f64)> {
     let whole = vector.norm();
     for _ in 0..2 {
         for other in others {
@@ -217,5 +226,5 @@ fn orthogonal(
         }
     }
     let left = vector.norm();
-    (left > least * whole && left > 0.0).then(|| vector / left)
+    (left > least * whole && left > 0.0).then(|| (vector / left, left))
 }

@@ -28,7 +28,9 @@ pub struct SectionRow {
 
 #[derive(Serialize)]
 struct ExponentRow {
+    /// None is −∞.
     value: Option<f64>,
+    /// Told as null where there are too few periods to know it.
     se: f64,
 }
 

@@ -1,8 +1,9 @@
 //! Stroboscopic sections of long motions, and diagrams of them against a key.
 
+use crate::exponents::{Directions, exponents};
 use crate::hybrid::Point;
 use crate::impact_map::Impacts;
-use snapload::analysis::{Cancelled, Frame, OnProgress, Progress};
+use snapload::analysis::{Cancelled, OnProgress, Progress};
 use snapload::{CaseError, Held, Parameters, Simulation, State, Step, Stop, Tangent};
 
 /// What is kept of a long motion at t = (phase + k) T.
@@ -17,7 +18,8 @@ pub struct Section {
     /// The same one by one, where they were asked for.
     pub impacts: Option<Impacts>,
     /// The Lyapunov exponents over the kept periods, the largest first, each with its standard
-    /// error; empty where they were not asked for. One that contact closes is −∞.
+    /// error, which is not a number where there are too few periods; empty where they were not asked
+    /// for. One that contact closes is −∞.
     pub exponents: Vec<[f64; 2]>,
     /// The state where the motion ended, and when.
     pub end: (Point, f64),
@@ -50,10 +52,6 @@ const SAME: f64 = 1e-8;
 const LAPS: usize = 8;
 /// The longest period that is looked for.
 pub const LONGEST_PERIOD: usize = 64;
-/// Standard errors come from so many batches.
-const BATCHES: usize = 20;
-/// A direction that has shrunk by more than e^−this in a period is closed by contact.
-const CLOSED: f64 = -200.0;
 
 impl Section {
     /// Follows the motion of a case from its start; its stops by settling are off.
@@ -98,13 +96,10 @@ impl Section {
         })?;
         let held = Held::new(parameters.system());
         let mut follow = Follow {
-            tangent: stretch.exponents.then(|| Tangent::new(held.system())),
+            linearised: stretch
+                .exponents
+                .then(|| (Tangent::new(held.system()), Directions::new(parameters))),
             held,
-            frame: Frame::new(),
-            directions: match parameters.is_point() {
-                true => &[0, 1, 3, 4],
-                false => &[0, 1, 2, 3, 4, 5],
-            },
             logs: Vec::new(),
             next: stretch.skip,
             period,
@@ -168,13 +163,10 @@ pub fn start_of(p: &Parameters) -> Point {
 /// A motion that is followed.
 struct Follow {
     held: Held,
-    tangent: Option<Tangent>,
-    frame: Frame,
-    /// The directions of the frame that the body has: a point mass does not turn, and its rotation,
-    /// which nothing couples to, keeps directions of its own.
-    directions: &'static [usize],
+    /// What becomes of deviations, where exponents are computed.
+    linearised: Option<(Tangent, Directions)>,
     /// The logarithms of the growth at the beginning of each kept period.
-    logs: Vec<[f64; 6]>,
+    logs: Vec<Vec<f64>>,
     /// The next section.
     next: u64,
     period: f64,
@@ -199,8 +191,9 @@ impl Follow {
                     impacts.take(&step, self.period);
                 }
             }
-            if let Some(tangent) = &self.tangent {
-                self.frame.follow(&tangent.of_step(&simulation, &step));
+            if let Some((tangent, directions)) = &mut self.linearised {
+                let map = tangent.of_step(&simulation, &step);
+                directions.follow(&map, step.taut_after, &step.after.components());
             }
             let periods = (step.t_end - self.begun) / self.period;
             Progress::new("following the motion", periods, last as f64).tell(on_progress)?;
@@ -213,9 +206,7 @@ impl Follow {
         if section.stop.is_none() {
             section.points.push(section.end.0);
         }
-        if self.tangent.is_some() {
-            section.exponents = exponents(&self.logs, self.period, self.directions);
-        }
+        section.exponents = exponents(&self.logs, section.first, self.period);
         Ok(())
     }
 
@@ -229,36 +220,11 @@ impl Follow {
             let s = t - step.t_start;
             let state = self.held.carried(step.taut, step.t_start, &step.start, s);
             self.section.points.push(state.components());
-            self.logs.push(self.frame.logs());
+            if let Some((_, directions)) = &mut self.linearised {
+                directions.begin_to_count();
+                self.logs.push(directions.logs());
+            }
             self.next += 1;
         }
     }
-}
-
-/// Means of the growth per time, and their standard errors, from batches of periods.
-fn exponents(logs: &[[f64; 6]], period: f64, directions: &[usize]) -> Vec<[f64; 2]> {
-    let periods = logs.len().saturating_sub(1);
-    if periods == 0 {
-        return Vec::new();
-    }
-    let batches = BATCHES.min(periods);
-    let mut found: Vec<[f64; 2]> = directions
-        .iter()
-        .map(|&i| {
-            let rate = |from: usize, to: usize| {
-                (logs[to][i] - logs[from][i]) / ((to - from) as f64 * period)
-            };
-            let mean = rate(0, periods);
-            if !mean.is_finite() || mean * period < CLOSED {
-                return [f64::NEG_INFINITY, 0.0];
-            }
-            let ends = |k: usize| k * periods / batches;
-            let off = (0..batches).map(|k| rate(ends(k), ends(k + 1)) - mean);
-            let square: f64 = off.map(|off| off * off).sum();
-            let error = (square / (batches * (batches - 1).max(1)) as f64).sqrt();
-            [mean, error]
-        })
-        .collect();
-    found.sort_by(|a, b| b[0].total_cmp(&a[0]));
-    found
 }

@@ -3,7 +3,10 @@
 use crate::common::{number, numbers, parameters, reference};
 use snapload::Parameters;
 use snapload::analysis::unwatched;
-use snapload_orbits::{Attraction, Fate, Stretch, Window, diagram};
+use snapload_orbits::{
+    Attraction, Fate, Orbit, Section, Stretch, Wanted, Window, diagram, of_attractor,
+    section_in_words,
+};
 
 #[test]
 fn the_attractor_is_followed_as_in_the_reference() {
@@ -69,4 +72,99 @@ fn two_attractors_share_the_starts() {
     assert!(symbols.contains(&Vec::new()));
     assert!(symbols.iter().any(|symbol| symbol.len() == 3));
     assert!(!found.fates.contains(&Fate::Aperiodic));
+}
+
+const KEPT: Stretch = Stretch {
+    phase: 0.0,
+    skip: 300,
+    keep: 100,
+    exponents: true,
+    impacts: false,
+};
+
+fn section(parameters: &Parameters) -> Section {
+    Section::of(parameters, &KEPT, &unwatched).unwrap()
+}
+
+/// Two taut cables leave a point mass no deviation, and a rigid body those of its rocking, whose areas
+/// neither grow nor shrink.
+#[test]
+fn taut_cables_close_the_directions_across_them() {
+    let point = Parameters {
+        inertia: None,
+        a: 0.0,
+        f_o: 0.2,
+        ..Parameters::STANDARD
+    };
+    let found = section(&point);
+    assert_eq!(found.exponents, [[f64::NEG_INFINITY, 0.0]; 4]);
+    assert!(section_in_words(&found).contains(": 4 of -inf, which contact closes\n"));
+    let rocking = Parameters {
+        f_o: 0.1,
+        ..Parameters::STANDARD
+    };
+    let found = section(&rocking).exponents;
+    println!("{found:?}");
+    assert_eq!(found[2..], [[f64::NEG_INFINITY, 0.0]; 4]);
+    for [mean, error] in &found[..2] {
+        assert!(mean.abs() < 3.0 * error, "{mean} +- {error}");
+    }
+    let [sum, error] = [0, 1].map(|i| found[0][i] + found[1][i]);
+    assert!(sum.abs() < 0.1 * error, "{sum} +- {error}");
+}
+
+/// Where a cable sticks in every lap, two exponents are closed, and the others are those of the
+/// multipliers, which are found in the directions that are left.
+#[test]
+fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
+    let parameters = Parameters {
+        inertia: None,
+        a: 0.0,
+        e: 0.0,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let orbit = of_attractor(&parameters, &Wanted::default(), &unwatched);
+    let orbit: Orbit = orbit.unwrap().unwrap();
+    assert_eq!(orbit.multipliers.zeros_from_contact, 2);
+    let found = section(&parameters).exponents;
+    let known = orbit.multipliers.values.iter();
+    for ([mean, _], [re, im]) in found.iter().zip(known) {
+        let exponent = re.hypot(*im).ln() / orbit.length;
+        println!("{mean} {exponent}");
+        assert!(*mean == exponent || (mean - exponent).abs() < 1e-4);
+    }
+    assert!(
+        found[2..]
+            .iter()
+            .all(|[mean, _]| *mean == f64::NEG_INFINITY)
+    );
+}
+
+/// A cable that is taut in the beginning, and not in the long run, closes nothing of the long run.
+#[test]
+fn what_was_taut_in_the_beginning_does_not_count() {
+    let volley = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let from_corner = Parameters {
+        x: 0.0,
+        y: 0.0,
+        ..volley
+    };
+    let [there, here] = [volley, from_corner].map(|case| section(&case));
+    assert_eq!([there.period(), here.period()], [Some(1); 2]);
+    for ([a, _], [b, _]) in there.exponents.iter().zip(&here.exponents) {
+        println!("{a} {b}");
+        assert!((a - b).abs() < 0.05, "{a} {b}");
+    }
 }

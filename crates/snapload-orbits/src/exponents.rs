@@ -1,0 +1,219 @@
+//! Lyapunov exponents of long motions, with those that contact closes.
+//!
+//! Six directions, four of a point mass, are carried along a motion and made orthogonal after each
+//! step (Benettin, Galgani, Giorgilli & Strelcyn, *Meccanica* 15 (1980) 9). A cable that stays taut
+//! leaves no deviation of its gap and of the gap's velocity. The linearised motion itself does not
+//! know that: off the taut cables a deviation that is a rounding drifts on with time, and would be told
+//! as a small exponent. So the directions are put back along the taut cables after each step, and those
+//! that have no place left there are closed: their exponent is −∞.
+
+use crate::hybrid::Family;
+use crate::moored::{Cables, Moored};
+use crate::multipliers::{closed_by, orthogonal};
+use crate::{Jet, Point};
+use nalgebra::DVector;
+use snapload::{Parameters, StepMap, TautSet};
+
+/// Directions carried along a motion.
+pub(crate) struct Directions {
+    system: Cables<Jet>,
+    variables: &'static [usize],
+    /// At unit length; none in place of one that contact has closed.
+    directions: Vec<Option<DVector<f64>>>,
+    /// ln of the factors by which they have grown; −∞ of one that is closed.
+    logs: Vec<f64>,
+    /// Whether what contact has closed counts from now on.
+    counts: bool,
+}
+
+/// A direction of which less than this part is not along the others has no place of its own: the rest
+/// is rounding.
+const ROUNDING: f64 = 1e-14;
+/// Standard errors come from so many batches, and from no fewer than the second number.
+const BATCHES: usize = 20;
+const FEWEST: usize = 4;
+/// A trend that is so many times its standard error is none by chance.
+const TREND: f64 = 3.0;
+
+impl Directions {
+    /// Those of the components, at the start of a motion of a case.
+    pub(crate) fn new(parameters: &Parameters) -> Self {
+        let family = Moored::case(*parameters, [None; 2]);
+        let count = family.variables().len();
+        Self {
+            system: family.jets([0.0; 2]),
+            variables: family.variables(),
+            directions: (0..count).map(|i| Some(unit(count, i))).collect(),
+            logs: vec![0.0; count],
+            counts: false,
+        }
+    }
+
+    /// From now on what contact closes stays closed. A cable that was taut in the beginning and is
+    /// not in the long run closes nothing of the long run.
+    pub(crate) fn begin_to_count(&mut self) {
+        self.counts = true;
+    }
+
+    /// ln of the factors by which the directions have grown.
+    pub(crate) fn logs(&self) -> Vec<f64> {
+        self.logs.clone()
+    }
+
+    /// Carries them through a step, to the state and the taut cables that it ends with.
+    pub(crate) fn follow(&mut self, map: &StepMap, taut: TautSet, after: &Point) {
+        let mut taken = closed_by(&self.system, self.variables, taut, after);
+        let constraints = taken.len();
+        for (direction, log) in self.directions.iter_mut().zip(&mut self.logs) {
+            let Some(before) = direction else { continue };
+            let mut deviation = [0.0; 6];
+            for (place, part) in self.variables.iter().zip(before.iter()) {
+                deviation[*place] = *part;
+            }
+            let carried = map.fundamental(&deviation);
+            let carried = DVector::from_iterator(
+                self.variables.len(),
+                self.variables.iter().map(|place| carried[*place]),
+            );
+            *direction = orthogonal(carried, &taken, ROUNDING).map(|(left, length)| {
+                *log += length.ln();
+                taken.push(left.clone());
+                left
+            });
+            if direction.is_none() && self.counts {
+                *log = f64::NEG_INFINITY;
+            }
+        }
+        if !self.counts {
+            self.fill(taken.split_off(constraints));
+        }
+    }
+
+    /// Puts others in place of those that are closed.
+    fn fill(&mut self, mut taken: Vec<DVector<f64>>) {
+        let count = self.variables.len();
+        for direction in self.directions.iter_mut().filter(|d| d.is_none()) {
+            // The unit vector that is least along the others is not along them by much.
+            let left = |i: usize| 1.0 - taken.iter().map(|other| other[i] * other[i]).sum::<f64>();
+            let least = (0..count).max_by(|i, j| left(*i).total_cmp(&left(*j)));
+            let found = least.and_then(|i| orthogonal(unit(count, i), &taken, ROUNDING));
+            *direction = found.map(|(vector, _)| vector);
+            taken.extend(direction.clone());
+        }
+    }
+}
+
+fn unit(count: usize, place: usize) -> DVector<f64> {
+    let mut unit = DVector::zeros(count);
+    unit[place] = 1.0;
+    unit
+}
+
+/// The exponents, the largest first, each with its standard error, from the logarithms at sections a
+/// period apart, of which the first comes so many periods after the motion has begun.
+pub(crate) fn exponents(logs: &[Vec<f64>], first: u64, period: f64) -> Vec<[f64; 2]> {
+    let count = match logs {
+        [_, _, ..] => logs[0].len(),
+        _ => 0,
+    };
+    let mut found: Vec<[f64; 2]> = (0..count)
+        .map(|i| {
+            let of_one: Vec<f64> = logs.iter().map(|logs| logs[i]).collect();
+            estimate(&of_one, first as f64).map(|number| number / period)
+        })
+        .collect();
+    found.sort_by(|a, b| b[0].total_cmp(&a[0]));
+    found
+}
+
+/// The mean growth in a period, and its standard error from batches of periods, which is not a number
+/// where there are too few.
+///
+/// Deviations that grow by a power of time and not by a factor a period, as those between motions of
+/// different pace, have an exponent of 0, but over n periods a mean that falls as 1/n: batches
+/// agree with each other, and not with the limit. So where growth falls or rises beyond the scatter of
+/// the batches, as 1/t, what that makes of the mean is a part of the error.
+fn estimate(logs: &[f64], first: f64) -> [f64; 2] {
+    let periods = logs.len() - 1;
+    let rate = |from: usize, to: usize| (logs[to] - logs[from]) / (to - from) as f64;
+    let mean = rate(0, periods);
+    if !mean.is_finite() {
+        return [f64::NEG_INFINITY, 0.0];
+    }
+    let batches = BATCHES.min(periods);
+    if batches < FEWEST {
+        return [mean, f64::NAN];
+    }
+    let ends = |k: usize| k * periods / batches;
+    let of_batches: Vec<[f64; 2]> = (0..batches)
+        .map(|k| {
+            let middle = first + (ends(k) + ends(k + 1)) as f64 / 2.0;
+            [1.0 / middle, rate(ends(k), ends(k + 1)) - mean]
+        })
+        .collect();
+    let n = batches as f64;
+    let usual = of_batches.iter().map(|[inverse, _]| inverse).sum::<f64>() / n;
+    let sum = |of: &dyn Fn(f64, f64) -> f64| {
+        let terms = of_batches
+            .iter()
+            .map(|[inverse, off]| of(inverse - usual, *off));
+        terms.sum::<f64>()
+    };
+    let (spread, squares) = (sum(&|u, _| u * u), sum(&|_, off| off * off));
+    let slope = sum(&|u, off| u * off) / spread;
+    let scatter = sum(&|u, off| (off - slope * u).powi(2)) / (n - 2.0);
+    let trend = match slope.abs() > TREND * (scatter / spread).sqrt() {
+        true => slope * usual,
+        false => 0.0,
+    };
+    [mean, (squares / (n * (n - 1.0))).sqrt().hypot(trend)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law of growth, looked at over 100 periods after 300.
+    fn of(growth: impl Fn(f64) -> f64) -> [f64; 2] {
+        let logs: Vec<f64> = (300..=400).map(|t| growth(f64::from(t))).collect();
+        estimate(&logs, 300.0)
+    }
+
+    #[test]
+    fn growth_by_a_power_of_time_is_told_as_not_settled() {
+        let [mean, error] = of(|t| 2.0 * t.ln());
+        assert!(mean > 0.0 && error > 0.8 * mean, "{mean} +- {error}");
+    }
+
+    #[test]
+    fn growth_by_a_factor_is_known_to_rounding() {
+        let [mean, error] = of(|t| -0.25 * t);
+        assert!(
+            (mean + 0.25).abs() < 1e-12 && error < 1e-9,
+            "{mean} +- {error}"
+        );
+    }
+
+    #[test]
+    fn scatter_is_the_error_where_there_is_no_trend() {
+        // Equidistributed numbers, whose sums over five periods scatter.
+        let [mean, error] = of(|t| 0.1 * t + (t * 2_f64.sqrt()).fract());
+        assert!(
+            (mean - 0.1).abs() < 3.0 * error && error < 0.05,
+            "{mean} +- {error}"
+        );
+    }
+
+    #[test]
+    fn three_periods_tell_no_error() {
+        let [mean, error] = estimate(&[0.0, 0.5, 1.0, 1.5], 10.0);
+        assert!(mean == 0.5 && error.is_nan());
+    }
+    #[test]
+    fn no_exponent_is_told_as_known_better_than_it_is() {
+        let told = crate::in_words::exponent_in_words;
+        assert_eq!(told([-0.5, 1e-14]), "-0.5000 +- 0.0001");
+        assert_eq!(told([-1e-9, 2.1e-4]), "0.0000 +- 0.0003");
+        assert!(told([0.5, f64::NAN]).contains("too few periods"));
+    }
+}
