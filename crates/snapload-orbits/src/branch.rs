@@ -3,6 +3,7 @@
 use crate::branch_events::{BranchEvent, Kind, Test, located, tests_of};
 use crate::hybrid::{Family, Point};
 use crate::orbit::{NoOrbit, Orbit};
+use crate::survey::root;
 use crate::switch::doubled;
 use crate::tracer::{Segment, Tracer, Unknowns};
 use nalgebra::DVector;
@@ -62,6 +63,8 @@ const DEEP: f64 = 0.02;
 const BACK: f64 = 0.5;
 /// It has to have gone so many steps before.
 const FAR: f64 = 10.0;
+/// A value this near to the border of the range is on it, and is told as that.
+const ON_BORDER: f64 = 1e-13;
 
 impl Branch {
     /// The branch of an orbit in the first parameter, in both directions.
@@ -212,6 +215,16 @@ fn joined(orbit: &Orbit, backward: Side, forward: Side) -> Branch {
     }
 }
 
+/// The next point of a branch, how far it is, and how many steps the corrector took.
+struct Stepped {
+    at: Unknowns,
+    length: f64,
+    steps: usize,
+    direction: DVector<f64>,
+    /// Whether it is on the border of the range.
+    is_last: bool,
+}
+
 /// Walks along branches.
 struct Walk<'a> {
     along: &'a Along,
@@ -237,23 +250,23 @@ impl Walk<'_> {
                 side.end.because = format!("{} points are enough", self.along.most);
                 break;
             }
-            let Some((next, steps, direction)) = stepped(&tracer, &here, &tangent, step) else {
+            let Some(there) = self.stepped(&tracer, &here, &tangent, step) else {
                 step *= 0.5;
                 if step < self.along.step * SHORTER {
                     side.end.because = "Newton's method finds no further point".to_owned();
                 }
                 continue;
             };
-            let found = Orbit::of(&tracer.lap(next.at), &next.closed());
-            let reached = tests_of(&found, &direction);
+            let found = Orbit::of(&tracer.lap(there.at.at), &there.at.closed());
+            let reached = tests_of(&found, &there.direction);
             let segment = Segment {
                 tracer: &tracer,
                 from: &here,
                 tangent: &tangent,
-                length: step,
+                length: there.length,
             };
             let ended = self.take_events(&segment, [&tests, &reached], arclength, &mut side);
-            arclength += step;
+            arclength += there.length;
             let ended = ended.or_else(|| {
                 side.end.at = found.at[0];
                 self.left(&found, arclength, start, orbit)
@@ -263,15 +276,58 @@ impl Walk<'_> {
                 side.end.because = because;
                 break;
             }
-            (here, tangent, tests) = (next, direction, reached);
+            (here, tangent, tests) = (there.at, there.direction, reached);
             let anew = counted_anew(&mut tracer, &mut here, &mut tangent);
-            side.points.push(point(anew.unwrap_or(found), arclength));
+            if there.length > 0.0 {
+                side.points.push(point(anew.unwrap_or(found), arclength));
+            }
+            if there.is_last {
+                side.end.because = "the end of the range".to_owned();
+            }
             self.done += 1;
             let of = (2 * self.along.most) as f64;
             Progress::new("points", self.done as f64, of).tell(self.on_progress)?;
-            step = self.next_step(step, steps);
+            step = self.next_step(step, there.steps);
         }
         Ok(side)
+    }
+
+    /// The next point, if the corrector finds one near enough: on the border of the range where the
+    /// step would pass it.
+    fn stepped<F: Family>(
+        &self,
+        tracer: &Tracer<F>,
+        here: &Unknowns,
+        tangent: &DVector<f64>,
+        step: f64,
+    ) -> Option<Stepped> {
+        let (at, steps, direction) = stepped(tracer, here, tangent, step)?;
+        let [low, high] = self.along.range;
+        let border = at.at[0].clamp(low, high);
+        let beyond = |u: &Unknowns| u.at[0] - border;
+        let mut there = Stepped {
+            is_last: beyond(&at) != 0.0,
+            at,
+            length: step,
+            steps,
+            direction,
+        };
+        if there.is_last {
+            let of = |sigma: f64| {
+                let found = tracer.corrected(here, tangent, sigma);
+                found.map_or(f64::NAN, |(u, ..)| beyond(&u))
+            };
+            there.length = match beyond(here) {
+                0.0 => 0.0,
+                before => root(&of, (0.0, before), (step, beyond(&there.at))),
+            };
+            (there.at, _, there.direction) = tracer.corrected(here, tangent, there.length)?;
+            if beyond(&there.at).abs() > ON_BORDER * border.abs().max(1.0) {
+                return None;
+            }
+            there.at.at[0] = border;
+        }
+        Some(there)
     }
 
     /// The length of the next step, by how many steps the corrector took.
@@ -326,10 +382,6 @@ impl Walk<'_> {
         start: &Unknowns,
         first: &Orbit,
     ) -> Option<String> {
-        let [low, high] = self.along.range;
-        if !(low..=high).contains(&found.at[0]) {
-            return Some("the end of the range".to_owned());
-        }
         let gap = found.survey.largest_gap.map_or(0.0, |gap| gap.value);
         if gap > DEEP {
             return Some(format!("a cable would have to be longer by {DEEP}"));

@@ -89,3 +89,36 @@ fn branch_b_is_that_of_the_reference() {
     let start = [-0.0086, 0.7632, 0.0, 1.0527, -0.7738, 0.0];
     agrees(reference, &branch(reference, start, [0.8, 6.0]));
 }
+
+/// Each end that is one of the range is a point of the branch on its border, and no event lies beyond.
+#[test]
+fn a_branch_ends_on_the_borders_of_its_range() {
+    let reference = &reference()["branches"][0];
+    let base = parameters(&reference["base"]);
+    let keys = [Some("f_o"), None];
+    let family = Moored::case(base, keys);
+    let at = Moored::values(&base, keys);
+    let start = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
+    let orbit = Orbit::find(&family, at, &start, &Wanted::default()).unwrap();
+    for range in [[at[0] - 0.013, at[0] + 0.1], [at[0], at[0] + 0.05]] {
+        let along = Along {
+            range,
+            step: 0.02,
+            most: 2000,
+        };
+        let branch = Branch::of(&family, &orbit, &along, &unwatched).unwrap();
+        let ends = branch
+            .ends
+            .each_ref()
+            .map(|end| (end.at, end.because.as_str()));
+        assert_eq!(ends, range.map(|border| (border, "the end of the range")));
+        let values: Vec<f64> = branch.points.iter().map(|p| p.orbit.at[0]).collect();
+        assert_eq!([values[0], values[values.len() - 1]], range);
+        assert!(
+            values.windows(2).all(|pair| pair[0] < pair[1]),
+            "{values:?}"
+        );
+        let last = branch.points.last().unwrap();
+        assert!(last.orbit.return_error.unwrap() < 1e-12);
+    }
+}
