@@ -213,11 +213,11 @@ def erosion(
     -------
     xarray.Dataset
         Over the third key: ``gim`` between ``low`` and ``high`` (95 %), ``lim``, ``if`` and ``iim`` as
-        :func:`snapload.safe_basin` has them, and the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
-        trust). The attribute ``knee`` is the last value up to which the safe part of the decided cells never falls
-        below nine tenths of what it is at the first one; NaN if it never does. ``knee_between`` has the least and the
-        greatest value that it has, however the undecided cells end, NaN for one beyond the last value; without trust,
-        where all cells count as decided, it is not there.
+        :func:`snapload.safe_basin` has them, the cells that are ``legal``, ``safe`` and ``undecided`` (NaN without
+        trust), and ``decided_fraction``, the safe part of the decided cells. The attribute ``knee`` is the last value
+        up to which that part never falls below nine tenths of what it is at the first one; NaN if it never does.
+        ``knee_between`` has the least and the greatest value that it has, however the undecided cells end, NaN for one
+        beyond the last value; without trust, where all cells count as decided, it is not there.
 
     Raises
     ------
@@ -278,6 +278,7 @@ _ERODED = {
     "legal": "legal cells",
     "safe": "safe cells",
     "undecided": "undecided cells",
+    "decided_fraction": "safe part of the decided cells",
 }
 
 _MEANINGS = {

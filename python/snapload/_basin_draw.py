@@ -132,6 +132,10 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
     values = eroded[key].values
     ax.fill_between(values, eroded["low"], eroded["high"], color=BLUE, alpha=0.25, linewidth=0)
     ax.plot(values, eroded["gim"], color=BLUE, linewidth=1.4, marker="o", markersize=3, label="part (GIM)")
+    if (eroded["undecided"] > 0).any():
+        # The knee leaves out the cells that are not decided.
+        of_decided: dict[str, Any] = {"color": BLUE, "linestyle": ":", "linewidth": 1.1, "label": "of decided cells"}
+        ax.plot(values, eroded["decided_fraction"], **of_decided)
     ax.set_ylim(bottom=0)
     ax.set_xlabel(key_label(key))
     ax.set_ylabel("safe part of the starts")

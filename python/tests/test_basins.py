@@ -95,7 +95,7 @@ def test_erosion_is_that_of_the_reference_and_of_the_command(command_json):
     axes = [f"--vary={key}={values}" for key, values in WINDOW.items()]
     told = command_json("erosion", "--set", "t_end=20", *axes, "--over", "f_o=0:0.6:4")
     eroded = snapload.erosion(snapload.Case(t_end=20), over={"f_o": "0:0.6:4"}, **WINDOW)
-    for name in ("gim", "lim", "if", "legal", "safe", "undecided"):
+    for name in ("gim", "lim", "if", "legal", "safe", "undecided", "decided_fraction"):
         assert eroded[name].values.tolist() == [point[name] for point in told["points"]], name
     assert eroded.low.values.tolist() == [point["interval95"][0] for point in told["points"]]
     assert eroded.f_o.values.tolist() == [0.0, 0.2, 0.4, 0.6] and eroded.attrs["knee"] == told["knee"]
@@ -176,3 +176,9 @@ def test_pictures_show_every_cell_and_hatch_what_is_undecided():
     eroded = snapload.erosion(snapload.Case(t_end=20), over={"f_o": "0:0.6:4"}, trust=False, **WINDOW)
     line = snapload.plot_erosion(eroded).get_lines()[0]
     assert line.get_ydata().tolist() == eroded.gim.values.tolist()
+    # With neighbours the picture has the part that the knee is measured by, too.
+    eroded = snapload.erosion(snapload.Case(t_end=30), over={"f_o": "0:0.3:2"}, **WINDOW)
+    assert (eroded.undecided > 0).any()
+    line = snapload.plot_erosion(eroded).get_lines()[1]
+    assert line.get_ydata().tolist() == eroded.decided_fraction.values.tolist()
+    assert line.get_label() == "of decided cells"

@@ -107,7 +107,7 @@ impl Erosion {
 }
 
 /// The safe part of the decided cells, where there are some.
-fn decided_part(m: &Measures) -> Option<f64> {
+pub(crate) fn decided_part(m: &Measures) -> Option<f64> {
     let part = (m.safe - m.undecided_safe) as f64 / (m.legal - m.undecided) as f64;
     (m.legal > m.undecided).then_some(part)
 }
@@ -178,14 +178,41 @@ mod tests {
         let safe =
             "Safe      0.9000 (0.0000 to 1.0000) at f_o = 0, 0.4000 (0.0000 to 1.0000) at f_o = 2";
         assert!(told.contains(safe), "{told}");
-        let knee = "at f_o = 1, up to which at least 0.9 of the safe part at f_o = 0 is left\n";
+        let knee =
+            "at f_o = 1, up to which at least 0.9 of the safe part at f_o = 0, 0.9000, is left\n";
         assert!(told.contains(knee), "{told}");
         let told = words(&eroded(
             true,
             &[[90, 100, 90], [80, 0, 0], [75, 100, 75], [40, 0, 0]],
         ));
-        let doubt = "of the safe part of the decided cells at f_o = 1 is left; or from 0 to beyond the last value by how";
+        let doubt = "of the safe part of the decided cells at f_o = 1, 0.8000, is left; or from 0 to beyond the last value by how";
         assert!(told.contains(doubt), "{told}");
+    }
+
+    #[test]
+    fn the_table_has_the_cells_that_the_knee_leaves_out_and_the_part_that_it_is_measured_by() {
+        let text = crate::erosion_in_words(&eroded(true, &[[60, 20, 20], [45, 0, 0]]));
+        let rows: Vec<Vec<&str>> = text
+            .lines()
+            .take(3)
+            .map(|line| {
+                line.split("  ")
+                    .map(str::trim)
+                    .filter(|word| !word.is_empty())
+                    .collect()
+            })
+            .collect();
+        assert_eq!(
+            rows[0],
+            ["f_o", "safe", "undecided", "of decided", "nearest", "disc"]
+        );
+        assert_eq!(rows[1], ["0", "0.6000", "20", "0.5000", "-", "-"]);
+        assert_eq!(rows[2], ["1", "0.4500", "0", "0.4500", "-", "-"]);
+        let unknown = crate::erosion_in_words(&eroded(false, &[[60, 0, 0], [45, 0, 0]]));
+        assert!(
+            unknown.contains("\n0            0.6000   -          -  "),
+            "{unknown}"
+        );
     }
 
     #[test]

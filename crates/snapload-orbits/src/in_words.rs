@@ -3,7 +3,7 @@
 use crate::attraction::Attraction;
 use crate::basin::Basin;
 use crate::diagram::At;
-use crate::erosion::{Erosion, KNEE};
+use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
 use crate::sequence::words;
@@ -194,14 +194,25 @@ pub fn basin_in_words(basin: &Basin) -> String {
 
 /// An erosion: a row a value, and after an empty line what they come to.
 pub fn erosion_in_words(erosion: &Erosion) -> String {
-    let mut text = format!("{:<12} safe     nearest  disc\n", erosion.key);
+    let mut text = format!(
+        "{:<12} safe     undecided  of decided  nearest  disc\n",
+        erosion.key
+    );
     let maybe = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
     for (value, basin) in &erosion.points {
         let m = &basin.measures;
         let (lim, disc) = (maybe(m.lim), maybe(m.integrity_factor));
         let safe = maybe((m.legal > 0).then_some(m.gim));
+        let undecided = match basin.looked_beside {
+            true => m.undecided.to_string(),
+            false => "-".to_owned(),
+        };
+        let decided = maybe(decided_part(m).filter(|_| basin.looked_beside));
         let value = six_digits(*value);
-        let _ = writeln!(text, "{value:<12} {safe:<8} {lim:<8} {disc}");
+        let _ = writeln!(
+            text,
+            "{value:<12} {safe:<8} {undecided:<10} {decided:<11} {lim:<8} {disc}"
+        );
     }
     let part = |(value, basin): &(f64, Basin)| {
         let [low, high] = basin.measures.interval;
@@ -248,10 +259,10 @@ fn knee_in_words(erosion: &Erosion) -> String {
     };
     let knee = erosion.knee();
     let told = match (knee, erosion.decided().as_slice()) {
-        (Some(knee), [(first, _), ..]) => {
+        (Some(knee), [(first, part), ..]) => {
             let (knee, first) = (six_digits(knee), six_digits(*first));
             format!(
-                "at {key} = {knee}, up to which at least {KNEE} of the {safe} at {key} = {first} is left"
+                "at {key} = {knee}, up to which at least {KNEE} of the {safe} at {key} = {first}, {part:.4}, is left"
             )
         }
         (_, []) => format!("none, as no value has a {cell}"),

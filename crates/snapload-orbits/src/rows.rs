@@ -3,7 +3,7 @@
 use crate::attraction::{Attraction, Fate};
 use crate::basin::Basin;
 use crate::diagram::At;
-use crate::erosion::Erosion;
+use crate::erosion::{Erosion, decided_part};
 use crate::hybrid::Point;
 use crate::impact_map::ImpactPoint;
 use crate::orbit_row::OrbitRow;
@@ -194,6 +194,8 @@ pub struct ErosionRow {
 #[derive(Serialize)]
 struct ErosionPoint {
     value: f64,
+    /// The safe part of the decided cells, which the knee is measured by; none without such cells.
+    decided_fraction: Option<f64>,
     #[serde(flatten)]
     basin: BasinRow,
 }
@@ -203,6 +205,7 @@ impl ErosionRow {
     pub fn new(erosion: &Erosion) -> Self {
         let point = |(value, basin): &(f64, Basin)| ErosionPoint {
             value: *value,
+            decided_fraction: decided_part(&basin.measures),
             basin: BasinRow::new(basin),
         };
         Self {
