@@ -17,6 +17,10 @@ const APART: f64 = 4.0;
 const FAR: f64 = 10.0;
 /// What it costs a letter to stand a point farther away, where a crossed line costs one.
 const AWAY: f64 = 0.4;
+/// A letter is taken for that of another dot, unless that is so many times as far away as its own.
+const NEARER: f64 = 2.0;
+/// What that costs.
+const TAKEN: f64 = 200.0;
 /// How far words stay from the frame, close to which an I looks like a tick.
 const RIM: f64 = 3.0;
 /// How many places along a boundary are tried for its name.
@@ -131,6 +135,11 @@ fn beside(at: Point, word: &str, gap: f64) -> impl Iterator<Item = (Rect, f64)> 
     })
 }
 
+/// The point of a rectangle that is nearest to another one.
+fn nearest(rect: Rect, to: Point) -> Point {
+    Point::new(to.x.clamp(rect.x0, rect.x1), to.y.clamp(rect.y0, rect.y1))
+}
+
 /// Draws dots, and their letters beside them; those of one place are joined.
 pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &str)]) {
     let mut places: Vec<(Point, String)> = Vec::new();
@@ -147,13 +156,18 @@ pub(crate) fn place_letters(sheet: &mut Sheet, ink: &mut Ink, marks: &[(Point, &
         ink.add_rect(Rect::from_center_size(at, (2.0 * DOT, 2.0 * DOT)));
         sheet.dot(at, DOT);
     }
-    for (at, letters) in &places {
+    for (own, (at, letters)) in places.iter().enumerate() {
+        let others = || places[..own].iter().chain(&places[own + 1..]);
         let gaps = [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 42.0].into_iter();
         let candidates = gaps.flat_map(|gap| beside(*at, letters, DOT + gap - 1.5));
-        let candidates = candidates.map(|(rect, cost)| (rect, AWAY * cost));
+        let candidates = candidates.map(|(rect, cost)| {
+            let distances = others().map(|(other, _)| nearest(rect, *other).distance(*other));
+            let other = distances.fold(f64::INFINITY, f64::min);
+            let is_taken = other < NEARER * nearest(rect, *at).distance(*at);
+            (rect, AWAY * cost + if is_taken { TAKEN } else { 0.0 })
+        });
         if let Some(rect) = ink.write(sheet, letters, candidates) {
-            let side = |v: f64, from: f64, to: f64| v.clamp(from, to);
-            let near = Point::new(side(at.x, rect.x0, rect.x1), side(at.y, rect.y0, rect.y1));
+            let near = nearest(rect, *at);
             if near.distance(*at) > FAR {
                 sheet.segment(*at, near.lerp(*at, 2.0 / near.distance(*at)), FRAME);
             }

@@ -3,6 +3,7 @@
 
 mod insets;
 mod maps;
+mod names;
 mod paper;
 mod pictures;
 mod pixels;
