@@ -27,6 +27,8 @@ pub(crate) struct PlotFile {
     path: PathBuf,
     /// The columns to the right and upwards.
     pub(crate) axes: [String; 2],
+    /// The phase of the forcing from which on a period is drawn, where one is.
+    pub(crate) phase_from: f64,
 }
 
 impl PlotArgs {
@@ -63,6 +65,7 @@ impl PlotArgs {
             room: stage.open(&folder_for(path))?,
             path: path.clone(),
             axes: axes.map(str::to_owned),
+            phase_from: 0.0,
         }))
     }
 }
@@ -75,6 +78,23 @@ fn no_columns(shown: &str, known: &[&str]) -> Failure {
 }
 
 impl PlotFile {
+    /// Where a number of a column is drawn: a phase within the period that is shown.
+    pub(crate) fn placed(&self, column: &str, value: f64) -> f64 {
+        match column {
+            "phase" => value - (value - self.phase_from).floor(),
+            _ => value,
+        }
+    }
+
+    /// A phase is shown over the whole period, and a little more, so that no marker is cut.
+    fn range(&self, column: &str) -> Range {
+        const MORE: f64 = 0.015;
+        match column {
+            "phase" => Range::Fixed(self.phase_from - MORE, self.phase_from + 1.0 + MORE),
+            _ => Range::Auto,
+        }
+    }
+
     /// Draws the layers and stages the picture.
     pub(crate) fn stage(
         self,
@@ -90,8 +110,8 @@ impl PlotFile {
         let plot = Plot {
             title: title.to_owned(),
             description: format!("{y} against {x}"),
-            x: Axis::new(label(x), range(x)),
-            y: Axis::new(label(y), range(y)),
+            x: Axis::new(label(x), self.range(x)),
+            y: Axis::new(label(y), self.range(y)),
             layers,
             note: if empty { "nothing to draw" } else { "" }.to_owned(),
             ..Plot::default()
@@ -103,14 +123,6 @@ impl PlotFile {
             false => picture.svg().as_bytes().to_vec(),
         };
         stage.write(self.room, self.path, |out| out.write_all(&bytes))
-    }
-}
-
-/// A phase is shown over the whole period.
-fn range(column: &str) -> Range {
-    match column {
-        "phase" => Range::Fixed(0.0, 1.0),
-        _ => Range::Auto,
     }
 }
 

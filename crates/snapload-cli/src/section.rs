@@ -27,12 +27,14 @@ which cable, at which v_n, and the state just before and after.
 
 Examples:
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
-      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --plot torus.svg
-      a point mass whose motion never repeats itself: its points lie on closed curves
+      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --phase 0.25 --periods 2000 --keep 1500 \\
+      --plot torus.svg --show x,y
+      a point mass whose motion never repeats itself: its points lie on two closed curves, one for every
+      other period
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
       a table of the last 50 points
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
-      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --at impacts \\
+      --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --at impacts --periods 2000 --keep 1500 \\
       --out impacts.parquet --plot impacts.svg
       v_n of each impact against the phase of the forcing";
 
@@ -110,9 +112,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Some(impacts) => table.stage(&mut stage, &impact_columns(impacts))?,
         None => table.stage(&mut stage, &columns(&section))?,
     }
-    if let Some(plot) = plot {
+    if let Some(mut plot) = plot {
         let layers = match impacts {
-            Some(impacts) => impact_layers(impacts, &plot),
+            Some(impacts) => {
+                plot.phase_from = phase_from(impacts);
+                impact_layers(impacts, &plot)
+            }
             None => section_layers(&section, &plot),
         };
         plot.stage(&mut stage, &case_in_words(&input.name, parameters), layers)?;
@@ -188,6 +193,26 @@ fn impact_columns(impacts: &[ImpactPoint]) -> Vec<(&'static str, Values)> {
     columns
 }
 
+/// A phase this far from all impacts cuts no marker.
+const CLEAR: f64 = 0.03;
+
+/// From which phase on a period is drawn: from 0, or if impacts are near from the tenth that is farthest
+/// from all of them, so that a group of impacts is not torn apart.
+fn phase_from(impacts: &[ImpactPoint]) -> f64 {
+    let clear = |tenths: &i32| {
+        let off = |impact: &ImpactPoint| impact.phase - f64::from(*tenths) / 10.0;
+        let distances = impacts
+            .iter()
+            .map(|impact| (off(impact) - off(impact).round()).abs());
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let farthest = (-5..5).max_by(|a, b| clear(a).total_cmp(&clear(b)));
+    match farthest {
+        Some(tenths) if clear(&0) < CLEAR => f64::from(tenths) / 10.0,
+        _ => 0.0,
+    }
+}
+
 fn impact_layers(impacts: &[ImpactPoint], plot: &PlotFile) -> Vec<Layer> {
     let [x, y] = &plot.axes;
     let drawn = [
@@ -197,7 +222,7 @@ fn impact_layers(impacts: &[ImpactPoint], plot: &PlotFile) -> Vec<Layer> {
     let layer = |(cable, shape, colour)| {
         let of_cable = impacts.iter().filter(|impact| impact.cable == cable);
         let points: Vec<_> = of_cable
-            .map(|impact| [of_impact(impact, x), of_impact(impact, y)])
+            .map(|impact| [x, y].map(|column| plot.placed(column, of_impact(impact, column))))
             .collect();
         let words = format!("cable {cable}");
         (!points.is_empty()).then_some(Layer::Markers(points, shape, colour, words))
@@ -230,4 +255,30 @@ fn columns(section: &Section) -> Vec<(&'static str, Values)> {
         columns.push((name, numbers(section.points.iter().map(|point| point[i]))));
     }
     columns
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn impacts(phases: &[f64]) -> Vec<ImpactPoint> {
+        let at = |phase: &f64| ImpactPoint {
+            t: *phase,
+            phase: *phase,
+            cable: 1,
+            v_n: 1.0,
+            impulse: 1.0,
+            before: [0.0; 6],
+            after: [0.0; 6],
+        };
+        phases.iter().map(at).collect()
+    }
+
+    #[test]
+    fn a_period_is_drawn_from_where_no_impact_is_near() {
+        assert_eq!(phase_from(&impacts(&[])), 0.0);
+        assert_eq!(phase_from(&impacts(&[0.2, 0.5, 0.9])), 0.0);
+        assert_eq!(phase_from(&impacts(&[0.001, 0.11, 0.98, 0.999])), -0.5);
+        assert_eq!(phase_from(&impacts(&[0.99, 0.2, 0.5, 0.6])), -0.2);
+    }
 }

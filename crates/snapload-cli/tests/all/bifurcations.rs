@@ -268,3 +268,47 @@ fn sections_and_branches_are_drawn() {
         .code(2)
         .stderr(contains(".svg or .png"));
 }
+
+/// The points of the first example of a section fill their two closed curves: seen from the middle of a curve no
+/// two neighbours are far apart.
+#[test]
+fn the_example_of_a_torus_shows_curves() {
+    let d = directory();
+    let help = snapload(d.path()).args(["section", "--help"]).assert();
+    let help = String::from_utf8_lossy(&help.get_output().stdout).into_owned();
+    let examples = help.split("Examples:").nth(1).unwrap();
+    let example = examples.split("snapload section ").nth(1).unwrap();
+    let example = example.split("--plot").next().unwrap().replace('\\', " ");
+    let told = snapload(d.path())
+        .arg("section")
+        .args(example.split_whitespace())
+        .args(["--json", "-"])
+        .assert()
+        .success();
+    let told: Value = serde_json::from_slice(&told.get_output().stdout).unwrap();
+    let points: Vec<[f64; 2]> = told["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|point| [0, 1].map(|i| number(&point["state"][i])))
+        .collect();
+    for first in [0, 1] {
+        let curve: Vec<&[f64; 2]> = points.iter().skip(first).step_by(2).collect();
+        let ends = |i: usize| {
+            let values = || curve.iter().map(|point| point[i]);
+            let [low, high] = [values().fold(9.0, f64::min), values().fold(-9.0, f64::max)];
+            ((low + high) / 2.0, (high - low) / 2.0)
+        };
+        let [(x, wide), (y, high)] = [ends(0), ends(1)];
+        let mut angles: Vec<f64> = curve
+            .iter()
+            .map(|point| ((point[1] - y) / high).atan2((point[0] - x) / wide))
+            .collect();
+        angles.sort_by(f64::total_cmp);
+        let widest = angles
+            .windows(2)
+            .map(|two| two[1] - two[0])
+            .fold(0.0, f64::max);
+        assert!(widest < 0.1, "{widest}");
+    }
+}
