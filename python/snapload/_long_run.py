@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Unpack
@@ -76,7 +77,8 @@ def section(
 
     Notes
     -----
-    The stops by settling and sliding are off. Python's lock is released meanwhile, and Ctrl-C ends it.
+    The stops by settling and sliding are off. A motion that stops before the first point leaves a dataset without
+    points, and a warning. Python's lock is released meanwhile, and Ctrl-C ends it.
 
     Examples
     --------
@@ -91,6 +93,12 @@ def section(
     if at not in ("periods", "impacts"):
         raise ValueError(f"at = {at!r} is not allowed; allowed: 'periods', 'impacts'")
     told = _section(case, periods, keep, phase, at == "impacts", progress)
+    if told["stop"] is not None and not told["points"]:
+        warnings.warn(
+            f"the motion of this start {_stopped(told)}, before the first point of the section, which comes after "
+            f"{periods - keep} periods of the forcing; ask for fewer periods, or begin elsewhere",
+            stacklevel=2,
+        )
     from ._dataset import ABOUT
 
     variables: dict[str, Any] = {}
@@ -207,8 +215,7 @@ def lyapunov_spectrum(
     # Growth is measured between sections, so that one more than periods is needed.
     told = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
     if told["stop"] is not None:
-        reason, t = told["stop"]["reason"].replace("_", " "), told["stop"]["t"]
-        raise ValueError(f"the motion of this start stops at t = {t:.4f}, {reason}; begin elsewhere, or ask less")
+        raise ValueError(f"the motion of this start {_stopped(told)}; begin elsewhere, or ask less")
     values, errors = _spectrum(told["exponents"])
     return LyapunovSpectrum(values, errors, periods, transient)
 

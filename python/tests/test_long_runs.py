@@ -58,7 +58,10 @@ def test_a_section_of_an_orbit_has_its_multipliers():
     np.testing.assert_allclose(found.x, orbit.state[0], atol=1e-12)
     np.testing.assert_allclose(found.exponent, orbit.exponents, rtol=2e-2)
     assert float(found.exponent[0]) == pytest.approx(orbit.exponents[0], rel=1e-8)
-    stopped = snapload.section(snapload.Case(f_o=0.5), periods=20, keep=10)
+    early = r"stops at t = 10\.0247, rotation limit, before the first point of the section, .* after 10 periods"
+    with pytest.warns(UserWarning, match=early):
+        stopped = snapload.section(snapload.Case(f_o=0.5), periods=20, keep=10)
+    assert stopped.sizes["k"] == 0
     assert stopped.attrs["stop"] == "rotation_limit" and stopped.attrs["stop_t"] == pytest.approx(10.0247, abs=1e-4)
 
 

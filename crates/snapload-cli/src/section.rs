@@ -12,6 +12,7 @@ use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
 use snapload_orbits::{
     ImpactPoint, MOST_KEPT, Section, SectionRow, Stretch, section_in_words, stretch,
+    without_points_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::Values;
@@ -107,6 +108,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         bar.show(progress)
     })?;
     drop(bar);
+    if let Some(why) = without_points_in_words(&section) {
+        return Err(Failure::Failed(format!(
+            "no section: the motion of this start {why}; ask for fewer --periods, or begin elsewhere"
+        )));
+    }
     let impacts = kept(&section)?;
     match impacts {
         Some(impacts) => table.stage(&mut stage, &impact_columns(impacts))?,

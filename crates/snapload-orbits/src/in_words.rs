@@ -70,6 +70,10 @@ pub(crate) fn periods(n: usize) -> String {
     }
 }
 
+fn of_the_forcing(n: usize) -> String {
+    format!("{} of the forcing", periods(n))
+}
+
 /// An exponent with its standard error, which is rounded up, so that none is told as known better than
 /// it is.
 pub(crate) fn exponent_in_words([mean, error]: [f64; 2]) -> String {
@@ -93,9 +97,24 @@ fn exponents_in_words(exponents: &[[f64; 2]]) -> String {
     all.join(", ")
 }
 
+/// That a motion stopped before the first point of its section, where it did; the words go on after
+/// "the motion of this start".
+pub fn without_points_in_words(section: &Section) -> Option<String> {
+    let stop = section.stop.filter(|_| section.points.is_empty())?;
+    Some(format!(
+        "stops at t = {:.4}: {}. That is before the first point of the section, which comes after {}",
+        section.end.1,
+        stop.meaning(),
+        of_the_forcing(section.first as usize)
+    ))
+}
+
 /// A section.
 pub fn section_in_words(section: &Section) -> String {
     let mut text = String::new();
+    if let Some(why) = without_points_in_words(section) {
+        return format!("Stopped   The motion of this start {why}\n");
+    }
     if let Some(stop) = section.stop {
         let _ = writeln!(
             text,

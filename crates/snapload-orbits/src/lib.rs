@@ -73,7 +73,7 @@ pub use hybrid::{
 pub use impact_map::{ImpactPoint, Impacts, MOST_KEPT};
 pub use in_words::{
     attraction_in_words, basin_in_words, diagram_in_words, erosion_in_words, orbit_in_words,
-    section_in_words,
+    section_in_words, without_points_in_words,
 };
 pub use lap::{Lap, Leg, Linearised};
 pub use moored::{Cables, Moored};

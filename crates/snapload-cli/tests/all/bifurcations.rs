@@ -312,3 +312,23 @@ fn the_example_of_a_torus_shows_curves() {
         assert!(widest < 0.1, "{widest}");
     }
 }
+
+/// A motion that stops before the first point has no section: that is said, and no file is written.
+#[test]
+fn a_section_without_points_is_none() {
+    let d = directory();
+    snapload(d.path())
+        .args("section --set f_o=0.5 --plot x.svg --out x.csv".split(' '))
+        .assert()
+        .code(1)
+        .stderr(contains(
+            "the motion of this start stops at t = 10.0247: the rotation reached its limit. That is before the first \
+             point of the section, which comes after 300 periods of the forcing; ask for fewer --periods",
+        ));
+    assert_eq!(std::fs::read_dir(d.path()).unwrap().count(), 0);
+    snapload(d.path())
+        .args("section --set f_o=0.5 --periods 3 --keep 2 --out x.csv".split(' '))
+        .assert()
+        .success()
+        .stdout(contains("Stopped   at t = 10.0247"));
+}
