@@ -96,7 +96,7 @@ def test_an_orbit_is_that_of_the_command(command, command_json, start):
     assert orbit.admissible == snapload.Admissible(**admissible)
     assert orbit.start_distance == told["start_distance"]
     shown = command("orbit", *words)
-    assert str(orbit) in shown and str(orbit).startswith("Orbit     stable of one period")
+    assert str(orbit) in shown and str(orbit).startswith("Orbit     stable, of one period of the forcing")
 
 
 def test_random_starts_lead_to_those_of_the_command(command_json):
@@ -139,7 +139,7 @@ def test_orbits_compare_copy_and_travel():
     for other in (pickle.loads(pickle.dumps(orbit)), copy.deepcopy(orbit)):
         assert other == orbit and repr(other) == repr(orbit) == "<Orbit: stable, 1 period, 2, 1>"
         np.testing.assert_allclose(other.run(trust=False).end.state, orbit.state, atol=1e-13)
-    assert orbit != snapload.Case(**{**VOLLEY, "f_o": 1.41}).orbit() and "stable of one period" in orbit._repr_html_()
+    assert orbit != snapload.Case(**{**VOLLEY, "f_o": 1.41}).orbit() and "stable, of one period" in orbit._repr_html_()
 
 
 def test_a_ball_on_a_table_is_that_of_holmes():

@@ -108,7 +108,7 @@ pub fn branch_in_words(along: &str, branch: &Branch) -> String {
         .iter()
         .filter(|point| point.orbit.is_admissible());
     let mut text = format!(
-        "Branch    {} points, {} of which a body has\n",
+        "Branch    {} points, {} of them orbits that a body can have\n",
         branch.points.len(),
         real.count()
     );

@@ -6,7 +6,8 @@ use crate::diagram::At;
 use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
 use crate::section::Section;
-use crate::sequence::words;
+use crate::sequence::{Sequence, words};
+use snapload::analysis::START_KEYS;
 use std::fmt::Write;
 
 /// Why a window has no legal cell.
@@ -17,11 +18,10 @@ const NO_START: &str =
 pub fn orbit_in_words(orbit: &Orbit) -> String {
     let stability = orbit.stability().name();
     let mut text = format!(
-        "Orbit     {} of {}, t = {:.6}: {}\n",
-        stability,
-        periods(orbit.periods as usize),
+        "Orbit     {stability}, of {}, which takes t = {:.6}\nEvents    {}\n",
+        of_the_forcing(orbit.periods as usize),
         orbit.length,
-        words(&orbit.lap.sequence)
+        events_in_words(&orbit.lap.sequence)
     );
     if orbit.smallest_periods < orbit.periods {
         let _ = writeln!(
@@ -32,8 +32,11 @@ pub fn orbit_in_words(orbit: &Orbit) -> String {
         );
     }
     // Adding 0 makes 0 of -0.
-    let state: Vec<String> = orbit.z.iter().map(|c| format!("{:.9}", c + 0.0)).collect();
-    let _ = writeln!(text, "Section   {}", state.join(" "));
+    let named = START_KEYS.iter().zip(&orbit.z);
+    let state: Vec<String> = named
+        .map(|(key, component)| format!("{key} = {:.9}", component + 0.0))
+        .collect();
+    let _ = writeln!(text, "Section   {}", state.join(", "));
     let multiplier = |[re, im]: &[f64; 2]| match *im {
         0.0 => format!("{re:.6}"),
         im => format!("{re:.6}{im:+.6}i"),
@@ -72,6 +75,19 @@ pub(crate) fn periods(n: usize) -> String {
 
 fn of_the_forcing(n: usize) -> String {
     format!("{} of the forcing", periods(n))
+}
+
+/// The events of a sequence: what the symbol says, in whole words.
+fn events_in_words(sequence: &Sequence) -> String {
+    let event = |word: String| match word.split_once(' ') {
+        None => format!("snap of cable {word}"),
+        Some((what, cable)) => format!("{what} of cable {cable}"),
+    };
+    let all: Vec<String> = sequence.symbol().into_iter().map(event).collect();
+    match all.is_empty() {
+        true => "none".to_owned(),
+        false => all.join(", "),
+    }
 }
 
 /// An exponent with its standard error, which is rounded up, so that none is told as known better than
@@ -125,11 +141,12 @@ pub fn section_in_words(section: &Section) -> String {
         return text;
     }
     let _ = match section.period() {
-        Some(n) => writeln!(text, "Repeats   itself after {}", periods(n)),
+        Some(n) => writeln!(text, "Repeats   itself after {}", of_the_forcing(n)),
         None => writeln!(
             text,
-            "Repeats   itself with no period up to {}",
-            section.longest_period()
+            "Repeats   itself after no number of periods of the forcing up to {}, the most that {} points tell",
+            section.longest_period(),
+            section.points.len()
         ),
     };
     if !section.exponents.is_empty() {

@@ -237,3 +237,26 @@ fn durations_in_turn_and_all_unknowns_together_give_one_step() {
     assert_eq!(step.len(), in_turn.len());
     assert!((&step - in_turn).amax() < 1e-11 * (1.0 + step.amax()));
 }
+
+/// An orbit tells its section by name and its events in words.
+#[test]
+fn an_orbit_is_told_in_words() {
+    let volley = Parameters {
+        inertia: None,
+        a: 0.0,
+        r: 1.7,
+        e: 0.35,
+        f_o: 1.4,
+        nu: 0.8,
+        omega: 3.1,
+        ..Parameters::STANDARD
+    };
+    let family = Moored::case(volley, [None; 2]);
+    let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
+    let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default()).unwrap();
+    let told = snapload_orbits::orbit_in_words(&orbit);
+    let first = "Orbit     stable, of one period of the forcing, which takes t = 2.026834\n\
+                 Events    snap of cable 2, snap of cable 1\n\
+                 Section   x = -0.268810219, y = 0.38";
+    assert!(told.starts_with(first), "{told}");
+}
