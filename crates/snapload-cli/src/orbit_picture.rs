@@ -129,8 +129,8 @@ impl PlotFile {
 /// What stands along an axis.
 fn label(column: &str) -> String {
     match column {
-        "v_n" => "*v*ₙ (nondimensional)".to_owned(),
-        "least_v_n" => "least *v*ₙ (nondimensional)".to_owned(),
+        "v_n" => "*v*ₙ (L/T)".to_owned(),
+        "least_v_n" => "least *v*ₙ (L/T)".to_owned(),
         "phase" => "phase of the forcing, *t*/*T*".to_owned(),
         "vx_before" | "vy_before" | "vtheta_before" => {
             let key = column.trim_end_matches("_before");

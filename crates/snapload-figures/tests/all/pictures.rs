@@ -135,36 +135,17 @@ fn every_figure_contains_its_labels() {
     );
     assert_says(
         rotation(&wave, Some(4.0)),
-        &[
-            "θ (rad)",
-            "t (T)",
-            "π/2",
-            "−π/2",
-            "beyond the horizon",
-        ],
+        &["θ (rad)", "t (T)", "π/2", "−π/2", "beyond the horizon"],
     );
     assert_says(
         snap_velocities([&wave, &wave], None),
-        &[
-            "vₙ⁻ (L/T)",
-            "t (T)",
-            "cable 1",
-            "cable 2",
-        ],
+        &["vₙ⁻ (L/T)", "t (T)", "cable 1", "cable 2"],
     );
     assert_says(
         tensions([&[up], &[down]], None),
-        &[
-            "T (F)",
-            "t (T)",
-            "cable 1",
-            "cable 2",
-        ],
+        &["T (F)", "t (T)", "cable 1", "cable 2"],
     );
-    assert_says(
-        energy(&wave, None),
-        &["E (F L)", "t (T)"],
-    );
+    assert_says(energy(&wave, None), &["E (F L)", "t (T)"]);
 }
 
 #[test]
