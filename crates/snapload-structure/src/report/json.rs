@@ -64,6 +64,15 @@ const JUDGED: [&str; 4] = [
     "slack_fraction",
 ];
 
+/// What a line comes to.
+fn judged(outcome: &Outcome, line: usize) -> Value {
+    let mut row = json!(outcome.lines[line]);
+    if outcome.is_unjudged() {
+        JUDGED.iter().for_each(|key| row[*key] = Value::Null);
+    }
+    row
+}
+
 impl Assessment {
     /// All of it; `name` is that of the case.
     pub fn to_json(&self, name: &str) -> Value {
@@ -72,10 +81,7 @@ impl Assessment {
         let utilisations = self.outcome.utilisations(structure);
         let line = |index: usize| {
             let line = &structure.lines[index];
-            let mut row = json!(self.outcome.lines[index]);
-            if self.outcome.is_unjudged() {
-                JUDGED.iter().for_each(|key| row[*key] = Value::Null);
-            }
+            let mut row = judged(&self.outcome, index);
             row["line"] = json!(index + 1);
             row["name"] = json!(line.name);
             row["length_m"] = json!(line.length_m);
