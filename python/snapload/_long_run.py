@@ -49,7 +49,7 @@ def section(
     keep : int
         Periods that are kept, the last ones.
     phase : float
-        Time of the section, in periods of the forcing.
+        Time of the section, in periods of the forcing. The start is the state then: another phase is another motion.
     at : {"periods", "impacts"}
         Where the points are: once a period, or at every impact of the kept periods.
     progress : bool
@@ -241,7 +241,7 @@ def orbit_diagram(
     keep : int
         Periods that are kept, the last ones.
     phase : float
-        Time of the section, in periods of the forcing.
+        Time of the section, in periods of the forcing. The start is the state then: another phase is another motion.
     down : bool
         Whether to go from the last value to the first. Where up and down differ there is more than one attractor.
     progress : bool

@@ -68,7 +68,8 @@ pub(crate) struct StretchArgs {
     /// Periods that are kept, the last ones
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(1, 1_000_000))]
     keep: u64,
-    /// Time of the section, in periods of the forcing
+    /// Time of the section, in periods of the forcing; the start is the state then, so that another
+    /// phase is another motion
     #[arg(long, value_name = "P", default_value_t = 0.0)]
     phase: f64,
 }
