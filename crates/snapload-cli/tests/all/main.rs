@@ -2,6 +2,7 @@
 //! files run side by side.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod bad_files;
 mod bifurcations;
 mod certified;
 mod command_line;

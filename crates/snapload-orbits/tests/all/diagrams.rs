@@ -1,6 +1,7 @@
 //! Long motions: periods, snaps, exponents; basins of attraction.
 
 use crate::common::{number, numbers, parameters, reference};
+use crate::orbits::volley;
 use snapload::Parameters;
 use snapload::analysis::unwatched;
 use snapload_orbits::{
@@ -146,16 +147,7 @@ fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
 /// A cable that is taut in the beginning, and not in the long run, closes nothing of the long run.
 #[test]
 fn what_was_taut_in_the_beginning_does_not_count() {
-    let volley = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    };
+    let (_, volley, _) = volley();
     let from_corner = Parameters {
         x: 0.0,
         y: 0.0,

@@ -151,7 +151,7 @@ fn kinds_of_stability_are_told() {
 }
 
 /// The stable orbit of the snaps 2, 1, and a start beside it.
-fn volley() -> (Moored, Parameters, Point) {
+pub fn volley() -> (Moored, Parameters, Point) {
     let all = orbits();
     let volley = all.iter().find(|orbit| orbit["name"] == "volley").unwrap();
     let case = parameters(&volley["case"]);
@@ -206,17 +206,7 @@ fn a_point_mass_is_not_followed_along_its_size() {
 /// Off the events, so that all residuals take part.
 #[test]
 fn durations_in_turn_and_all_unknowns_together_give_one_step() {
-    let case = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    };
-    let family = Moored::case(case, [None; 2]);
+    let (family, ..) = volley();
     let z = [-0.27, 0.39, 0.0, 0.79, -0.43, 0.0];
     let simulated = family.simulate([0.0; 2], 0.0, &z, 4.0 * family.period([0.0; 2]));
     let timed = simulated.expect("a case can be run").lap;
@@ -241,17 +231,7 @@ fn durations_in_turn_and_all_unknowns_together_give_one_step() {
 /// An orbit tells its section by name and its events in words.
 #[test]
 fn an_orbit_is_told_in_words() {
-    let volley = Parameters {
-        inertia: None,
-        a: 0.0,
-        r: 1.7,
-        e: 0.35,
-        f_o: 1.4,
-        nu: 0.8,
-        omega: 3.1,
-        ..Parameters::STANDARD
-    };
-    let family = Moored::case(volley, [None; 2]);
+    let (family, ..) = volley();
     let near = [-0.27, 0.38, 0.0, 0.81, -0.43, 0.0];
     let orbit = Orbit::find(&family, [0.0; 2], &near, &Wanted::default()).unwrap();
     let told = snapload_orbits::orbit_in_words(&orbit);

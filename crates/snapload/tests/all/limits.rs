@@ -145,6 +145,15 @@ fn body_of(kind: &str, random: &mut Random) -> (System, State) {
     (system, start)
 }
 
+/// So few impacts that roundings stay small.
+fn without_limits(t_end: f64) -> Rules {
+    Rules {
+        max_impacts: 12,
+        v_stick: 1e-6,
+        ..Rules::until(t_end)
+    }
+}
+
 /// Whether a run is told to be known to its end, if its start may be off by `size`, and how it ends.
 fn followed(system: &System, rules: Rules, start: State, size: f64) -> (bool, Stop) {
     let simulation = Simulation::new(system.clone(), rules, 0.0, start);
@@ -169,15 +178,9 @@ fn a_limit_that_neighbours_may_meet_ends_trust() {
             let mut told = [0, 0];
             for case in 0..40 {
                 let (system, start) = body_of(kind, &mut random);
-                let rules = Rules {
-                    max_impacts: 12,
-                    v_stick: 1e-6,
-                    ..Rules::until(random.between(0.5, 2.0))
-                };
+                let rules = without_limits(random.between(0.5, 2.0));
                 let free = Free::of(&system, rules, start, limit);
-                let largest = free.seen.iter().map(|(_, value)| *value);
-                let largest = largest.fold(f64::MIN, f64::max);
-                let bound = largest + 40.0 * SIZE * random.next().powi(3);
+                let bound = free.largest() + 40.0 * SIZE * random.next().powi(3);
                 if bound <= free.seen[0].1 + 100.0 * SIZE {
                     continue;
                 }
@@ -221,6 +224,12 @@ impl Free {
         }
     }
 
+    /// The largest value that is seen.
+    fn largest(&self) -> f64 {
+        let values = self.seen.iter().map(|(_, value)| *value);
+        values.fold(f64::MIN, f64::max)
+    }
+
     fn value(&self, limit: Limit, t: f64) -> f64 {
         limit.quantity(self.run.system(), &self.run.at(t).state)
     }
@@ -252,14 +261,9 @@ fn a_limit_is_met_where_its_quantity_first_reaches_the_bound() {
             let mut met = 0;
             for case in 0..60 {
                 let (system, start) = body_of(kind, &mut random);
-                let rules = Rules {
-                    max_impacts: 12,
-                    v_stick: 1e-6,
-                    ..Rules::until(random.between(1.0, 6.0))
-                };
+                let rules = without_limits(random.between(1.0, 6.0));
                 let free = Free::of(&system, rules, start, limit);
-                let largest = free.seen.iter().map(|(_, value)| *value);
-                let (first, largest) = (free.seen[0].1, largest.fold(f64::MIN, f64::max));
+                let (first, largest) = (free.seen[0].1, free.largest());
                 let with = |bound: f64| Rules {
                     limits: LimitBounds::none().with(limit, bound),
                     ..rules
