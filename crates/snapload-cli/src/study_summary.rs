@@ -67,7 +67,7 @@ impl<'a> Summary<'a> {
             } = tally;
             let _ = writeln!(
                 text,
-                "Trust     {certain} of {judged} ends are certain (which, says the column certain)"
+                "Trust     {certain} of {judged} ends are certain (the column certain says which)"
             );
         }
         if let Some((row, error)) = &tally.first_error {

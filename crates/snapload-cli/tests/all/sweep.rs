@@ -288,7 +288,7 @@ fn the_summary_tells_how_many_ends_are_certain() {
     let d = directory();
     let told = sweep(d.path(), &["--vary", "e=0.5,0.55,0.9"], "e.parquet").success();
     told.stdout(contains(
-        "Trust     2 of 3 ends are certain (which, says the column certain)",
+        "Trust     2 of 3 ends are certain (the column certain says which)",
     ));
     let told = sweep(
         d.path(),
