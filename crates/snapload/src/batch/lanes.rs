@@ -135,9 +135,11 @@ impl Lanes {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 if is_x86_feature_detected!("avx512f") => x86::avx512(runs, tell),
             #[cfg(feature = "comparisons")]
-            Self::Plain => {
-                LaneScheduler::<crate::batch::vector::Several<f64, 4>, C>::new(runs, tell).run_all()
-            }
+            Self::Plain => LaneScheduler::<
+                crate::batch::vector::Pair<crate::batch::vector::Pair<f64>>,
+                C,
+            >::new(runs, tell)
+            .run_all(),
             Self::One | Self::Avx2 | Self::Avx512 => {
                 dispatch(LaneScheduler::<f64, C>::new(runs, tell))
             }
@@ -151,12 +153,12 @@ mod x86 {
     #![expect(unsafe_code, reason = "functions for one kind of processor; see below")]
     use super::{Follower, LaneScheduler, Runs, Tell, Usage};
     use crate::arithmetic::processor;
-    use crate::batch::vector::Several;
+    use crate::batch::vector::Pair;
     use crate::batch::vector::x86::{Avx2, Avx512};
 
     pub(super) fn avx2<C: Follower>(runs: Runs<C>, tell: Tell<C>) -> Usage {
         #[target_feature(enable = "avx2,fma")]
-        fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Several<Avx2, 2>, C>) -> Usage {
+        fn run_all<C: Follower>(scheduler: LaneScheduler<'_, Pair<Avx2>, C>) -> Usage {
             scheduler.run_all()
         }
         assert!(processor::has_fma());
