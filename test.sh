@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that must hold: formatting, lints, documentation and all tests, those of the Python package and the
 # manual among them. Needs a Rust toolchain (https://rustup.rs) and Python 3.11 or later; adds rustfmt and clippy where
-# they are missing, and by apt-get Chromium, in which the report is opened, and Python's venv, where there are none.
+# they are missing, and by apt-get Chromium, in which pages are opened, and Python's venv, where there are none.
 set -euo pipefail
 cd "$(dirname "$0")"
 if ! command -v cargo >/dev/null; then
@@ -16,13 +16,16 @@ cargo fmt --version >/dev/null 2>&1 || rustup component add rustfmt
 cargo clippy --version >/dev/null 2>&1 || rustup component add clippy
 
 missing=()
-command -v chromium >/dev/null || missing+=(chromium)
+# Its headless shell is Chromium without windows of its own, and quicker; not every system has it as a package.
+browser=chromium-headless-shell
+command -v $browser >/dev/null || command -v chromium >/dev/null || missing+=("$browser")
 python3 -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
 if [ ${#missing[@]} -gt 0 ]; then
-  echo "test.sh: installing ${missing[*]}"
   as_root=""
   [ "$(id -u)" -eq 0 ] || as_root="sudo"
   $as_root apt-get update -qq
+  apt-cache show $browser >/dev/null 2>&1 || missing=("${missing[@]/#$browser/chromium}")
+  echo "test.sh: installing ${missing[*]}"
   $as_root apt-get install -y -qq "${missing[@]}" >/dev/null
 fi
 

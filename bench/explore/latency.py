@@ -29,7 +29,8 @@ SLIDE = "(slider, value) => { slider.value = value; slider.dispatchEvent(new Eve
 def main() -> None:
     program = sys.argv[1] if len(sys.argv) > 1 else ROOT / "target" / "release" / "snapload"
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        browser = shutil.which("chromium") or shutil.which("chromium-headless-shell")
+        chromium = playwright.chromium.launch(executable_path=browser, args=["--no-sandbox"])
         print(f"{'case':<24}{'value':<14}{'median':>9}{'90 %':>9}{'slowest':>9}   ms, {STEPS} steps each")
         thesis = []
         for case in CASES:

@@ -47,7 +47,8 @@ def url() -> Iterator[str]:
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    chromium = shutil.which("chromium")
+    # The shell is Chromium without windows of its own, which takes a fifth less time.
+    chromium = shutil.which("chromium-headless-shell") or shutil.which("chromium")
     assert chromium, "there is no chromium on the PATH; ./test.sh installs it"
     quiet = ["--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run"]
     with sync_playwright() as playwright:

@@ -52,6 +52,8 @@ class Window:
         self.page.set_default_timeout(15_000)
         self.url, self.wrong, self.refused = url, wrong, refused
         self.page.goto(url + (f"#{fragment}" if fragment else ""))
+        # A window that was used need not have told its page where the pointer is.
+        self.page.mouse.move(0, 0)
         return self.page
 
     def leave(self) -> None:
