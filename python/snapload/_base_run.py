@@ -191,8 +191,8 @@ class BaseRun:
     def exponents(self) -> Table:
         """The spectrum of finite-time Lyapunov exponents, the largest first.
 
-        Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity where sticking closes a direction. Empty
-        without trust.
+        Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity in the two directions that a cable closes
+        which has stayed taut. Empty without trust.
 
         See Also
         --------

@@ -34,7 +34,7 @@ class CriticalForce(Result):
     f_cr : float or None
         The smallest one that exceeds [F]; None if none does.
     reason : str or None
-        How its run ends: ``rotation_limit`` or ``upper_bound``.
+        How its run ends: at which limit, such as ``rotation_limit`` or ``upper_bound``.
     t : float or None
         When [T].
     exceeding : numpy.ndarray, shape (n, 2)

@@ -60,8 +60,9 @@ impl ExactCase {
     ) -> Result<Self, String> {
         let unknown = |(limit, _): &(Limit, f64)| !PROVABLE.contains(limit);
         if let Some((limit, _)) = parameters.rules().limits.iter().find(unknown) {
-            let name = limit.stop().words();
-            return Err(format!("a proof does not know the {name}; leave it out"));
+            let (words, key) = (limit.stop().words(), limit.stop().name());
+            let why = format!("a proof does not know the {words}; leave {key} out");
+            return Err(why);
         }
         let mut decimal = |key: &str, value: f64| {
             typed(key)

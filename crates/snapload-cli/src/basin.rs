@@ -19,7 +19,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-A start is safe if its run reaches neither the rotation limit nor the upper bound up to t_end; settling is safe.
+A start is safe if its run reaches no limit of the motion up to t_end, such as the rotation limit or the upper
+bound; settling is safe.
 Starts beyond a cable or a limit are not legal and no part of the window. A cell is decided if its neighbours at
 1e-8, and where rounding may decide its run nearer ones, too, end alike.
 

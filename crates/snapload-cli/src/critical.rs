@@ -15,8 +15,9 @@ use snapload_study::Axis;
 use std::fmt::Write;
 
 const EXAMPLES: &str = "\
-The critical force is the smallest f_o = step, 2 step, ... whose run stops at the rotation limit or the
-upper bound. Larger ones may settle again, so all that exceed are listed as intervals.
+The critical force is the smallest f_o = step, 2 step, ... whose run stops at a limit of the motion, such as
+the rotation limit or the upper bound. Larger ones may settle again, so all that exceed are listed as
+intervals.
 --set stop_when_sliding=true ends a run that begins to slide, as the chapter's own studies did.
 
 Examples:

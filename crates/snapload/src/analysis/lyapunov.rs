@@ -1,7 +1,12 @@
 //! Lyapunov exponents: the rates at which deviations grow.
 
 use crate::arithmetic::processor::{Aligned, Kernel, dispatch};
+use crate::model::cable::Cable;
+use crate::model::state::State;
+use crate::model::system::System;
+use crate::model::taut_set::TautSet;
 use crate::motion::bounce_map::BounceMap;
+use crate::motion::simulation::{Simulation, Step};
 use crate::motion::step_map::{Block, StepMap};
 
 /// Six directions carried along a run and made orthogonal after each step (Benettin, Galgani,
@@ -18,16 +23,18 @@ pub struct Frame {
     lengths: [f64; 6],
     /// Bounces since the directions were last made orthogonal.
     bounces: u32,
+    /// Steps along taut cables since the directions were last put back along them.
+    taut_steps: u32,
 }
 
 /// Directions to be made orthogonal, by the best instructions for it.
-struct MakingOrthogonal<'a>(&'a mut Frame);
+struct MakingOrthogonal<'a>(&'a mut Frame, f64);
 
 impl Kernel for MakingOrthogonal<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.0.make_orthogonal_here();
+        self.0.make_orthogonal_here(self.1);
     }
 }
 
@@ -37,6 +44,11 @@ const RANGE: f64 = 1e100;
 /// then is left of the one that grows least has lost some eight digits of sixteen.
 const MOST_BOUNCES: u32 = 8;
 const GROWN: f64 = 1e4;
+/// Directions are put back along the same taut cables after so many steps: what leaves these meanwhile
+/// is rounding.
+const MOST_TAUT_STEPS: u32 = 16;
+/// A direction of which less than this part is left has no place of its own: the rest is rounding.
+const ROUNDING: f64 = 1e-10;
 
 impl Frame {
     /// The frame of the components.
@@ -51,7 +63,16 @@ impl Frame {
             logs: [0.0; 6],
             lengths: [1.0; 6],
             bounces: 0,
+            taut_steps: 0,
         }
+    }
+
+    /// That of a motion that begins with taut cables.
+    pub fn along(system: &System, state: &State, taut: TautSet) -> Self {
+        let mut frame = Self::new();
+        frame.keep_along(system, state, taut);
+        frame.lengths = [1.0; 6];
+        frame
     }
 
     /// Carries it through one step.
@@ -63,11 +84,53 @@ impl Frame {
     #[inline(always)]
     pub(crate) fn follow_here(&mut self, map: &StepMap) {
         if self.bounces > 0 {
-            self.make_orthogonal();
+            self.make_orthogonal(0.0);
         }
         self.memory.resize(map.memory_rows(), [0.0; 8]);
         map.carry_at_one_time(&mut self.directions.0, &mut self.memory);
-        self.make_orthogonal();
+        self.make_orthogonal(0.0);
+    }
+
+    /// Carries it through a step that a run has made, and keeps it along the cables that are taut then.
+    #[inline(always)]
+    pub(crate) fn follow_step(&mut self, map: &StepMap, simulation: &Simulation, step: &Step) {
+        self.follow_here(map);
+        if step.taut_after.is_empty() {
+            return;
+        }
+        self.taut_steps += 1;
+        if step.taut_after != step.taut || self.taut_steps >= MOST_TAUT_STEPS {
+            self.taut_steps = 0;
+            self.keep_along(simulation.system(), &step.after, step.taut_after);
+        }
+    }
+
+    /// Puts it back along taut cables, which leave no deviation of their gaps and of the gaps' rates;
+    /// directions that have no place left there are closed from now on, and their exponents −∞.
+    /// The linearised motion does not do it: off the cables a deviation that is a rounding goes on by
+    /// itself, and would be told as a small exponent.
+    pub fn keep_along(&mut self, system: &System, state: &State, taut: TautSet) {
+        let mut rows = [[0.0; 6]; 6];
+        let mut count = 0;
+        for cable in taut.iter() {
+            for row in slopes_of_gap_and_rate(&system.cables[cable], state) {
+                count += usize::from(count < 6 && add_orthogonal(&mut rows, count, row));
+            }
+        }
+        for row in &rows[..count] {
+            let mut along = [0.0; 8];
+            for (slope, components) in row.iter().zip(&self.directions.0) {
+                for (along, component) in along.iter_mut().zip(components) {
+                    *along += slope * component;
+                }
+            }
+            for (slope, components) in row.iter().zip(&mut self.directions.0) {
+                for (component, along) in components.iter_mut().zip(along) {
+                    *component -= slope * along;
+                }
+            }
+        }
+        self.make_orthogonal(ROUNDING);
     }
 
     /// Carries it through a bounce, which closes no direction: as long as the directions have not
@@ -77,7 +140,7 @@ impl Frame {
         map.at_one_time(&mut self.directions.0);
         self.bounces += 1;
         if self.bounces == MOST_BOUNCES || self.has_grown() {
-            self.make_orthogonal();
+            self.make_orthogonal(0.0);
         }
     }
 
@@ -99,26 +162,27 @@ impl Frame {
     }
 
     /// Gram and Schmidt's procedure: each direction is taken off all that follow, at once, and all
-    /// are brought to length 1 in the end.
-    fn make_orthogonal(&mut self) {
-        dispatch(MakingOrthogonal(self));
+    /// are brought to length 1 in the end. What is left no longer than `least` is closed.
+    fn make_orthogonal(&mut self, least: f64) {
+        dispatch(MakingOrthogonal(self, least));
     }
 
     #[inline(always)]
-    fn make_orthogonal_here(&mut self) {
+    fn make_orthogonal_here(&mut self, least: f64) {
+        let least = least * least;
         self.bounces = 0;
         let mut squares = [0.0; 8];
         // One after the other by hand: which is which is then known when it is compiled.
-        self.take_off::<0>(&mut squares);
-        self.take_off::<1>(&mut squares);
-        self.take_off::<2>(&mut squares);
-        self.take_off::<3>(&mut squares);
-        self.take_off::<4>(&mut squares);
-        self.take_off::<5>(&mut squares);
+        self.take_off::<0>(&mut squares, least);
+        self.take_off::<1>(&mut squares, least);
+        self.take_off::<2>(&mut squares, least);
+        self.take_off::<3>(&mut squares, least);
+        self.take_off::<4>(&mut squares, least);
+        self.take_off::<5>(&mut squares, least);
         let mut scales = [0.0; 8];
         for (scale, square) in scales.iter_mut().zip(&mut squares) {
             *square = square.sqrt();
-            // A direction that the law has closed stays closed.
+            // A direction that contact has closed stays closed.
             *scale = if *square > 0.0 { 1.0 / *square } else { 0.0 };
         }
         for row in self.directions.0[..6].iter_mut().chain(&mut self.memory) {
@@ -137,7 +201,7 @@ impl Frame {
 
     /// Takes the I-th direction off all that follow.
     #[inline(always)]
-    fn take_off<const I: usize>(&mut self, squares: &mut [f64; 8]) {
+    fn take_off<const I: usize>(&mut self, squares: &mut [f64; 8], least: f64) {
         let [mut along, mut more] = [[0.0; 8]; 2];
         for pair in self.directions.0[..6].chunks_exact(2) {
             for k in 0..8 {
@@ -153,7 +217,7 @@ impl Frame {
         for (along, more) in along.iter_mut().zip(more) {
             *along += more;
         }
-        let square = along[I];
+        let square = if along[I] > least { along[I] } else { 0.0 };
         squares[I] = square;
         let scale = if square > 0.0 { 1.0 / square } else { 0.0 };
         for (k, part) in along.iter_mut().enumerate() {
@@ -171,7 +235,7 @@ impl Frame {
     pub fn logs(&self) -> [f64; 6] {
         let mut frame = self.clone();
         if frame.bounces > 0 {
-            frame.make_orthogonal();
+            frame.make_orthogonal(0.0);
         }
         let mut logs = frame.logs;
         for (log, length) in logs.iter_mut().zip(frame.lengths) {
@@ -186,6 +250,42 @@ impl Frame {
         exponents.sort_by(|a, b| b.total_cmp(a));
         exponents
     }
+}
+
+/// ∂g and ∂ġ of a taut cable by x, y, θ, ẋ, ẏ, θ̇, where ġ = n·v + s θ̇; g itself up to a factor.
+fn slopes_of_gap_and_rate(cable: &Cable, state: &State) -> [[f64; 6]; 2] {
+    let (normal, by_place) = cable.normal_and_slopes(state);
+    let normal = [normal.n.x, normal.n.y, normal.arm];
+    let velocity = [state.vx, state.vy, state.vtheta];
+    let [mut gap, mut rate] = [[0.0; 6]; 2];
+    for j in 0..3 {
+        gap[j] = normal[j];
+        rate[j + 3] = normal[j];
+        for i in 0..3 {
+            rate[j] += by_place[i][j] * velocity[i];
+        }
+    }
+    [gap, rate]
+}
+
+/// Adds to orthonormal rows what of another is orthogonal to them; returns whether anything is.
+fn add_orthogonal(rows: &mut [[f64; 6]; 6], count: usize, mut row: [f64; 6]) -> bool {
+    let product = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let whole = product(&row, &row);
+    for _ in 0..2 {
+        for other in &rows[..count] {
+            let along = product(&row, other);
+            for (entry, other) in row.iter_mut().zip(other) {
+                *entry -= along * other;
+            }
+        }
+    }
+    let left = product(&row, &row);
+    if left <= ROUNDING * ROUNDING * whole {
+        return false;
+    }
+    rows[count] = row.map(|entry| entry / left.sqrt());
+    true
 }
 
 impl Default for Frame {

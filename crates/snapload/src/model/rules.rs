@@ -255,6 +255,10 @@ mod tests {
             Stop::ImpactLimit => 5,
         };
         assert!(Stop::ALL.into_iter().map(stop).eq(0..6));
+        // Where only the name is known, such as in files, people read it with blanks.
+        for stop in Stop::ALL {
+            assert_eq!(stop.words(), stop.name().replace('_', " "));
+        }
         let limit = |limit| match limit {
             Limit::Rotation => 0,
             Limit::UpperBound => 1,

@@ -218,10 +218,12 @@ impl Free {
         let end = run.end().t;
         let value = |t: f64| (t, limit.quantity(system, &run.at(t).state));
         let seen = (0..=500).map(|k| value(end * f64::from(k) / 500.0));
-        Self {
-            seen: seen.collect(),
-            run,
-        }
+        // A quantity that falls at an impact may be largest just before it.
+        let struck = run.impacts().iter();
+        let struck = struck.map(|impact| (impact.t, limit.quantity(system, &impact.before)));
+        let mut seen: Vec<_> = seen.chain(struck).collect();
+        seen.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Self { seen, run }
     }
 
     /// The largest value that is seen.

@@ -3,7 +3,9 @@
 use snapload::analysis::{
     Certainty, NormErrors, TrustMonitor, Uncertainty, Unfinished, trusted_run, unwatched,
 };
-use snapload::{Case, Parameters, Simulation, named_case};
+use snapload::{
+    Body, Cable, Case, Forcing, Mode, Parameters, Rules, Simulation, State, System, named_case,
+};
 
 /// Neighbours as far off as may be have norms that differ by less than is told, and by more
 /// than a thousandth of it.
@@ -188,4 +190,86 @@ fn an_inertia_can_be_in_doubt() {
         (natural / other - 1.0).abs() < 1e-3,
         "{natural:e} {other:e}"
     );
+}
+
+/// The exponents of a motion, and whether it is slack in the end.
+fn exponents_of(mut simulation: Simulation) -> ([f64; 6], bool) {
+    let mut monitor = TrustMonitor::new(&simulation, &[0.0; 6], 1e-3);
+    while let Some(step) = simulation.step() {
+        monitor.follow(&simulation, &step);
+    }
+    let slack = simulation.taut().mode() == Mode::Slack;
+    (monitor.verdict().exponents, slack)
+}
+
+/// A cable that stays taut leaves no deviation of its gap and none of the gap's rate: each cable that
+/// did so once closes two directions for good, and no more.
+#[test]
+fn a_cable_that_stays_taut_closes_two_directions() {
+    let until = |name: &str, t_end: f64| {
+        let named = named_case(name).expect("a built-in case");
+        let case = Case::new(Parameters {
+            t_end,
+            ..named.parameters
+        });
+        exponents_of(case.expect("legal").simulation())
+    };
+    let closed = |exponents: [f64; 6]| {
+        exponents
+            .iter()
+            .filter(|e| **e == f64::NEG_INFINITY)
+            .count()
+    };
+    // The body slides along a cable from 7.91 to 8.01, both are taut from 8.88 on, and from 8.16 on.
+    for (name, t_end, slack, expected) in [
+        ("sliding-example", 7.9, true, 0),
+        ("sliding-example", 8.0, false, 2),
+        ("sliding-example", 8.5, true, 2),
+        ("sliding-example", 100.0, false, 4),
+        ("rocking-example", 100.0, false, 4),
+    ] {
+        let (exponents, is_slack) = until(name, t_end);
+        assert_eq!(is_slack, slack, "{name} at {t_end}");
+        assert_eq!(closed(exponents), expected, "{name}: {exponents:?}");
+        assert!(exponents.iter().all(|e| !e.is_nan()));
+    }
+    // What is left of a body on two cables is one swing, which keeps areas (Liouville): the two
+    // exponents add up to what the beginning has left over the time.
+    let [area, later] = [50.0, 100.0].map(|t| {
+        let (exponents, _) = until("rocking-example", t);
+        (exponents[0] + exponents[1]) * t
+    });
+    assert!((later - area).abs() < 0.1, "{area} {later}");
+}
+
+/// A pendulum that begins with a taut cable has no deviation along it from the first, and its swing
+/// keeps areas, so that its two exponents cancel.
+#[test]
+fn a_pendulum_has_two_exponents_that_cancel() {
+    let system = System {
+        body: Body::point(),
+        cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
+        forcing: Forcing {
+            constant: [0.0, -1.0].into(),
+            harmonics: Vec::new(),
+        },
+        drag: None,
+        floating: None,
+        restitution: 0.5,
+    };
+    let start = State {
+        y: -1.0,
+        vx: 1.2,
+        ..State::default()
+    };
+    let t = 60.0;
+    let simulation = Simulation::new(system, Rules::until(t), 0.0, start).expect("legal");
+    let (exponents, _) = exponents_of(simulation);
+    // A point's rotation has two more, which are those of a drift: one grows like t.
+    let drift = t.hypot(1.0).ln() / t;
+    let at = |place: usize| exponents[place] * t;
+    assert_eq!(exponents[4..], [f64::NEG_INFINITY; 2], "{exponents:?}");
+    let sum: f64 = (0..4).map(at).sum();
+    assert!(sum.abs() < 0.1, "{exponents:?}: {sum}");
+    assert!(exponents[0] < 2.0 * drift, "{exponents:?}");
 }

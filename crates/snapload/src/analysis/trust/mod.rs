@@ -225,8 +225,8 @@ pub struct Trust {
     pub edge_errors: [f64; 2],
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,
-    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that sticking
-    /// closes.
+    /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that cables close
+    /// which have stayed taut.
     pub exponents: [f64; 6],
 }
 

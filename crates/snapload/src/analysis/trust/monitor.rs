@@ -61,7 +61,7 @@ impl TrustMonitor {
         let edge_errors = [spread.error_at_start(simulation.state()); 2];
         Self {
             spread,
-            frame: Frame::new(),
+            frame: Frame::along(simulation.system(), simulation.state(), simulation.taut()),
             errors: Vec::new(),
             grazes: Vec::new(),
             edge_errors,
@@ -142,8 +142,10 @@ impl Kernel for SeeingStep<'_, '_> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        self.0.note(&LinearMap::Step(self.1));
-        self.0.frame.follow_here(self.1);
+        let Self(records, map) = self;
+        records.note(&LinearMap::Step(map));
+        let (simulation, step) = records.latest;
+        records.frame.follow_step(map, simulation, step);
     }
 }
 
