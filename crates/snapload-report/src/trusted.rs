@@ -170,12 +170,13 @@ pub(crate) fn horizon_in_words(horizon: Option<Horizon>, tolerance: f64, impacts
         }
         HorizonCause::StopRule => "there a stop rule may or may not be met".to_owned(),
     };
-    let place = if impact <= impacts {
-        format!("before impact {impact} of {impacts}")
-    } else {
-        format!("for all {impacts} impacts")
+    let place = match impacts {
+        0 => String::new(),
+        _ if impact <= impacts => format!(" before impact {impact} of {impacts},"),
+        1 => " for its one impact,".to_owned(),
+        _ => format!(" for all {impacts} impacts,"),
     };
-    format!("{known} {place}, up to t = {t:.4}\n{what}")
+    format!("{known}{place} up to t = {t:.4}\n{what}")
 }
 
 /// How many of them, in words.
