@@ -173,6 +173,7 @@ impl Seas {
                 "failing": share.count, "of": share.of, "part": share.part(),
                 "interval_95": share.interval(),
             })),
+            "breaking_only_before_judged": self.breaking_only_early(),
             "snaps_in_three_hours": (self.judged_s() > 0.0).then(|| self.snaps_in_three_hours()),
             "slack_fraction": (self.judged_s() > 0.0).then(|| self.slack_fractions()),
             "warnings": self.warnings,

@@ -104,6 +104,9 @@ struct TrustWords<'a> {
 #[derive(Template)]
 #[template(path = "seas-words.txt")]
 struct SeasWords {
+    /// Records in which a line would break only in the time that is not judged.
+    early: usize,
+    transient_s: f64,
     fit: Option<Gumbel>,
     exceeding: usize,
     cut_short: usize,
@@ -132,13 +135,36 @@ fn left_open(warnings: &[Warning]) -> Option<(String, &'static str)> {
 /// A load that is not judged, as the transient is not over.
 struct Early {
     line: usize,
-    is_jolt: bool,
+    how: EarlyLoad,
+    /// 0 of what is held.
     speed_m_s: f64,
     peak_n: Option<f64>,
     utilisation: Option<f64>,
 }
 
+/// What kind of load that is.
+#[derive(PartialEq)]
+enum EarlyLoad {
+    Snap,
+    Jolt,
+    Held,
+}
+
 impl Early {
+    /// The largest load of each line while it is held taut or snaps, where tensions are known.
+    fn held<'a>(structure: &'a Structure, outcome: &'a Outcome) -> impl Iterator<Item = Self> {
+        let lines = outcome.lines.iter().zip(&structure.lines).enumerate();
+        let loaded =
+            lines.filter(|(_, (told, _))| structure.tensions_known() && told.early_n > 0.0);
+        loaded.map(|(line, (told, known))| Self {
+            line,
+            how: EarlyLoad::Held,
+            speed_m_s: 0.0,
+            peak_n: Some(told.early_n),
+            utilisation: known.breaking_load_n.map(|load| told.early_n / load),
+        })
+    }
+
     /// The part of its line's breaking load, else its size, else its speed.
     fn governs(&self) -> (Option<f64>, Option<f64>, f64) {
         (self.utilisation, self.peak_n, self.speed_m_s)
@@ -238,7 +264,7 @@ impl BothModels {
         let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
         let early = early.map(|pull| Early {
             line: pull.line,
-            is_jolt: false,
+            how: EarlyLoad::Snap,
             speed_m_s: pull.speed_m_s,
             peak_n: Some(pull.peak_n),
             utilisation: structure.lines[pull.line]
@@ -258,11 +284,17 @@ impl Assessment {
         let early = early.filter(|snap| snap.counts() && snap.t_s < structure.transient_s);
         let early = early.map(|snap| Early {
             line: snap.line,
-            is_jolt: snap.is_jolt,
+            how: if snap.is_jolt {
+                EarlyLoad::Jolt
+            } else {
+                EarlyLoad::Snap
+            },
             speed_m_s: snap.speed_m_s,
             peak_n: snap.peak_n,
             utilisation: snap.utilisation,
         });
+        // Of equal loads the snap is told, which has a speed.
+        let early = Early::held(structure, outcome).chain(early);
         let early = Early::hardest(early, structure, outcome);
         verdict(structure, outcome, &self.warnings, early, false)
     }
@@ -301,6 +333,8 @@ impl Seas {
     pub fn words(&self) -> String {
         let speeds = sorted(self.speeds_m_s().into_iter());
         paragraph(&SeasWords {
+            early: self.breaking_only_early(),
+            transient_s: self.prepared.structure.transient_s,
             fit: self.peak_in_three_hours(),
             exceeding: self.exceeding(),
             cut_short: self.cut_short(),

@@ -31,6 +31,10 @@ pub struct LineOutcome {
     pub least_n: Option<f64>,
     /// The part of the whole time without tension.
     pub slack_fraction: f64,
+    /// The largest tension before anything is judged, held or in a snap as far as that is known
+    /// \[N\].
+    #[serde(skip)]
+    pub early_n: f64,
 }
 
 impl LineOutcome {
@@ -109,6 +113,15 @@ impl Outcome {
         self.lines.iter().map(|line| line.snaps).sum()
     }
 
+    /// Whether a line would break before anything is judged.
+    pub fn breaks_early(&self, structure: &Structure) -> bool {
+        let mut lines = self.lines.iter().zip(&structure.lines);
+        lines.any(|(outcome, line)| {
+            line.breaking_load_n
+                .is_some_and(|load| outcome.early_n >= load)
+        })
+    }
+
     /// The largest tension of each line over its breaking load, where that is known.
     pub fn utilisations(&self, structure: &Structure) -> Vec<Option<f64>> {
         let one = |(outcome, line): (&LineOutcome, &crate::structure::LineSi)| {
@@ -160,19 +173,27 @@ impl<'a> Tally<'a> {
         }
         let scales = &self.prepared.model.scales;
         let transient_s = self.prepared.structure.transient_s;
-        if step.t_end * scales.time_s >= transient_s {
-            let ranges = simulation.tension_ranges(step);
-            for ((line, wave), range) in self.lines.iter_mut().zip(&mut self.waves).zip(ranges) {
-                // A line that is taut is not pushed: a tension below zero is rounding.
-                let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
+        let is_judged = step.t_end * scales.time_s >= transient_s;
+        let ranges = simulation.tension_ranges(step);
+        for ((line, wave), range) in self.lines.iter_mut().zip(&mut self.waves).zip(ranges) {
+            // A line that is taut is not pushed: a tension below zero is rounding.
+            let [least, largest] = range.map(|tension| tension.max(0.0) * scales.force_n);
+            if is_judged {
                 self.waves_n.extend(wave.see([least, largest]));
                 line.held_n = line.held_n.max(largest);
                 line.least_n = Some(line.least_n.map_or(least, |before| before.min(least)));
+            } else {
+                line.early_n = line.early_n.max(largest);
             }
         }
         let snaps = snaps_of_step(self.prepared, simulation, step);
-        for snap in snaps.iter().filter(|snap| snap.is_judged(transient_s)) {
-            self.count(snap);
+        for snap in snaps.iter().filter(|snap| snap.counts()) {
+            if snap.is_judged(transient_s) {
+                self.count(snap);
+            } else {
+                let line = &mut self.lines[snap.line];
+                line.early_n = line.early_n.max(snap.peak_n.unwrap_or(0.0));
+            }
         }
         snaps
     }

@@ -191,17 +191,27 @@ impl Seas {
     /// The share of records in which a line's breaking load is reached, or the body turns over or
     /// touches the floor; none if tensions or breaking loads are not known.
     pub fn failing(&self) -> Option<Share> {
-        let fails = |outcome: &Outcome| -> Option<bool> {
-            let all = outcome.utilisations(&self.prepared.structure).into_iter();
-            let all: Option<Vec<f64>> = all.collect();
-            Some(outcome.stop.exceeds() || all?.into_iter().any(|u| u >= 1.0))
-        };
-        let failed: Option<Vec<bool>> = self.outcomes().map(fails).collect();
+        let failed: Option<Vec<bool>> = self.outcomes().map(|one| self.fails(one)).collect();
         failed.map(|failed| Share {
             count: failed.iter().filter(|failed| **failed).count(),
             of: self.records.len(),
             clear: false,
         })
+    }
+
+    fn fails(&self, outcome: &Outcome) -> Option<bool> {
+        let all = outcome.utilisations(&self.prepared.structure).into_iter();
+        let all: Option<Vec<f64>> = all.collect();
+        Some(outcome.stop.exceeds() || all?.into_iter().any(|u| u >= 1.0))
+    }
+
+    /// Records in which a line would break before anything is judged, and none does from then on.
+    pub fn breaking_only_early(&self) -> usize {
+        let structure = &self.prepared.structure;
+        self.outcomes()
+            .filter(|outcome| outcome.breaks_early(structure))
+            .filter(|outcome| self.fails(outcome) == Some(false))
+            .count()
     }
 
     /// Part of the time that each line is slack, the mean over records.

@@ -30,6 +30,7 @@ impl Outcome {
     pub(super) fn of_pulls(sprung: &Prepared, run: &ElasticRun) -> Self {
         let transient_s = sprung.structure.transient_s;
         let judged = || run.pulls.iter().filter(|pull| pull.peak_s >= transient_s);
+        let early = || run.pulls.iter().filter(|pull| pull.peak_s < transient_s);
         let snapping =
             || judged().filter(|pull| pull.from_s >= transient_s && pull.speed_m_s >= SLOWEST_M_S);
         let of_line = |line: usize| {
@@ -46,6 +47,10 @@ impl Outcome {
                 held_n: run.peaks_n[line],
                 least_n: run.least_n[line],
                 slack_fraction: run.slack_fraction(line),
+                early_n: early()
+                    .filter(|pull| pull.line == line)
+                    .map(|pull| pull.peak_n)
+                    .fold(0.0, f64::max),
             }
         };
         Self {

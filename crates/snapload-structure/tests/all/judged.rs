@@ -152,6 +152,48 @@ fn a_line_that_breaks_before_it_is_judged_leaves_the_verdict_open() {
     assert!(!strong.words.contains("It would break"));
 }
 
+/// Records of a sea tell in how many a line breaks before anything is judged. From its first second
+/// on a line breaks in a record just where it breaks before it is judged, or from then on.
+#[test]
+fn records_tell_what_breaks_before_they_are_judged() {
+    for lines in [Lines::Inextensible, Lines::Elastic] {
+        let judged_from = |seconds: u32| {
+            let run = format!("[run]\nduration = 120\ntransient = {seconds}");
+            let sea = SEA.replace("[run]", &run);
+            let load = "diameter = 0.038\nbreaking_load = 3e6";
+            let structure = structure(&sea.replace("diameter = 0.038", load));
+            seas(structure, 8, lines, &unwatched).unwrap()
+        };
+        let [all, late] = [0, 80].map(judged_from);
+        assert_eq!(all.breaking_only_early(), 0);
+        let structure = &all.prepared.structure;
+        let mut early_alone = 0;
+        for (all, late) in all.records.iter().zip(&late.records) {
+            let breaks = |outcome: &snapload_structure::Outcome| {
+                let parts = outcome.utilisations(structure).into_iter().flatten();
+                parts.fold(0.0, f64::max) >= 1.0
+            };
+            let early = late.outcome.breaks_early(structure);
+            assert_eq!(
+                breaks(&all.outcome),
+                early || breaks(&late.outcome),
+                "{lines:?}, seed {}",
+                late.seed
+            );
+            early_alone += usize::from(early && !breaks(&late.outcome));
+        }
+        assert!(early_alone > 0, "{lines:?}");
+        assert_eq!(late.breaking_only_early(), early_alone);
+        let words = format!("In {early_alone} more a line would break in the first 80 s");
+        assert!(flat(&late.words()).contains(&words), "{}", late.words());
+        assert_eq!(
+            late.to_json("case")["breaking_only_before_judged"],
+            early_alone
+        );
+        assert!(!all.words().contains("not judged"));
+    }
+}
+
 /// One snap has one tension: the table beside the lines that stretch says what its numbers leave
 /// out, and tells the one that the assessment has.
 #[test]
