@@ -113,7 +113,7 @@ impl Attraction {
                 ..Wanted::default()
             };
             if are_starts {
-                attractor.orbit = Orbit::find(&family, [0.0; 2], &attractor.z, &wanted).ok();
+                attractor.orbit = Orbit::come_to(&family, [0.0; 2], &attractor.z, &wanted).ok();
             }
             attractor
         };

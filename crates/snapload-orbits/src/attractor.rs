@@ -67,7 +67,7 @@ pub fn of_attractor(
     };
     let last = section.points.last().copied().unwrap_or(section.end.0);
     let family = Moored::case(*parameters, [None; 2]);
-    Ok(Orbit::find(&family, [0.0; 2], &last, &wanted))
+    Ok(Orbit::come_to(&family, [0.0; 2], &last, &wanted))
 }
 
 /// Starts for each unit of work.
@@ -112,7 +112,9 @@ pub fn find_orbits(
             let last = (first + BATCH).min(all);
             let mut found: Vec<Orbit> = Vec::new();
             for k in first..last {
-                found.extend(start(k).and_then(|z| crate::orbit::from_afar(&family, &z, wanted)));
+                found.extend(
+                    start(k).and_then(|z| crate::orbit_search::from_afar(&family, &z, wanted)),
+                );
             }
             counter.add((last - first) as u64)?;
             made.push(found);

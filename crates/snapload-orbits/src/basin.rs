@@ -123,7 +123,7 @@ impl Window {
     /// The size of a cell; 0 along a key of one value.
     pub fn cell(&self) -> [f64; 2] {
         [0, 1].map(|axis: usize| match &self.values[axis][..] {
-            [first, .., last] => (last - first) / (self.values[axis].len() - 1) as f64,
+            [first, .., last] => (last - first).abs() / (self.values[axis].len() - 1) as f64,
             _ => 0.0,
         })
     }

@@ -46,6 +46,7 @@ mod normal_form;
 mod options;
 mod orbit;
 mod orbit_row;
+mod orbit_search;
 mod proof;
 mod rail;
 mod rows;

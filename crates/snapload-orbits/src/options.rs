@@ -4,7 +4,7 @@ use crate::branch::Along;
 use crate::curve::Across;
 use crate::hybrid::{Family, Hybrid, Point};
 use crate::moored::Moored;
-use crate::orbit::NEAR;
+use crate::orbit_search::NEAR;
 use crate::section::Stretch;
 use snapload::analysis::UNCERTAIN_KEYS;
 use snapload::{Case, CaseError, Kind, Parameters, Value, check_entry, key_named};

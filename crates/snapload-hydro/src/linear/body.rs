@@ -57,7 +57,11 @@ impl Body {
                 positive("the moment of inertia in kg m²", inertia)?;
                 inertia + mass_kg * (x * x + z * z)
             }
-            (None, Some(file)) => file[(2, 2)],
+            (None, Some(file)) => {
+                let own = statics.centre_of_mass_m.unwrap_or(centre_m);
+                let own = [0, 1].map(|axis| own[axis] - hydro.reference_m[axis]);
+                of_the_file(&file, own, mass_kg, [x, z])?
+            }
             (None, None) => need("the moment of inertia", None)?,
         };
         Ok(Self {
@@ -93,6 +97,31 @@ impl Body {
             ))),
         }
     }
+}
+
+/// I_O of a body that has the file's moment of inertia about its centre of gravity, wherever that is
+/// and whatever it weighs: I_O(file) − m(file) |G(file)|² + m |G|², from the reference point.
+fn of_the_file(
+    file: &Matrix3<f64>,
+    own: [f64; 2],
+    mass_kg: f64,
+    centre: [f64; 2],
+) -> Result<f64, HydroError> {
+    let square = |[x, z]: [f64; 2]| x * x + z * z;
+    let own_mass = if file[(0, 0)] > 0.0 {
+        file[(0, 0)]
+    } else {
+        mass_kg
+    };
+    let inertia = file[(2, 2)] - own_mass * square(own);
+    if inertia <= 0.0 {
+        let what = "the file's moment of inertia about its centre of gravity in kg m²";
+        let advice = "it has to be above 0; give the body's own (--inertia; body.moment_of_inertia \
+                      in a case)";
+        return Err(HydroError::value(what, inertia, advice));
+    }
+    // As the file has it to the bit, where nothing differs.
+    Ok(file[(2, 2)] + (mass_kg * square(centre) - own_mass * square(own)))
 }
 
 fn positive(what: &str, value: f64) -> Result<(), HydroError> {

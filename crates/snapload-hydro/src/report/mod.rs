@@ -143,7 +143,7 @@ impl Report {
         let mut warnings = reading.warnings.clone();
         warnings.extend(fit.warnings.clone());
         if let Ok(floating) = &floating {
-            warnings.extend(inertia_of_another_mass(&reading, &floating.body, request));
+            warnings.extend(inertia_of_another(&reading, &floating.body, request));
             floating.warn(&reading, &mut warnings);
         }
         Ok(Self {
@@ -156,19 +156,30 @@ impl Report {
     }
 }
 
-/// The mass is the user's and the moment of inertia still that of the file's body.
-fn inertia_of_another_mass(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
-    let displaced = reading.hydro.hydrostatics.displaced_mass_kg?;
-    let own = request.weight.inertia_kg_m2.is_some();
-    if own || (displaced / body.mass_kg - 1.0).abs() <= SAME_MASS {
+/// The mass or the centre of gravity is the user's, and the moment of inertia still that of the
+/// file's body.
+fn inertia_of_another(reading: &Reading, body: &Body, request: &Request) -> Option<Warning> {
+    let statics = &reading.hydro.hydrostatics;
+    if request.weight.inertia_kg_m2.is_some() {
         return None;
     }
+    let displaced = statics.displaced_mass_kg;
+    let heavier = displaced.filter(|file| (file / body.mass_kg - 1.0).abs() > SAME_MASS);
+    let moved = statics
+        .centre_of_mass_m
+        .filter(|file| *file != body.centre_m);
+    let what = match (heavier, moved) {
+        (Some(displaced), _) => format!(
+            "the mass is {:.1} t where the file's body displaces {:.1} t",
+            body.mass_kg / 1e3,
+            displaced / 1e3
+        ),
+        (None, Some([x, z])) => format!("the centre of gravity is not the file's, ({x}, {z}) m"),
+        (None, None) => return None,
+    };
     let words = format!(
-        "the mass is {:.1} t where the file's body displaces {:.1} t, and the moment of inertia is that of \
-         the file all the same, {:.1} t m² about the centre of gravity: give its own (--inertia; \
-         body.moment_of_inertia in a case)",
-        body.mass_kg / 1e3,
-        displaced / 1e3,
+        "{what}, and the moment of inertia is that of the file all the same, {:.1} t m² about the centre of \
+         gravity: give its own (--inertia; body.moment_of_inertia in a case)",
         body.inertia_about_centre_kg_m2() / 1e3
     );
     Some(Warning::new("moment of inertia", words))

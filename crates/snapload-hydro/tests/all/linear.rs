@@ -405,18 +405,48 @@ fn bodies_ask_for_what_they_need() {
         ..Weight::default()
     };
     assert!(refused(&whole, heavy).contains("above 0"));
-    // A centre of gravity so low that the matrix of masses is not positive definite can not be had
-    // with an inertia about it; with the file's inertia about the reference point it can.
-    let low = Weight {
-        centre_m: Some([0.0, -400.0]),
-        ..Weight::default()
-    };
-    let body = Body::new(&whole, &low).expect("a body");
-    let inf = whole.added_mass_inf.expect("A(∞)");
+    // No body has the mass and the centre of gravity of this file with less than that about O.
+    let mut bare = whole.clone();
+    let inertia = bare.hydrostatics.inertia.as_mut().expect("the file's");
+    inertia[(2, 2)] = 1.0;
+    bare.hydrostatics.centre_of_mass_m = Some([0.0, bare.reference_m[1] - 3.0]);
+    assert!(refused(&bare, Weight::default()).contains("moment of inertia"));
+    // Water that takes more mass away than there is.
+    let body = Body::new(&whole, &Weight::default()).expect("a body");
+    let refusal = body.with_added_mass(&(body.mass * -2.0));
     assert!(
-        body.with_added_mass(&inf)
+        refusal
             .expect_err("a refusal")
             .to_string()
             .contains("definite")
     );
+}
+
+/// The moment of inertia of the file is one about the body's centre of gravity: it stays what it is
+/// wherever a weight of one's own puts that, and whatever it weighs.
+#[test]
+fn the_inertia_of_the_file_goes_with_the_centre_of_gravity() {
+    let hydro = hydro("pontoon-deep.nc");
+    let about_centre = |weight: Weight| {
+        let body = Body::new(&hydro, &weight).expect("a body");
+        body.inertia_about_centre_kg_m2()
+    };
+    let own = about_centre(Weight::default());
+    assert!(own > 0.0);
+    for centre in [[0.0, 1.5], [0.0, -1.0], [0.7, -0.3], [0.0, -400.0]] {
+        for mass_kg in [None, Some(5e6), Some(8e4)] {
+            let found = about_centre(Weight {
+                mass_kg,
+                centre_m: Some(centre),
+                inertia_kg_m2: None,
+            });
+            // What is taken off again is as large as m |G|².
+            let square = centre[0] * centre[0] + centre[1] * centre[1];
+            let rounding = 1e-14 * mass_kg.unwrap_or(1e5) * square;
+            assert!(
+                (found - own).abs() <= 1e-12 * own + rounding,
+                "{centre:?}: {found} {own}"
+            );
+        }
+    }
 }

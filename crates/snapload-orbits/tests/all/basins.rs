@@ -125,3 +125,21 @@ fn a_window_beyond_the_cables_is_said_to_be_so() {
         "{text}"
     );
 }
+
+/// A window that is written from its largest values down has the measures of the same cells upwards.
+#[test]
+fn measures_do_not_hang_on_the_order_of_the_cells() {
+    let upwards = window(&reference()["grids"]["circle_xy_f0.3"]);
+    let mut downwards = upwards.clone();
+    for values in &mut downwards.values {
+        values.reverse();
+    }
+    let [one, other] =
+        [upwards, downwards].map(|window| Basin::of(window, false, &unwatched).unwrap().measures);
+    assert_eq!(
+        (one.safe, one.legal, one.lim),
+        (other.safe, other.legal, other.lim)
+    );
+    let [radius, turned] = [one, other].map(|measures| measures.integrity_factor.unwrap());
+    assert!(radius > 0.1 && (radius - turned).abs() < 1e-12);
+}

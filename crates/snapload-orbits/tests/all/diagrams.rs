@@ -5,8 +5,8 @@ use crate::orbits::volley;
 use snapload::Parameters;
 use snapload::analysis::unwatched;
 use snapload_orbits::{
-    Attraction, Fate, Orbit, Section, Stretch, Wanted, Window, diagram, of_attractor,
-    section_in_words,
+    Attraction, Fate, Orbit, Section, Stability, Stretch, Wanted, Window, diagram, distance,
+    of_attractor, section_in_words,
 };
 
 #[test]
@@ -142,6 +142,37 @@ fn exponents_of_an_orbit_that_sticks_are_those_of_its_multipliers() {
             .iter()
             .all(|[mean, _]| *mean == f64::NEG_INFINITY)
     );
+}
+
+/// The orbit of an attractor is the one that the motion was followed to, also where Newton's method
+/// comes to an unstable orbit beside it first: it attracts, at the rate of the motion.
+#[test]
+fn the_orbit_of_an_attractor_is_where_the_motion_goes() {
+    for f_o in [1.01, 1.02] {
+        let parameters = Parameters {
+            inertia: None,
+            a: 0.0,
+            r: 1.7,
+            e: 0.35,
+            f_o,
+            nu: 0.8,
+            omega: 3.1,
+            ..Parameters::STANDARD
+        };
+        let orbit = of_attractor(&parameters, &Wanted::default(), &unwatched);
+        let orbit: Orbit = orbit.unwrap().unwrap();
+        assert_eq!(orbit.stability(), Stability::Stable);
+        let followed = section(&parameters);
+        let last = followed.points.last().expect("a point");
+        assert!(
+            distance(&orbit.z, last) < 1e-7,
+            "{f_o}: {last:?} {:?}",
+            orbit.z
+        );
+        let rate = orbit.multipliers.largest().ln() / orbit.length;
+        let [mean, _] = followed.exponents[0];
+        assert!((mean - rate).abs() < 0.02, "{f_o}: {mean} {rate}");
+    }
 }
 
 /// A cable that is taut in the beginning, and not in the long run, closes nothing of the long run.

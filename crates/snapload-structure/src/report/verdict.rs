@@ -94,6 +94,8 @@ struct TrustWords<'a> {
     trust: &'a Trust,
     horizon_s: Option<f64>,
     spread_kn: Option<[f64; 3]>,
+    /// Whether no line snaps in any of the neighbours.
+    snapless: bool,
     /// Whether the neighbours' peaks differ by more than rounding would have them.
     scattered: bool,
     count: usize,
@@ -305,6 +307,7 @@ impl Assessment {
         paragraph(&TrustWords {
             scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
             trust: &self.trust,
+            snapless: self.neighbours.iter().all(|near| near.snaps() == 0) && spread.is_some(),
             horizon_s: self.horizon_s(),
             spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
             count: self.neighbours.len(),
