@@ -141,8 +141,10 @@ def draw_erosion(eroded: xarray.Dataset, ax: Axes | None) -> Axes:
     ax.set_ylabel("safe part of the starts")
     if not np.isnan(eroded.attrs["knee"]):
         ax.axvline(eroded.attrs["knee"], **REFERENCE)
-        look: dict[str, Any] = {"textcoords": "offset points", "fontsize": "small", "ha": "right"}
-        ax.annotate("knee", (eroded.attrs["knee"], 0), (-3, 3), **look)
+        # On the side on which the axes go on.
+        side, place = ("right", (-3, 3)) if eroded.attrs["knee"] > np.min(values) else ("left", (3, 3))
+        look: dict[str, Any] = {"textcoords": "offset points", "fontsize": "small", "ha": side}
+        ax.annotate("knee", (eroded.attrs["knee"], 0), place, **look)
     lines, names = ax.get_legend_handles_labels()
     looks = (("lim", VERMILION, "--", "^", "nearest (LIM)"), ("if", GREEN, "-.", "s", "disc (IF)"))
     shown = [look for look in looks if not np.isnan(eroded[look[0]]).all()]

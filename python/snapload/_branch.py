@@ -160,9 +160,9 @@ class Branch:
         """What happens along the branch, in the order of its points.
 
         Columns ``kind`` (fold, period_doubling, neimark_sacker, graze, corner, tension_lost, or a limit such as
-        rotation_limit or upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``, ``cable`` (0 where none is
-        meant), ``t`` in the lap, ``normal_acceleration`` and ``sqrt_coefficient`` of a graze, ``largest_multiplier``,
-        and ``admissible`` (1 or 0). What there is none of is NaN.
+        rotation_limit or upper_bound), ``value`` of the key, ``arclength``, the state ``x`` to ``vtheta``, ``cable``
+        (0 where none is meant), ``t`` in the lap, ``normal_acceleration`` and ``sqrt_coefficient`` of a graze,
+        ``largest_multiplier``, and ``admissible`` (1 or 0). What there is none of is NaN.
 
         See Also
         --------

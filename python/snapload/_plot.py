@@ -121,10 +121,11 @@ def _trajectory(run: BaseRun, ax: Axes, style: dict[str, Any]) -> None:
         ys += [motion.y.min(), motion.y.max()]
     ax.plot(first.x, first.y, "o", color="black", markersize=4, zorder=4)
     ax.plot(last.x, last.y, "s", color="black", markersize=4, zorder=4)
-    for place, name in ((first, "start"), (last, "end")):
+    half = 0.6 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-6)
+    apart = float(np.hypot(first.x - last.x, first.y - last.y)) > 0.06 * half
+    for place, name in ((first, "start"), (last, "end")) if apart else ((first, "start, end"),):
         ax.annotate(name, (float(place.x), float(place.y)), (4, 3), textcoords="offset points", fontsize="small")
     # Where a cable is taut with the body upright.
-    half = 0.6 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-6)
     middle = (max(xs) + min(xs)) / 2
     x = np.linspace(middle - 1.1 * half, middle + 1.1 * half, 400)
     for (across, up), (_, _, r) in zip(geometry.centres(), geometry.cables, strict=True):

@@ -46,6 +46,15 @@ def test_a_label_stands_once(run, what):
     assert 0 < labels.count("a run") <= (1 if what in ("trajectory", "rotation") else 2)
 
 
+def test_start_and_end_stand_over_each_other_nowhere(run):
+    def names(of):
+        axes = of.plot("trajectory")
+        return [text.get_text() for text in axes.texts if text.get_text() in ("start", "end", "start, end")]
+
+    assert names(run) == ["start", "end"]
+    assert names(snapload.Case(t_end=1e-3).run()) == ["start, end"]
+
+
 def test_an_overview_has_all_four(run):
     assert len(run.overview().axes) == 4
     with pytest.raises(ValueError, match="what = 'energy' is not allowed; allowed: 'trajectory', 'rotation'"):

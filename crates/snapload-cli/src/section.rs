@@ -32,7 +32,7 @@ Examples:
       --plot torus.svg --show x,y
       a point mass whose motion never repeats itself: its points lie on two closed curves
   snapload section --set f_o=0.1 --periods 200 --keep 50 --out points.csv
-      a table of the last 50 points
+      a table of the points of the last 50 periods
   snapload section --set body=point --set r=1.976 --set e=0.71 --set nu=0.87 --set omega=4.847 \\
       --set f_o=1.6 --set x=0 --set y=0.4 --set vx=0.1 --at impacts --periods 2000 --keep 1500 \\
       --out impacts.parquet --plot impacts.svg

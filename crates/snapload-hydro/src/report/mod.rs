@@ -266,6 +266,15 @@ impl Floating {
             );
             warnings.push(Warning::new("natural periods", words));
         }
+        let righting = self.body.stiffness[(2, 2)];
+        if righting <= 0.0 {
+            let words = format!(
+                "the stiffness in pitch is {:.1} kN m: by itself the body turns over, and its response in \
+                 pitch tells nothing; lower its centre of gravity, or hold it by lines",
+                righting / 1e3
+            );
+            warnings.push(Warning::new("stability", words));
+        }
         let pitch = self.natural.iter().zip(&self.modes);
         for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {
             if mode.damping_ratio < WEAK && self.body.damping[(2, 2)] == 0.0 {

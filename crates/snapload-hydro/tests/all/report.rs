@@ -113,6 +113,26 @@ fn the_largest_response_is_that_of_the_resonance() {
     assert!(!damped.contains("narrow"), "{damped}");
 }
 
+/// A body whose centre of gravity stands above its metacentre turns over, which is told.
+#[test]
+fn a_body_that_turns_over_is_told() {
+    let answer = |z: f64| {
+        let mut request = request();
+        request.weight.centre_m = Some([0.0, z]);
+        Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
+    };
+    for (z, turns) in [(-1.0, false), (1.5, true)] {
+        let report = answer(z);
+        let body = report.floating.as_ref().expect("a body");
+        assert_eq!(body.body.stiffness[(2, 2)] <= 0.0, turns);
+        let warned = report
+            .warnings
+            .iter()
+            .any(|warning| warning.what == "stability");
+        assert_eq!(warned, turns, "{z}");
+    }
+}
+
 /// A mass of one's own with the inertia of the file's body is warned of, in words and in JSON; what
 /// is told is about the point that `--inertia` is given about.
 #[test]

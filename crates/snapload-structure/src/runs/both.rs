@@ -5,7 +5,7 @@ use super::outcome::{Outcome, add_slack};
 use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
-use crate::physics::warnings::{Warning, limits_afloat, turning_warning, warnings};
+use crate::physics::warnings::{Warning, limits_afloat, phase_warning, turning_warning, warnings};
 use snapload::CaseError;
 use snapload::analysis::{OnProgress, Unfinished};
 use std::time::Instant;
@@ -86,6 +86,11 @@ impl BothModels {
         let (structure, run) = (&self.sprung.structure, &self.elastic);
         warnings(&self.sprung)
             .into_iter()
+            .chain(phase_warning(
+                structure,
+                self.sprung.rest.place_m[1],
+                run.excursion_m,
+            ))
             .chain(turning_warning(structure, run.turned_rad))
             .chain(limits_afloat(
                 structure,

@@ -58,6 +58,8 @@ pub struct Outcome {
     pub end_s: f64,
     /// The largest rotation on either side \[rad\].
     pub turned_rad: f64,
+    /// How far it is from where it rests, to either side, where its stretches of motion end \[m\].
+    pub excursion_m: f64,
     /// How a floating body lay in the still water; none of a submerged one.
     pub waterline: Option<Waterline>,
     /// Peak tensions of all snaps that count \[N\].
@@ -138,6 +140,7 @@ pub(super) struct Tally<'a> {
     /// Time without tension, in the engine's units.
     slack: Vec<f64>,
     turned_rad: f64,
+    excursion_m: f64,
     waterline: Option<Waterline>,
     peaks_n: Vec<f64>,
     speeds_m_s: Vec<f64>,
@@ -154,6 +157,7 @@ impl<'a> Tally<'a> {
             lines: vec![LineOutcome::default(); count],
             slack: vec![0.0; count],
             turned_rad: 0.0,
+            excursion_m: 0.0,
             waterline: Waterline::before(&prepared.structure),
             peaks_n: Vec::new(),
             speeds_m_s: Vec::new(),
@@ -166,9 +170,11 @@ impl<'a> Tally<'a> {
     pub(super) fn follow(&mut self, simulation: &Simulation, step: &Step) -> Vec<Snap> {
         add_slack(&mut self.slack, step);
         self.turned_rad = simulation.theta_max();
+        let state = simulation.state();
+        let [x, z] = self.prepared.model.scales.to_si([state.x, state.y]);
+        let excursion_m = (x - self.prepared.rest.place_m[0]).abs();
+        self.excursion_m = self.excursion_m.max(excursion_m);
         if let Some(seen) = &mut self.waterline {
-            let state = simulation.state();
-            let [_, z] = self.prepared.model.scales.to_si([state.x, state.y]);
             *seen = seen.with(&Waterline::at(&self.prepared.structure, z, state.theta));
         }
         let scales = &self.prepared.model.scales;
@@ -232,6 +238,7 @@ impl<'a> Tally<'a> {
                 _ => end * model.scales.time_s,
             },
             turned_rad: self.turned_rad,
+            excursion_m: self.excursion_m,
             waterline: self.waterline,
             peaks_n: self.peaks_n,
             speeds_m_s: self.speeds_m_s,

@@ -6,7 +6,9 @@ use super::quantile::sorted;
 use crate::physics::elastic::springs;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
-use crate::physics::warnings::{Warning, limits_afloat, short_records, turning_warning, warnings};
+use crate::physics::warnings::{
+    Warning, limits_afloat, phase_warning, short_records, turning_warning, warnings,
+};
 use crate::structure::{IrregularSea, Structure, THREE_HOURS_S, Water};
 use serde::Serialize;
 use snapload::analysis::{Counter, OnProgress, Progress, Share, Unfinished, in_parallel};
@@ -102,7 +104,7 @@ pub fn seas(
             outcome,
         })
     })?;
-    warnings.extend(seen_in(&told.structure, &records));
+    warnings.extend(seen_in(&told, &records));
     Ok(Seas {
         records,
         lines,
@@ -112,15 +114,17 @@ pub fn seas(
 }
 
 /// The warnings that the motion in all records gives.
-fn seen_in(structure: &Structure, records: &[SeaOutcome]) -> Vec<Warning> {
+fn seen_in(told: &Prepared, records: &[SeaOutcome]) -> Vec<Warning> {
+    let structure = &told.structure;
     let outcomes = || records.iter().map(|record| &record.outcome);
-    let turned = outcomes()
-        .map(|outcome| outcome.turned_rad)
-        .fold(0.0, f64::max);
+    let most = |of: fn(&Outcome) -> f64| outcomes().map(of).fold(0.0, f64::max);
+    let turned = most(|outcome| outcome.turned_rad);
+    let excursion = most(|outcome| outcome.excursion_m);
     let seen = outcomes().filter_map(|outcome| outcome.waterline);
     let seen = seen.reduce(|all, one| all.with(&one));
     let found = short_records(structure).into_iter();
     found
+        .chain(phase_warning(structure, told.rest.place_m[1], excursion))
         .chain(turning_warning(structure, turned))
         .chain(limits_afloat(structure, seen.as_ref(), turned))
         .collect()

@@ -58,6 +58,7 @@ impl Outcome {
             stop: run.stop.unwrap_or(Stop::EndTime),
             end_s: run.end_s,
             turned_rad: run.turned_rad,
+            excursion_m: run.excursion_m,
             waterline: run.waterline,
             peaks_n: judged().map(|pull| pull.peak_n).collect(),
             speeds_m_s: snapping().map(|pull| pull.speed_m_s).collect(),

@@ -3,7 +3,7 @@
 use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
 use snapload_structure::note::{page, seas_page};
-use snapload_structure::{Lines, Prepared, Standing, assess, both_models, seas};
+use snapload_structure::{Lines, Prepared, Standing, Warning, assess, both_models, seas};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
@@ -191,6 +191,33 @@ fn records_tell_what_breaks_before_they_are_judged() {
             early_alone
         );
         assert!(!all.words().contains("not judged"));
+    }
+}
+
+/// A body that swings far out of where the wave was told is warned of alike by one run, by lines that
+/// stretch, and by records.
+#[test]
+fn far_swings_are_warned_of_by_every_answer() {
+    let swinging = "[body]\nshape = \"circle\"\nwidth = 1\ndisplaced_volume = 0.785398\nmass = 100\n\
+                    position = [0, -3]\nturning_damping = 300\n[[line]]\nanchor = [0, -10]\n\
+                    fairlead = [0, -3]\nlength = 7\ntype = \"nylon\"\ndiameter = 0.02\nstiffness = 1e8\n\
+                    breaking_load = 5e4\n[site]\ndepth = 10\n[sea]\nhs = 0.6\ntp = 6\n\
+                    [run]\nduration = 200\ntransient = 100\n";
+    let told = |warnings: &[Warning]| warnings.iter().any(|warning| warning.rule == "phase");
+    let assessment = assess(structure(swinging), 0, &unwatched).unwrap();
+    assert!(told(&assessment.warnings));
+    for lines in [Lines::Inextensible, Lines::Elastic] {
+        let records = seas(structure(swinging), 2, lines, &unwatched).unwrap();
+        assert!(told(&records.warnings), "{lines:?}");
+    }
+    let prepared = Prepared::for_springs(structure(swinging)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    assert!(told(&both.warnings()));
+    // In a calm sea nothing of the kind is told.
+    let calm = swinging.replace("hs = 0.6", "hs = 0.02");
+    for lines in [Lines::Inextensible, Lines::Elastic] {
+        let records = seas(structure(&calm), 2, lines, &unwatched).unwrap();
+        assert!(!told(&records.warnings), "{lines:?}");
     }
 }
 

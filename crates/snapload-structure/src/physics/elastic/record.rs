@@ -56,6 +56,8 @@ pub struct ElasticRun {
     pub stop: Option<Stop>,
     /// The largest rotation either way \[rad\].
     pub turned_rad: f64,
+    /// How far it went from where it rests on these lines, to either side \[m\].
+    pub excursion_m: f64,
     /// How a floating body lay in the still water.
     pub waterline: Option<Waterline>,
     /// The largest tension of each line after the transient \[N\].
@@ -78,6 +80,8 @@ impl ElasticRun {
 pub(super) struct Record<'a> {
     scales: &'a Scales,
     structure: &'a Structure,
+    /// Where the body rests on these lines \[m\].
+    rest_x_m: f64,
     body: &'a SprungBody<'a>,
     look: f64,
     next: f64,
@@ -95,6 +99,7 @@ impl<'a> Record<'a> {
         Self {
             scales,
             structure: &prepared.structure,
+            rest_x_m: prepared.rest.place_m[0],
             body,
             look: look_s / scales.time_s,
             next: 0.0,
@@ -119,8 +124,9 @@ impl<'a> Record<'a> {
     pub(super) fn see(&mut self, t: f64, state: &State, pulling: TautSet) {
         let t_s = t * self.scales.time_s;
         self.run.turned_rad = self.run.turned_rad.max(state.theta.abs());
+        let [x, z] = self.scales.to_si([state.x, state.y]);
+        self.run.excursion_m = self.run.excursion_m.max((x - self.rest_x_m).abs());
         if let Some(seen) = &mut self.run.waterline {
-            let [_, z] = self.scales.to_si([state.x, state.y]);
             *seen = seen.with(&Waterline::at(self.structure, z, state.theta));
         }
         let mut tensions = [0.0; MAX_CABLES];
