@@ -205,10 +205,7 @@ fn what_is_said_of_few_neighbours_and_few_impacts_is_grammar() {
     assert!(text.contains(" % of 1 neighbour (95 %"), "{text}");
     let unsure = ["run", "--set", "t_end=0.3", "--uncertainty", "0.1"];
     let text = told(&[&unsure[..], &["--ensemble", "2"]].concat());
-    assert!(
-        text.contains("known to 1e-3 for all 0 impacts, up to t = 0.3000"),
-        "{text}"
-    );
+    assert!(text.contains("known to 1e-3 up to t = 0.3000"), "{text}");
 }
 
 #[test]
