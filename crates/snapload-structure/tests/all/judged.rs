@@ -202,7 +202,8 @@ fn far_swings_are_warned_of_by_every_answer() {
                     position = [0, -3]\nturning_damping = 300\n[[line]]\nanchor = [0, -10]\n\
                     fairlead = [0, -3]\nlength = 7\ntype = \"nylon\"\ndiameter = 0.02\nstiffness = 1e8\n\
                     breaking_load = 5e4\n[site]\ndepth = 10\n[sea]\nhs = 0.6\ntp = 6\n\
-                    [run]\nduration = 200\ntransient = 100\n";
+                    [run]\nrestitution = 1\nduration = 200\n\
+                    transient = 100\n";
     let told = |warnings: &[Warning]| warnings.iter().any(|warning| warning.rule == "phase");
     let assessment = assess(structure(swinging), 0, &unwatched).unwrap();
     assert!(told(&assessment.warnings));
