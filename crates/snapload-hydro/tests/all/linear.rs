@@ -421,32 +421,3 @@ fn bodies_ask_for_what_they_need() {
             .contains("definite")
     );
 }
-
-/// The moment of inertia of the file is one about the body's centre of gravity: it stays what it is
-/// wherever a weight of one's own puts that, and whatever it weighs.
-#[test]
-fn the_inertia_of_the_file_goes_with_the_centre_of_gravity() {
-    let hydro = hydro("pontoon-deep.nc");
-    let about_centre = |weight: Weight| {
-        let body = Body::new(&hydro, &weight).expect("a body");
-        body.inertia_about_centre_kg_m2()
-    };
-    let own = about_centre(Weight::default());
-    assert!(own > 0.0);
-    for centre in [[0.0, 1.5], [0.0, -1.0], [0.7, -0.3], [0.0, -400.0]] {
-        for mass_kg in [None, Some(5e6), Some(8e4)] {
-            let found = about_centre(Weight {
-                mass_kg,
-                centre_m: Some(centre),
-                inertia_kg_m2: None,
-            });
-            // What is taken off again is as large as m |G|².
-            let square = centre[0] * centre[0] + centre[1] * centre[1];
-            let rounding = 1e-14 * mass_kg.unwrap_or(1e5) * square;
-            assert!(
-                (found - own).abs() <= 1e-12 * own + rounding,
-                "{centre:?}: {found} {own}"
-            );
-        }
-    }
-}

@@ -1,11 +1,10 @@
 //! What runs tell of their own errors.
 
+use crate::agrees_with_closed_forms::string;
 use snapload::analysis::{
     Certainty, NormErrors, TrustMonitor, Uncertainty, Unfinished, trusted_run, unwatched,
 };
-use snapload::{
-    Body, Cable, Case, Forcing, Mode, Parameters, Rules, Simulation, State, System, named_case,
-};
+use snapload::{Case, Mode, Parameters, Rules, Simulation, State, named_case};
 
 /// Neighbours as far off as may be have norms that differ by less than is told, and by more
 /// than a thousandth of it.
@@ -246,17 +245,7 @@ fn a_cable_that_stays_taut_closes_two_directions() {
 /// keeps areas, so that its two exponents cancel.
 #[test]
 fn a_pendulum_has_two_exponents_that_cancel() {
-    let system = System {
-        body: Body::point(),
-        cables: vec![Cable::new([0.0, 0.0], [0.0, 0.0], 1.0)],
-        forcing: Forcing {
-            constant: [0.0, -1.0].into(),
-            harmonics: Vec::new(),
-        },
-        drag: None,
-        floating: None,
-        restitution: 0.5,
-    };
+    let system = string(1.0, 1.0, 0.5);
     let start = State {
         y: -1.0,
         vx: 1.2,
