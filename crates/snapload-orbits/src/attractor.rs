@@ -67,7 +67,12 @@ pub fn of_attractor(
     };
     let last = section.points.last().copied().unwrap_or(section.end.0);
     let family = Moored::case(*parameters, [None; 2]);
-    Ok(Orbit::come_to(&family, [0.0; 2], &last, &wanted))
+    // Whoever asks for certain snaps may mean another orbit than that of the motion.
+    let find = match wanted.struck {
+        None => Orbit::come_to,
+        Some(_) => Orbit::find,
+    };
+    Ok(find(&family, [0.0; 2], &last, &wanted))
 }
 
 /// Starts for each unit of work.

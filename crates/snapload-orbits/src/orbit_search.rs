@@ -16,9 +16,9 @@ pub(crate) const NEAR: f64 = 5e-3;
 const SLOW: f64 = 5e-2;
 /// An orbit within this of where it was looked for is the one that was meant.
 const BESIDE: f64 = 0.02;
-/// An orbit that a motion has come to is nearer than this to where the motion was followed to: it
-/// repeats itself within 1e-8 there, and comes nearer by a hundred thousandth of the way in a lap at
-/// the slowest.
+/// An orbit that a motion has come to is nearer than this to where the motion was followed to. The
+/// motion repeats itself within 1e-8 there; where each lap leaves a part p of the way behind, the
+/// orbit is 1e-8/p away, which is less than this for every p above 1e-5.
 const COME_TO: f64 = 1e-3;
 
 impl Orbit {

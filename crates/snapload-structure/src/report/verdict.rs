@@ -1,6 +1,7 @@
 //! The answer in words, and how far it can be trusted.
 
 use crate::physics::gumbel::Gumbel;
+use crate::physics::snap::SLOWEST_M_S;
 use crate::physics::warnings::Warning;
 use crate::runs::assess::Assessment;
 use crate::runs::both::BothModels;
@@ -266,7 +267,11 @@ impl BothModels {
         let early = pulls.filter(|pull| pull.peak_s < structure.transient_s);
         let early = early.map(|pull| Early {
             line: pull.line,
-            how: EarlyLoad::Snap,
+            how: if pull.speed_m_s < SLOWEST_M_S {
+                EarlyLoad::Held
+            } else {
+                EarlyLoad::Snap
+            },
             speed_m_s: pull.speed_m_s,
             peak_n: Some(pull.peak_n),
             utilisation: structure.lines[pull.line]
@@ -307,7 +312,7 @@ impl Assessment {
         paragraph(&TrustWords {
             scattered: spread.is_some_and(|[low, _, high]| high > 1.02 * low),
             trust: &self.trust,
-            snapless: self.neighbours.iter().all(|near| near.snaps() == 0) && spread.is_some(),
+            snapless: spread.is_some() && self.neighbours.iter().all(|n| n.peak_n().is_none()),
             horizon_s: self.horizon_s(),
             spread_kn: spread.map(|spread| spread.map(|newtons| newtons / 1e3)),
             count: self.neighbours.len(),

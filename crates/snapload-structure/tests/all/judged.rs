@@ -222,6 +222,30 @@ fn far_swings_are_warned_of_by_every_answer() {
     }
 }
 
+/// Where nothing snaps, in a run and beside it, no tension of snaps is told, in one sentence.
+#[test]
+fn without_snaps_no_tension_of_snaps_is_told() {
+    let calm = EXAMPLE.replace("height = 2\n", "height = 0.1\n");
+    for (count, words) in [
+        (1, "No line snaps in the one neighbour in waves"),
+        (3, "No line snaps in any of the 3 neighbours in waves"),
+        (12, "No line snaps in any of the 12 neighbours in waves"),
+    ] {
+        let assessment = assess(structure(&calm), count, &unwatched).unwrap();
+        let told = flat(&assessment.trust_words());
+        assert!(told.contains(words), "{told}");
+        assert_eq!(told.matches("neighbour").count(), 1, "{told}");
+        assert!(!told.contains("0 kN"), "{told}");
+    }
+    let prepared = Prepared::for_springs(structure(&calm)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    assert!(
+        !both.verdict().words.contains("0.00 m/s"),
+        "{}",
+        both.verdict().words
+    );
+}
+
 /// One snap has one tension: the table beside the lines that stretch says what its numbers leave
 /// out, and tells the one that the assessment has.
 #[test]
