@@ -9,7 +9,7 @@ use pyo3::types::{PyByteArray, PyBytes};
 use snapload::Value;
 use snapload::analysis::{Cancelled, Progress};
 use snapload_study::{
-    Axis, Ending, Grid, Identity, List, Opened, Plan, Side, StudyError, Values, check_name,
+    Axis, Grid, Identity, List, Opened, Plan, Side, StudyError, Values, check_name,
     checked_identity, read_rows,
 };
 use std::collections::HashMap;
@@ -94,7 +94,7 @@ impl Study {
         let (study, store) = (Arc::clone(&self.study), store.take()?);
         let swept = interruptible(py, progress, move |watch| {
             let on_progress = |progress: Progress| watch.go_on(progress);
-            let sweep = || snapload_study::sweep(&study, store, Ending::AtNextCase, &on_progress);
+            let sweep = || snapload_study::sweep(&study, store, &on_progress);
             on_threads(threads, sweep)
         })?;
         swept.map_err(of_study)

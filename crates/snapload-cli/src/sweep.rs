@@ -8,7 +8,7 @@ use crate::study_summary::Summary;
 use crate::whole::whole;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
-use snapload_study::{Ending, Identity, Opened, Shard, Store, StudyError, sweep, threads_for};
+use snapload_study::{Identity, Opened, Shard, Store, StudyError, sweep, threads_for};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
                 true => ControlFlow::Break(()),
                 false => bar.show(progress),
             };
-            let swept = sweep(&study, store, Ending::AfterChunk, &on_progress);
+            let swept = sweep(&study, store, &on_progress);
             drop(bar);
             swept.map_err(|error| go_on(error, rows))?;
         }

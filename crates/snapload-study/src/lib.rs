@@ -41,7 +41,7 @@ pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
 pub use study::{Drawn, NoCase, Study};
-pub use sweep::{Ending, sweep};
+pub use sweep::sweep;
 pub use table::{Column, Take, columns};
 pub use table_file::write_table;
 pub use threads::threads_for;

@@ -2,7 +2,7 @@
 
 use crate::{Drawn, NoCase};
 use snapload::analysis::{
-    Cancelled, Certainty, Counter, Made, on_all_threads, outcomes_on_one_thread,
+    Cancelled, Certainty, Counter, Made, on_all_threads_until, outcomes_on_one_thread,
 };
 use snapload::{Lanes, Outcome, Parameters};
 
@@ -18,15 +18,20 @@ pub struct Run {
     pub certainty: Option<Certainty>,
 }
 
-/// Runs cases, on the threads that there are, and returns their rows in order. Each is counted.
+/// Runs cases, on the threads that there are, and returns their rows in order: those of the first
+/// cases, as many as are begun until `no_more` says so. Each is counted.
 ///
 /// A row depends on its case alone, so it is the same wherever and with whichever others it is
 /// computed.
 ///
 /// # Errors
 /// [`Cancelled`] if the work is to end before.
-pub fn rows(drawn: &Drawn, counter: &Counter) -> Result<Made<Row>, Cancelled> {
-    on_all_threads(drawn.count(), |numbers| {
+pub fn rows(
+    drawn: &Drawn,
+    counter: &Counter,
+    no_more: &(dyn Fn() -> bool + Sync),
+) -> Result<Made<Row>, Cancelled> {
+    on_all_threads_until(no_more, drawn.count(), |numbers| {
         side_by_side(drawn, numbers, counter)
     })
 }

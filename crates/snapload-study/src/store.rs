@@ -283,7 +283,7 @@ pub fn chunk(
     on_progress: OnProgress,
 ) -> Result<Vec<u8>, StudyError> {
     let counter = Counter::new("running", 0, range.end - range.start, on_progress);
-    let rows = rows(&study.draw(range.clone())?, &counter)?;
+    let rows = rows(&study.draw(range.clone())?, &counter, &|| false)?;
     let bytes = encode(&Identity::new(study, None), range, &rows);
     bytes.map_err(|error| StudyError::Failed(error.to_string()))
 }

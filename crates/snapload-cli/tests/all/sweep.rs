@@ -10,14 +10,14 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// A study of many short runs: long enough to be killed in.
+/// A study of many short runs: three chunks, so that it can be killed between them.
 pub(crate) const LONG: [&str; 8] = [
     "--set",
-    "t_end=2",
+    "t_end=0.1",
     "--vary",
     "f_o=0.01:0.6:60",
     "--vary",
-    "omega=0.4:2.4:101",
+    "omega=0.4:2.4:1201",
     "--threads",
     "1",
 ];

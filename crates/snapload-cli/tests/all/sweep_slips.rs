@@ -37,7 +37,7 @@ fn a_damaged_chunk_is_told_and_computed_again() {
     )
     .success()
     .stderr(contains(
-        "256 rows in file.parquet.parts were damaged, and are computed again",
+        "32768 rows in file.parquet.parts were damaged, and are computed again",
     ));
     assert!(bytes(d.path(), "whole.parquet") == bytes(d.path(), "file.parquet"));
 }

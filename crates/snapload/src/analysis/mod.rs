@@ -18,7 +18,7 @@ pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Share
 pub use exceedance::{ExceedanceCurve, Exceeding};
 pub use known::NormErrors;
 pub use lyapunov::Frame;
-pub use outcomes::{Made, on_all_threads, outcomes, outcomes_on_one_thread};
+pub use outcomes::{Made, on_all_threads, on_all_threads_until, outcomes, outcomes_on_one_thread};
 pub use progress::{
     Cancelled, Counter, OnProgress, Progress, Unfinished, outcome, record, unwatched,
 };

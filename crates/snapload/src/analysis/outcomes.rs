@@ -37,6 +37,7 @@ impl<R> Made<R> {
 struct Numbers<'a> {
     next: &'a AtomicUsize,
     count: usize,
+    no_more: &'a (dyn Fn() -> bool + Sync),
     mine: Vec<usize>,
 }
 
@@ -44,6 +45,9 @@ impl Iterator for Numbers<'_> {
     type Item = usize;
 
     fn next(&mut self) -> Option<usize> {
+        if (self.no_more)() {
+            return None;
+        }
         let number = self.next.fetch_add(1, Ordering::Relaxed);
         (number < self.count).then(|| {
             self.mine.push(number);
@@ -71,12 +75,29 @@ pub fn on_all_threads<R: Send, E: Send>(
     count: usize,
     work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
 ) -> Result<Made<R>, E> {
+    on_all_threads_until(&|| false, count, work)
+}
+
+/// The same of as many numbers, from 0, as are handed out until `no_more` says so, which is asked
+/// before each by the thread that is to have it.
+///
+/// # Errors
+/// As for [`on_all_threads`].
+///
+/// # Panics
+/// As for [`on_all_threads`].
+pub fn on_all_threads_until<R: Send, E: Send>(
+    no_more: &(dyn Fn() -> bool + Sync),
+    count: usize,
+    work: impl Fn(&mut dyn Iterator<Item = usize>) -> Result<Vec<R>, E> + Sync,
+) -> Result<Made<R>, E> {
     let next = AtomicUsize::new(0);
     let threads = rayon::current_num_threads().min(count);
     let done = in_parallel(threads, |_| {
         let mut numbers = Numbers {
             next: &next,
             count,
+            no_more,
             mine: Vec::with_capacity(count.div_ceil(threads)),
         };
         let made = work(&mut numbers).inspect_err(|_| next.store(count, Ordering::Relaxed))?;
@@ -87,7 +108,9 @@ pub fn on_all_threads<R: Send, E: Send>(
         );
         Ok((numbers.mine, made))
     })?;
-    let mut places = vec![(0, 0); count];
+    // Whoever took a number made something of it, so that none below the last is left out.
+    let handed_out = done.iter().map(|(numbers, _)| numbers.len()).sum();
+    let mut places = vec![(0, 0); handed_out];
     for (list, (numbers, _)) in done.iter().enumerate() {
         for (place, number) in numbers.iter().enumerate() {
             places[*number] = (list as u32, place as u32);
@@ -129,7 +152,7 @@ fn outcomes_of(
 ) -> Result<Vec<Outcome>, Cancelled> {
     let runs = cases.map(|case| (case.into_boxed(), Unfollowed));
     let told = side_by_side(Lanes::best(), runs, counter)?;
-    Ok(told.map(|(outcome, ())| outcome).collect())
+    Ok(told.filter_map(|told| Some(told?.0)).collect())
 }
 
 /// What runs come to, and what their followers say, in their order. Each is counted when it begins,
@@ -154,6 +177,7 @@ pub(crate) fn side_by_side<F: Follower>(
 #[cfg(test)]
 mod tests {
     use std::convert::Infallible;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     #[test]
     fn results_come_in_the_order_of_the_numbers() {
@@ -177,6 +201,18 @@ mod tests {
             made
         });
         assert_eq!(refused.map(super::Made::into_vec), Err(700));
+    }
+
+    #[test]
+    fn the_first_numbers_are_done_where_there_are_to_be_no_more() {
+        for wanted in [0, 1, 2, 300] {
+            let asked = AtomicUsize::new(0);
+            let no_more = || asked.fetch_add(1, Ordering::Relaxed) >= wanted;
+            let done = super::on_all_threads_until(&no_more, 5000, |numbers| {
+                Ok::<_, Infallible>(numbers.collect())
+            });
+            assert_eq!(done.map(super::Made::into_vec), Ok((0..wanted).collect()));
+        }
     }
 
     #[test]

@@ -13,11 +13,11 @@ use crate::batch::scheduler::{LaneScheduler, Runs, Slot, Tell};
 use crate::case::Case;
 use crate::motion::outcome::Outcome;
 use crate::motion::simulation::Simulation;
-use std::iter::Flatten;
 use std::vec::IntoIter;
 
-/// What runs came to, and what their followers say, in their order.
-pub(crate) type Told<C> = Flatten<IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>>;
+/// What runs came to, and what their followers say, in their order. The places of a list that can
+/// be used again for what is made of it: so it is none of results alone, though each place has one.
+pub(crate) type Told<C> = IntoIter<Option<(Outcome, <C as Follower>::Verdict)>>;
 
 /// Room is made for so many outcomes at once; for more it grows.
 const MOST_AT_ONCE: usize = 1 << 16;
@@ -81,7 +81,7 @@ impl Lanes {
             .iter()
             .map(|case| (Box::new(case.simulation()), Unfollowed));
         let (told, usage) = self.outcomes_beside(runs);
-        let outcomes: Vec<Outcome> = told.map(|(outcome, ())| outcome).collect();
+        let outcomes: Vec<Outcome> = told.filter_map(|told| Some(told?.0)).collect();
         assert_eq!(outcomes.len(), cases.len(), "every run is told of once");
         (outcomes, usage)
     }
@@ -123,7 +123,7 @@ impl Lanes {
             }
         });
         usage.add(&alone);
-        (told.into_iter().flatten(), usage)
+        (told.into_iter(), usage)
     }
 
     /// Runs all of `runs` to their ends, or as far as their followers go, and hands them on. In

@@ -130,7 +130,9 @@ impl Certainty {
             let monitor = SpreadMonitor::of_exact_case(&case, case.start());
             (case.into_boxed(), monitor)
         });
-        Ok(side_by_side(lanes, runs, counter)?.collect())
+        Ok(side_by_side(lanes, runs, counter)?
+            .filter_map(|told| told)
+            .collect())
     }
 
     /// Whether the way in which the run ends is certain.
