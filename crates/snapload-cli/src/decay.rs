@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let mut rows = Vec::new();
     for (freedom, called) in FREEDOMS.iter().enumerate().filter(|(i, _)| from[*i] != 0.0) {
         let swings = swings(&motion, freedom);
-        text += &words(called, &swings, freedom);
+        text += &words(called, &swings, freedom, motion.comes_back[freedom]);
         rows.extend(swings.into_iter().map(|swing| SwingRow {
             freedom: called,
             from_s: swing.from_s,
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The swings of a freedom as a small table below its name.
-fn words(called: &str, swings: &[Swing], freedom: usize) -> String {
+fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> String {
     if swings.is_empty() {
         return told(called, "it does not swing");
     }
@@ -125,8 +125,13 @@ fn words(called: &str, swings: &[Swing], freedom: usize) -> String {
         true => format!("the first {SHOWN} "),
         false => String::new(),
     };
-    let what =
-        format!("{few}swings from the side that it was let go from, each to the next turn there");
+    let about = match comes_back {
+        true => "",
+        false => " about where it settles (no stiffness brings it back to 0)",
+    };
+    let what = format!(
+        "{few}swings{about} from the side that it was let go from, each to the next turn there"
+    );
     let mut text = told(called, &what);
     let amplitude = format!("amplitude {unit}");
     let _ = writeln!(

@@ -15,6 +15,8 @@ pub struct Decay {
     pub t_s: Vec<f64>,
     /// q \[m, m, rad\].
     pub q: Vec<Vector3<f64>>,
+    /// Whether a stiffness brings each freedom back to zero.
+    pub comes_back: [bool; 3],
 }
 
 /// One swing of a decay, from one turning point to the next on the same side.
@@ -22,7 +24,8 @@ pub struct Decay {
 pub struct Swing {
     /// When it begins \[s\].
     pub from_s: f64,
-    /// The amplitude there.
+    /// The amplitude there: from zero, or of a freedom that does not come back there from where it
+    /// swings about.
     pub amplitude: f64,
     /// How long it takes \[s\].
     pub period_s: f64,
@@ -56,6 +59,7 @@ pub fn decay(
     let mut decay = Decay {
         t_s: Vec::with_capacity(count + 1),
         q: Vec::with_capacity(count + 1),
+        comes_back: [0, 1, 2].map(|i| body.stiffness[(i, i)] != 0.0),
     };
     for step in 0..=count {
         decay.t_s.push(step as f64 * step_s);
@@ -64,6 +68,9 @@ pub fn decay(
     }
     Ok(decay)
 }
+
+/// Ways between turns below so much of the furthest turn are rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// Ends of the two ranges of the Fourier integral in last frequencies, and panels of each:
 /// resonances lie in the first.
@@ -129,22 +136,53 @@ fn filon(values: &[(f64, f64)], t: f64) -> f64 {
     sum
 }
 
-/// The swings of one freedom about its rest at zero, from its turning points. Swings below a
-/// thousandth of the first are left out.
+/// The swings of one freedom, from its turning points: about zero where a stiffness brings it back
+/// there. Surge without lines stays where it comes to, and is told by the ways between its turns: in
+/// a swing with the ratio q² of one amplitude to the next about any place, the way from a turn to
+/// the next is the amplitude times 1 + q. Swings below a thousandth of the first are left out.
 pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
-    let x: Vec<f64> = decay.q.iter().map(|q| q[freedom]).collect();
-    let step = match decay.t_s.as_slice() {
-        [first, second, ..] => second - first,
-        _ => return Vec::new(),
+    let turns = turns(decay, freedom);
+    let about_zero = decay.comes_back[freedom];
+    let heights: Vec<f64> = match about_zero {
+        true => turns.iter().map(|turn| turn.1).collect(),
+        false => turns.windows(2).map(|two| two[0].1 - two[1].1).collect(),
     };
-    let mut peaks: Vec<(f64, f64)> = Vec::new();
-    if let Some(first) = x.first().filter(|first| **first != 0.0) {
-        peaks.push((0.0, *first));
-    }
-    for k in 1..x.len().saturating_sub(1) {
+    let furthest = turns.iter().map(|turn| turn.1.abs()).fold(0.0, f64::max);
+    let first = heights.first().map_or(0.0, |height| height.abs());
+    let least = (1e-3 * first).max(ROUNDING * furthest);
+    let ends = turns.iter().zip(turns.iter().skip(2));
+    let heights = heights.iter().zip(heights.iter().skip(2));
+    let swing = |((from, to), (x0, x1)): ((&(f64, f64), &(f64, f64)), (&f64, &f64))| {
+        let ratio = x1 / x0;
+        (ratio > 0.0 && x1.abs() > least).then(|| {
+            let delta = -ratio.ln();
+            Swing {
+                from_s: from.0,
+                amplitude: if about_zero {
+                    *x0
+                } else {
+                    x0 / (1.0 + ratio.sqrt())
+                },
+                period_s: to.0 - from.0,
+                damping_ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
+            }
+        })
+    };
+    ends.zip(heights).filter_map(swing).collect()
+}
+
+/// Where a freedom turns, and when, with its start.
+fn turns(decay: &Decay, freedom: usize) -> Vec<(f64, f64)> {
+    let x: Vec<f64> = decay.q.iter().map(|q| q[freedom]).collect();
+    let [first_s, second_s, ..] = decay.t_s[..] else {
+        return Vec::new();
+    };
+    let start = x.first().filter(|first| **first != 0.0);
+    let start = start.map(|first| (first_s, *first));
+    let within = (1..x.len().saturating_sub(1)).filter_map(|k| {
         let (before, here, after) = (x[k - 1], x[k], x[k + 1]);
         let turns = (here - before) * (after - here) <= 0.0 && here != before;
-        if turns && here.abs() > 0.0 {
+        (turns && here != 0.0).then(|| {
             // The vertex of the parabola through three points.
             let bend = before - 2.0 * here + after;
             let shift = if bend == 0.0 {
@@ -153,20 +191,8 @@ pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
                 0.5 * (before - after) / bend
             };
             let height = here - 0.25 * (before - after) * shift;
-            peaks.push(((k as f64 + shift) * step, height));
-        }
-    }
-    let least = peaks.first().map_or(0.0, |peak| 1e-3 * peak.1.abs());
-    let pairs = peaks.windows(3).map(|three| (three[0], three[2]));
-    let alike = |(a, b): &((f64, f64), (f64, f64))| a.1 * b.1 > 0.0 && b.1.abs() > least;
-    let swing = |((t0, x0), (t1, x1)): ((f64, f64), (f64, f64))| {
-        let delta = (x0 / x1).ln();
-        Swing {
-            from_s: t0,
-            amplitude: x0,
-            period_s: t1 - t0,
-            damping_ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
-        }
-    };
-    pairs.filter(alike).map(swing).collect()
+            ((k as f64 + shift) * (second_s - first_s), height)
+        })
+    });
+    start.into_iter().chain(within).collect()
 }

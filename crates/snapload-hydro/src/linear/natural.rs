@@ -22,7 +22,8 @@ pub struct Natural {
     pub period_s: f64,
     /// The freedom that moves most, each weighed by its own mass.
     pub freedom: usize,
-    /// Whether ω lies outside the file's frequencies, where A is that at the nearest.
+    /// Whether ω lies outside the file's frequencies, where A is that at the nearest; not if A is the
+    /// same at all of them, as it is in textbooks.
     pub outside: bool,
 }
 
@@ -71,6 +72,7 @@ pub(super) fn natural(
         basis,
     };
     let [low, high] = hydro.range_rad_s();
+    let alike = hydro.added_mass.windows(2).all(|two| two[0] == two[1]);
     let middle = problem.at(0.5 * (low + high))?;
     let largest = middle
         .iter()
@@ -92,7 +94,7 @@ pub(super) fn natural(
             omega_rad_s: omega,
             period_s: 2.0 * PI / omega,
             freedom,
-            outside: omega < low || omega > high,
+            outside: !alike && (omega < low || omega > high),
         });
     }
     found.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));

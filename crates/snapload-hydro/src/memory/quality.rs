@@ -2,7 +2,7 @@
 
 use super::Memory;
 use super::curve::DampingCurve;
-use crate::coefficients::Hydrodynamics;
+use crate::coefficients::{FREEDOMS, Hydrodynamics};
 use nalgebra::Matrix3;
 use serde::Serialize;
 
@@ -31,6 +31,22 @@ pub struct EntryQuality {
     pub worst_kernel: f64,
     /// Frequencies at which B is off by more than 5 % of the largest \[rad/s\], the worst first.
     pub outliers_rad_s: Vec<f64>,
+}
+
+impl EntryQuality {
+    /// The freedom whose force follows from its own motion, or the two that are coupled.
+    pub fn name(&self) -> String {
+        let [force, motion] = [self.force, self.motion].map(|i| FREEDOMS[i]);
+        match force == motion {
+            true => force.to_owned(),
+            false => format!("{force} by {motion}"),
+        }
+    }
+
+    /// The one that is furthest off the file, of those that are.
+    pub fn worst<'a>(entries: impl IntoIterator<Item = &'a Self>) -> Option<&'a Self> {
+        entries.into_iter().max_by(|a, b| a.rms.total_cmp(&b.rms))
+    }
 }
 
 /// How a block of coupled freedoms was fitted.

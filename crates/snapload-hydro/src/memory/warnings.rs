@@ -1,7 +1,7 @@
 //! What should be known of a memory.
 
 use super::fit::{Fit, POOR, PRICE};
-use super::quality::BlockQuality;
+use super::quality::{BlockQuality, EntryQuality};
 use crate::coefficients::{FREEDOMS, Hydrodynamics};
 use crate::error::Warning;
 use nalgebra::Matrix3;
@@ -25,7 +25,7 @@ pub(super) fn warnings(hydro: &Hydrodynamics, fit: &Fit) -> Vec<Warning> {
         }
     }
     for block in &fit.blocks {
-        of_block(block, &mut warnings);
+        of_block(block, &fit.entries, &mut warnings);
     }
     let apart = hydro
         .omega_rad_s
@@ -74,12 +74,18 @@ fn length(hydro: &Hydrodynamics, fit: &Fit) -> f64 {
     step * (0..3).map(last).max().unwrap_or(0) as f64
 }
 
-fn of_block(block: &BlockQuality, warnings: &mut Vec<Warning>) {
+fn of_block(block: &BlockQuality, entries: &[EntryQuality], warnings: &mut Vec<Warning>) {
     let names = block.freedoms.iter().map(|i| FREEDOMS[*i]);
     let names = names.collect::<Vec<_>>().join(" and ");
     if block.rms > POOR {
+        let within = |entry: &&EntryQuality| block.freedoms.contains(&entry.force);
+        let worst = EntryQuality::worst(entries.iter().filter(within));
+        let worst = worst.filter(|entry| block.freedoms.len() > 1 && entry.rms > block.rms);
+        let worst = worst.map_or(String::new(), |entry| {
+            format!(", {} alone to {:.1} %", entry.name(), 100.0 * entry.rms)
+        });
         let words = format!(
-            "the memory of {names} fits the file to {:.1} % only; results are no better",
+            "the memory of {names} fits the file to {:.1} % only{worst}; results are no better",
             100.0 * block.rms
         );
         warnings.push(Warning::new("fit", words));

@@ -30,6 +30,8 @@ const WEAK: f64 = 0.02;
 const SAME_MASS: f64 = 0.01;
 /// A peak within this part of the frequency of a natural motion is its resonance.
 const RESONANT: f64 = 0.02;
+/// A body floats upright if it pitches by less than this, in rad.
+const UPRIGHT: f64 = 0.01;
 /// Damping below this part of critical bounds nothing.
 const UNDAMPED: f64 = 1e-6;
 
@@ -250,6 +252,17 @@ impl Floating {
         self.fine[response][0].peaks().map(of)
     }
 
+    /// The pitch by which the stiffness would balance the moment that is left over, if that is one to
+    /// speak of; none within if no stiffness rights the body.
+    fn unbalanced_pitch(&self) -> Option<Option<f64>> {
+        let (moment, righting) = (self.body.constant_force[2], self.body.stiffness[(2, 2)]);
+        if righting <= 0.0 {
+            return (moment.abs() > UPRIGHT * righting.abs()).then_some(None);
+        }
+        let pitch = moment / righting;
+        (pitch.abs() > UPRIGHT).then_some(Some(pitch))
+    }
+
     fn warn(&self, reading: &Reading, warnings: &mut Vec<Warning>) {
         let [low, high] = reading.hydro.range_rad_s();
         let held = self.rest.iter().flat_map(|(_, natural, _)| natural);
@@ -274,6 +287,19 @@ impl Floating {
                 righting / 1e3
             );
             warnings.push(Warning::new("stability", words));
+        }
+        if let Some(pitch) = self.unbalanced_pitch().filter(|_| self.rest.is_none()) {
+            let angle = match pitch {
+                Some(pitch) => format!(", {:.1}° by its stiffness", plain(pitch.to_degrees(), 0.1)),
+                None => String::new(),
+            };
+            let words = format!(
+                "a moment of {:.1} kN m about the reference point is not balanced where the file has the body \
+                 upright: without lines it lies turned{angle}, and what is told of it upright is not so there. \
+                 Bring the centre of gravity under that of buoyancy, or give the lines that hold it",
+                self.body.constant_force[2] / 1e3
+            );
+            warnings.push(Warning::new("balance", words));
         }
         let pitch = self.natural.iter().zip(&self.modes);
         for (_, mode) in pitch.filter(|(natural, _)| natural.freedom == 2) {

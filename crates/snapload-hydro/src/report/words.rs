@@ -3,6 +3,7 @@
 use super::{Floating, Report, UNDAMPED};
 use crate::coefficients::FREEDOMS;
 use crate::linear::{Mode, Natural, Peak};
+use crate::memory::{BlockQuality, EntryQuality};
 use std::f64::consts::PI;
 
 /// A body is in balance by itself if it floats within so many metres of where the file has it.
@@ -47,16 +48,16 @@ impl Report {
     /// How the memory was made and how well it fits.
     pub fn memory_words(&self) -> String {
         let fit = &self.fit;
-        let worst = |of: fn(&crate::memory::EntryQuality) -> f64| {
-            100.0 * fit.entries.iter().map(of).fold(0.0, f64::max)
-        };
+        let worst =
+            |of: fn(&EntryQuality) -> f64| 100.0 * fit.entries.iter().map(of).fold(0.0, f64::max);
+        let furthest = EntryQuality::worst(&fit.entries).map_or(String::new(), EntryQuality::name);
         if fit.memory.terms.is_empty() {
             return "none, as no waves are made".to_owned();
         }
         let how = match fit.blocks.as_slice() {
             [] => "given".to_owned(),
             blocks => {
-                let block = |block: &crate::memory::BlockQuality| {
+                let block = |block: &BlockQuality| {
                     let names = block.freedoms.iter().map(|i| FREEDOMS[*i]);
                     let names = names.collect::<Vec<_>>().join(" and ");
                     format!("{} pairs of poles for {names}", block.pairs)
@@ -66,8 +67,8 @@ impl Report {
         };
         let damped = fit.blocks.iter().any(|block| block.damped);
         format!(
-            "{how}, {} states; off the file by {:.2} % (root mean square), off K(t) by {:.2} %, {:.1} % \
-             at worst; {}",
+            "{how}, {} states; off the file by at most {:.2} % (root mean square; {furthest}), off K(t) by at most \
+             {:.2} %, {:.1} % at its worst; {}",
             fit.memory.states(),
             worst(|entry| entry.rms),
             worst(|entry| entry.kernel_rms),
@@ -100,6 +101,40 @@ impl Floating {
         }
     }
 
+    /// What is left over of weight, buoyancy and constant forces at the place of the file, in words.
+    fn balance_words(&self) -> Option<String> {
+        let body = &self.body;
+        let lift = body.constant_force[1];
+        let lift = (lift.abs() > BALANCED * body.stiffness[(1, 1)].abs()).then(|| {
+            let way = if lift > 0.0 { "lift" } else { "weight" };
+            format!("{:.1} kN of {way}", lift.abs() / 1e3)
+        });
+        let moment = self.unbalanced_pitch().map(|_| {
+            let size = body.constant_force[2].abs() / 1e3;
+            format!("a moment of {size:.1} kN m")
+        });
+        let (left, pitches) = match (lift, moment) {
+            (Some(lift), Some(moment)) => (format!("{lift} and {moment}"), true),
+            (Some(one), None) => (one, true),
+            (None, Some(one)) => (one, false),
+            (None, None) => return None,
+        };
+        let pitches = if pitches {
+            ", and where they hold decides how it pitches"
+        } else {
+            ""
+        };
+        Some(format!(
+            "{left} {} left for lines to hold{pitches}: periods and responses are those of a body held upright at \
+             the reference point",
+            if left.starts_with("a moment") {
+                "is"
+            } else {
+                "are"
+            }
+        ))
+    }
+
     fn say(&self, say: &mut impl FnMut(&str, String)) {
         let body = &self.body;
         say(
@@ -115,18 +150,7 @@ impl Floating {
                 body.stiffness[(2, 2)] / 1e3,
             ),
         );
-        let lift = body.constant_force[1];
-        if lift.abs() > BALANCED * body.stiffness[(1, 1)].abs() {
-            let (way, size) = if lift > 0.0 {
-                ("lift", lift)
-            } else {
-                ("weight", -lift)
-            };
-            let words = format!(
-                "{:.1} kN of {way} are left for lines to hold, and where they hold decides how it \
-                 pitches: periods and responses are those of a body held at the reference point",
-                size / 1e3
-            );
+        if let Some(words) = self.balance_words() {
             say("balance", words);
         }
         say("periods", periods_in_words(&self.natural, &self.modes));

@@ -1,7 +1,7 @@
 //! What is said of coefficients: nothing is left out, and files that say less have fewer answers.
 
 use crate::common::{hydro, reading};
-use snapload_hydro::{FitOptions, Format, Line, Reading, Report, Request, page};
+use snapload_hydro::{EntryQuality, FitOptions, Format, Line, Reading, Report, Request, page};
 
 fn request() -> Request {
     Request {
@@ -169,4 +169,71 @@ fn an_inertia_that_is_not_given_with_a_mass_is_told() {
     let json = serde_json::to_value(own.to_json()).expect("JSON");
     let inertia = json["floating"]["moment_of_inertia_kg_m2"].as_f64();
     assert!((inertia.expect("a number") - 133_000.0).abs() < 1e-6);
+}
+
+/// A centre of gravity beside that of buoyancy turns the body by its weight's arm over the stiffness,
+/// which is told in words and in JSON; one under it does not.
+#[test]
+fn a_moment_that_nothing_balances_is_told() {
+    let report = |x: f64| {
+        let mut request = request();
+        request.weight.centre_m = Some([x, -0.2]);
+        Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report")
+    };
+    let of = |report: &Report| -> Vec<String> {
+        let told = report.warnings.iter();
+        let told = told.filter(|warning| warning.what == "balance");
+        told.map(|warning| warning.words.clone()).collect()
+    };
+    let balance = |report: &Report| {
+        let rows = report.summary();
+        rows.into_iter().find(|(label, _)| label == "balance")
+    };
+    let upright = report(0.0);
+    assert_eq!((of(&upright), balance(&upright)), (Vec::new(), None));
+    let turned = report(0.5);
+    let body = &turned.floating.as_ref().expect("a body").body;
+    let arm = 0.5 * body.mass_kg * 9.81;
+    let angle = (arm / body.stiffness[(2, 2)]).to_degrees();
+    let words = of(&turned).concat();
+    assert!(words.contains(&format!("{angle:.1}°")), "{words}");
+    let (_, words) = balance(&turned).expect("a row");
+    let said = format!("a moment of {:.1} kN m is left", arm / 1e3);
+    assert!(words.contains(&said), "{words}");
+    let json = serde_json::to_value(turned.to_json()).expect("JSON");
+    assert!(json["warnings"].to_string().contains("upright"));
+}
+
+/// What a memory is off the file by is said of the entry that it is said of, and of a block that
+/// fits badly the entry that fits worse than the whole.
+#[test]
+fn a_fit_is_no_better_than_its_worst_entry() {
+    let mut request = request();
+    request.fit = FitOptions { pairs: Some(2) };
+    let report = Report::new("pontoon", reading("pontoon-deep.nc"), &request).expect("a report");
+    let worst = EntryQuality::worst(&report.fit.entries).expect("entries");
+    let said = format!(
+        "{:.2} % (root mean square; {})",
+        100.0 * worst.rms,
+        worst.name()
+    );
+    assert!(report.memory_words().contains(&said), "{said}");
+    for block in report
+        .fit
+        .blocks
+        .iter()
+        .filter(|block| block.freedoms.len() > 1)
+    {
+        let own = report.fit.entries.iter();
+        let own = own.filter(|entry| block.freedoms.contains(&entry.force));
+        let worst = EntryQuality::worst(own).expect("entries");
+        assert!(worst.rms > block.rms && block.rms > 0.02, "{block:?}");
+        let said = format!("{} alone to {:.1} %", worst.name(), 100.0 * worst.rms);
+        assert!(
+            report
+                .warnings
+                .iter()
+                .any(|warning| warning.words.contains(&said))
+        );
+    }
 }

@@ -1,7 +1,9 @@
 //! Floating bodies of one section, for which no panel code was run.
 
 use nalgebra::Complex;
-use snapload_hydro::{Report, Request, SectionBody, Shape, Water, Weight, wave_number};
+use snapload_hydro::{
+    Body, Report, Request, SectionBody, Shape, Water, Weight, natural_of_the_file, wave_number,
+};
 use std::f64::consts::PI;
 
 fn box_of(half_width_m: f64, draft_m: f64) -> SectionBody {
@@ -147,4 +149,20 @@ fn half_a_circle_displaces_half_a_cylinder() {
         .reading(water(12.0))
         .expect_err("no such rows");
     assert!(too_flat.to_string().contains("tabulated"), "{too_flat}");
+}
+
+/// A textbook's added mass is that of all frequencies: a swing however slow is not outside of them.
+#[test]
+fn no_swing_is_outside_a_textbook() {
+    let reading = box_of(2.0, 1.2).reading(water(10.0)).expect("a body");
+    let weight = Weight {
+        inertia_kg_m2: Some(2e5),
+        ..Weight::default()
+    };
+    let mut body = Body::new(&reading.hydro, &weight).expect("a body");
+    body.stiffness[(2, 2)] = 1e-6 * body.stiffness[(1, 1)];
+    let natural = natural_of_the_file(&reading.hydro, &body).expect("motions");
+    let slowest = &natural[0];
+    assert!(slowest.omega_rad_s < reading.hydro.range_rad_s()[0]);
+    assert!(natural.iter().all(|natural| !natural.outside));
 }
