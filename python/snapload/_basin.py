@@ -52,7 +52,8 @@ def safe_basin(case: Case, *, trust: bool = True, progress: bool = True, **windo
         horizon of trust lies past the end. Attributes: ``legal``, ``safe`` and ``undecided`` cells; ``fraction`` and
         ``gim``, the global integrity measure, with ``interval95``; and where both keys are starts ``lim``, the distance
         of the nearest unsafe start from the equilibrium, ``if``, the radius of the largest disc without unsafe starts,
-        and ``iim``, the least unsafe velocity. NaN where there is none. ``cell`` is the size of a cell.
+        and ``iim``, the least unsafe velocity. NaN where there is none, ``lim`` and ``iim`` also where another start
+        key is not 0, so that the equilibrium is not in the plane of the two. ``cell`` is the size of a cell.
 
     Raises
     ------

@@ -63,11 +63,13 @@ pub struct Measures {
     pub gim: f64,
     /// Wilson's interval of 95 % about it.
     pub interval: [f64; 2],
-    /// The least distance from the equilibrium to an unsafe cell: the local integrity measure.
+    /// The least distance from the equilibrium to an unsafe cell: the local integrity measure. None
+    /// in a plane that does not hold the equilibrium.
     pub lim: Option<f64>,
     /// The radius of the largest disc without unsafe cells: the integrity factor.
     pub integrity_factor: Option<f64>,
-    /// The least distance along the velocity: the impulsive integrity measure.
+    /// The least distance along the velocity: the impulsive integrity measure. None where there is no
+    /// local one.
     pub iim: Option<f64>,
 }
 
@@ -185,6 +187,15 @@ impl Window {
     /// Whether both keys are values of the start.
     pub(crate) fn are_starts(&self) -> bool {
         self.keys.iter().all(|key| STARTS.contains(key))
+    }
+
+    /// What else than the two keys keeps every start of a plane of starts away from the equilibrium,
+    /// where all start values are 0: keys that are not 0. Distances from it are not those of the plane
+    /// then.
+    pub(crate) fn away_from_equilibrium(&self) -> Vec<(&'static str, f64)> {
+        let others = STARTS.iter().filter(|key| !self.keys.contains(key));
+        let values = others.filter_map(|key| Some((*key, self.base.get(key)?.number()?)));
+        values.filter(|(_, value)| *value != 0.0).collect()
     }
 }
 
@@ -341,14 +352,16 @@ impl Measures {
         let undecided_safe = doubtful.filter(|cell| !cell.escapes()).count();
         let past_horizon = cells.iter().filter(|cell| !cell.trusted).count();
         let safe = legal - unsafe_cells;
-        let [lim, integrity_factor, iim] = if window.are_starts() {
-            [
+        let integrity_factor = match window.are_starts() {
+            true => largest_disc(window, cells),
+            false => None,
+        };
+        let [lim, iim] = match window.are_starts() && window.away_from_equilibrium().is_empty() {
+            true => [
                 nearest_unsafe(window, cells),
-                largest_disc(window, cells),
                 nearest_along_velocity(window, cells),
-            ]
-        } else {
-            [None; 3]
+            ],
+            false => [None; 2],
         };
         let share = Share {
             count: safe,

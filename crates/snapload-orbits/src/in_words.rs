@@ -1,7 +1,7 @@
 //! The answers in a few lines, for a person.
 
 use crate::attraction::Attraction;
-use crate::basin::Basin;
+use crate::basin::{Basin, Window};
 use crate::diagram::At;
 use crate::erosion::{Erosion, KNEE, decided_part};
 use crate::orbit::Orbit;
@@ -213,6 +213,7 @@ pub fn basin_in_words(basin: &Basin) -> String {
             "Nearest   unsafe start {lim:.4} from the equilibrium (LIM)"
         );
     }
+    text += &beside_the_equilibrium(&basin.window);
     if let Some(radius) = m.integrity_factor {
         let _ = writeln!(
             text,
@@ -226,6 +227,17 @@ pub fn basin_in_words(basin: &Basin) -> String {
         );
     }
     text
+}
+
+/// Why a plane of starts has no distances from the equilibrium; nothing where it has them.
+fn beside_the_equilibrium(window: &Window) -> String {
+    let away = window.away_from_equilibrium();
+    if !window.are_starts() || away.is_empty() {
+        return String::new();
+    }
+    let keys = away.iter().map(|(key, value)| format!("{key} = {value}"));
+    let keys = keys.collect::<Vec<_>>().join(", ");
+    format!("Nearest   not told (LIM, IIM): the equilibrium is not in this plane, as {keys}\n")
 }
 
 /// An erosion: a row a value, and after an empty line what they come to.
@@ -267,6 +279,9 @@ pub fn erosion_in_words(erosion: &Erosion) -> String {
         (None, _) => Ok(()),
     };
     let _ = writeln!(text, "Knee      {}", knee_in_words(erosion));
+    let windows = erosion.points.iter().map(|(_, basin)| &basin.window);
+    let away = windows.map(beside_the_equilibrium);
+    text += &away.max_by_key(String::len).unwrap_or_default();
     if !erosion.looked_beside() {
         text += "Undecided not known, as neighbours were not looked at\n";
     }

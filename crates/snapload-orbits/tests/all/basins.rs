@@ -126,6 +126,26 @@ fn a_window_beyond_the_cables_is_said_to_be_so() {
     );
 }
 
+/// Distances from the equilibrium are told in planes that hold it, and in no other: there no start is
+/// nearer to it than what the other keys are.
+#[test]
+fn a_plane_beside_the_equilibrium_has_no_distances_from_it() {
+    let mut window = window(&reference()["grids"]["circle_xy_f0.3"]);
+    window.values = [vec![-0.1, 0.0, 0.1], vec![0.1, 0.3, 0.5]];
+    let basin = Basin::of(window.clone(), false, &unwatched).unwrap();
+    let lim = basin.measures.lim.unwrap();
+    assert!(basin_in_words(&basin).contains(&format!("{lim:.4} from the equilibrium (LIM)")));
+    window.base.vy = -0.2;
+    let basin = Basin::of(window, false, &unwatched).unwrap();
+    assert_eq!((basin.measures.lim, basin.measures.iim), (None, None));
+    assert!(basin.measures.integrity_factor.is_some());
+    let words = basin_in_words(&basin);
+    assert!(
+        words.contains("the equilibrium is not in this plane, as vy = -0.2\n"),
+        "{words}"
+    );
+}
+
 /// A window that is written from its largest values down has the measures of the same cells upwards.
 #[test]
 fn measures_do_not_hang_on_the_order_of_the_cells() {
