@@ -14,11 +14,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use serde::Serialize;
 use snapload::analysis::{Cancelled, Counter, Ensemble, Progress, Uncertainty, record, unwatched};
-use snapload::{ModeInterval, Playback, Trajectory};
+use snapload::{ModeInterval, Playback, Sampling, Trajectory};
 use snapload_report::tables::{IMPACTS, ImpactRow, impact_rows};
 use snapload_report::{
-    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, Sampling, ShareRow, TOLERANCE, TrustRow,
-    Trusted, summary, summary_lines, trust_in_words,
+    CaseEcho, EndRow, NormsRow, OutcomeRow, Report, ShareRow, TOLERANCE, TrustRow, Trusted,
+    summary, summary_lines, trust_in_words,
 };
 use std::collections::HashMap;
 use std::iter::{once, repeat};

@@ -8,11 +8,11 @@ use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
 use crate::whole::whole;
-use snapload::Case;
 use snapload::analysis::Progress;
+use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
 use snapload_report::{
-    Certified, Report, Sampling, Trusted, case_in_words, prove, summary, tables, write_json,
+    Certified, Report, Trusted, case_in_words, prove, summary, tables, write_json,
 };
 use std::path::{Path, PathBuf};
 

@@ -4,11 +4,11 @@ use crate::request;
 use crate::run::follow;
 use crate::work::Allowance;
 use serde::Deserialize;
-use snapload::Case;
 use snapload::analysis::{Progress, Uncertainty, Unfinished};
+use snapload::{Case, Sampling};
 use snapload_figures::{FigureError, PNG_SCALE, RunPlot, RunPlots};
 use snapload_report::{
-    Followed, Report, Sampling, Trusted, case_file, case_in_words, shell_line, tables, write_json,
+    Followed, Report, Trusted, case_file, case_in_words, shell_line, tables, write_json,
 };
 use std::time::Duration;
 

@@ -25,7 +25,7 @@ pub use error::{HydroError, Warning};
 pub use linear::{
     Body, Decay, Line, Mode, Natural, Peak, Response, Rest, Swing, Weight, decay,
     decay_of_the_damping, eigenvalues, fine_responses, natural_of_the_file, natural_of_the_memory,
-    response_of_the_file, response_of_the_memory, rest, significant, swings,
+    response_of_the_file, response_of_the_memory, rest, rest_adrift, significant, swings,
 };
 pub use memory::{
     BlockQuality, DampingCurve, EntryQuality, Fit, FitOptions, Memory, Term, TermRow,

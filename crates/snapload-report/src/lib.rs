@@ -22,7 +22,7 @@ pub use certified::{
 };
 pub use critical::{CriticalRow, Probability};
 pub use followed::Followed;
-pub use motion::{MOTION, MotionRow, Sampling};
+pub use motion::{MOTION, MotionRow};
 pub use question::{Answer, Options, Question, TOLERANCE};
 pub use report::{CaseEcho, EndRow, NormsRow, Report, ValueRow, write_json};
 pub use summary::{NormsKnown, case_in_words, end_in_words, summary, summary_lines};

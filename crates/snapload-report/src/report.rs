@@ -1,10 +1,12 @@
 //! The shape of a run in JSON. Names and order here are a promise to whoever reads the files.
-use crate::motion::{MotionRow, Sampling};
+use crate::motion::MotionRow;
 use crate::{CertificateRow, Certified, OutcomeRow, TrustRow, Trusted};
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use snapload::analysis::{OnProgress, Progress};
-use snapload::{End, Impact, ModeInterval, Norms, Parameters, Playback, Trajectory, Value};
+use snapload::{
+    End, Impact, ModeInterval, Norms, Parameters, Playback, Sampling, Trajectory, Value,
+};
 use std::io::{self, Write};
 
 /// Everything there is to say about a run.

@@ -1,7 +1,7 @@
 //! The tables of a run as CSV, and their columns for whoever writes them in another form.
-use crate::motion::{MOTION, MotionRow, Sampling};
+use crate::motion::{MOTION, MotionRow};
 use serde::{Serialize, Serializer};
-use snapload::{Impact, Playback, Trajectory};
+use snapload::{Impact, Playback, Sampling, Trajectory};
 use snapload_study::{Column, Take};
 use std::io::{self, Write};
 

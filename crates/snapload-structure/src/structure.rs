@@ -9,6 +9,7 @@ mod read;
 pub use added_mass::{AddedMass, ByDefault};
 pub use afloat::{Afloat, READS_NO_FILES};
 
+use crate::words::kilo;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -320,10 +321,10 @@ impl Structure {
     pub fn default_words(&self) -> Option<String> {
         let (body, added) = (&self.body, &self.body.added_mass);
         let source = self.added_mass_source()?;
-        let tonnes = |kilograms: f64| kilograms / 1e3;
+        let tonnes = |kilograms: f64| kilo(&kilograms, 1);
         Some(format!(
-            "{:.1} t, and {:.1} t of water move with it in x, {:.1} t in z; it turns {:.1} t m^2, and \
-             {:.1} t m^2 of water with it: {source}",
+            "{} t, and {} t of water move with it in x, {} t in z; it turns {} t m^2, and \
+             {} t m^2 of water with it: {source}",
             tonnes(body.mass_kg),
             tonnes(added.surge_kg),
             tonnes(added.heave_kg),
@@ -344,22 +345,18 @@ impl Structure {
         let (current, [x, z]) = (self.site.current_m_s, self.body.constant_force_n);
         let mut parts = Vec::new();
         if current != 0.0 {
-            let drag = self.drag_of_current_n() / 1e3;
-            parts.push(format!(
-                "a current of {current} m/s drags with {drag:.1} kN"
-            ));
+            let drag = kilo(&self.drag_of_current_n(), 1);
+            parts.push(format!("a current of {current} m/s drags with {drag} kN"));
         }
         if [x, z] != [0.0; 2] {
-            let [x, z] = [x, z].map(|newtons| newtons / 1e3);
-            parts.push(format!(
-                "a constant force of {x:.1} kN in x and {z:.1} kN in z"
-            ));
+            let [x, z] = [x, z].map(|newtons| kilo(&newtons, 1));
+            parts.push(format!("a constant force of {x} kN in x and {z} kN in z"));
         }
         let moment = self.afloat.iter().map(|afloat| afloat.constant_moment_n_m);
         for moment in moment.filter(|moment| *moment != 0.0) {
-            let moment = moment / 1e3;
+            let moment = kilo(&moment, 1);
             parts.push(format!(
-                "a constant moment of {moment:.1} kN m, counter-clockwise"
+                "a constant moment of {moment} kN m, counter-clockwise"
             ));
         }
         (!parts.is_empty()).then(|| parts.join("; "))

@@ -61,6 +61,7 @@ pub use motion::held::{Held, Path};
 pub use motion::impact::Impact;
 pub use motion::outcome::{FirstImpact, Outcome};
 pub use motion::playback::{Motion, Playback};
+pub use motion::sampling::Sampling;
 #[cfg(feature = "comparisons")]
 pub use motion::simulation::comparisons::BounceStages;
 pub use motion::simulation::{Simulation, Step, Steps};

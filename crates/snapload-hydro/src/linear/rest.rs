@@ -6,6 +6,7 @@ use crate::coefficients::Hydrodynamics;
 use crate::error::HydroError;
 use crate::memory::Memory;
 use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, RowVector3, Vector2, Vector3};
+use std::f64::consts::FRAC_PI_2;
 
 /// Lines that can be taut at once: there are three freedoms.
 const MOST: usize = 3;
@@ -149,6 +150,32 @@ pub fn rest(hydro: &Hydrodynamics, body: &Body, lines: &[Line]) -> Result<Rest, 
                      holds it up; give lines, or a place to start from";
         HydroError::Impossible(words.to_owned())
     })
+}
+
+/// Where a body floats that no line holds in surge, at a surge that is given: without tension, in
+/// balance of heave and pitch by its stiffness. None if a force pushes it away in surge, if water does
+/// not hold it up and upright, or if a line would be too short there. With it comes how far the ends of
+/// each line are apart there \[m\].
+pub fn rest_adrift(
+    hydro: &Hydrodynamics,
+    body: &Body,
+    lines: &[Line],
+    surge_m: f64,
+) -> Option<(Vector3<f64>, Vec<f64>)> {
+    let weight = body.mass_kg * hydro.water.gravity_m_s2;
+    let held = body.stiffness.row(0).amax() > 0.0;
+    if held || body.constant_force[0].abs() > 1e-9 * weight {
+        return None;
+    }
+    let stiffness = body.stiffness.fixed_view::<2, 2>(1, 1).into_owned();
+    let force = body.constant_force.fixed_rows::<2>(1).into_owned();
+    let place = stiffness.cholesky()?.solve(&force);
+    let q = Vector3::new(surge_m, place[0], place[1]);
+    let apart = |line: &Line| Pull::at(line, hydro.reference_m, &q).distance;
+    let apart_m: Vec<f64> = lines.iter().map(apart).collect();
+    let reaches = |(line, apart): (&Line, &f64)| *apart <= line.length_m * (1.0 + 1e-9);
+    let all_reach = lines.iter().zip(&apart_m).all(reaches);
+    (q[2].abs() < FRAC_PI_2 && all_reach).then_some((q, apart_m))
 }
 
 /// All sets of at most three of n lines.

@@ -295,8 +295,8 @@ impl Floating {
             };
             let words = format!(
                 "a moment of {:.1} kN m about the reference point is not balanced where the file has the body \
-                 upright: without lines it lies turned{angle}, and what is told of it upright is not so there. \
-                 Bring the centre of gravity under that of buoyancy, or give the lines that hold it",
+                 upright: without lines it lies turned{angle}, and its periods and response without lines are \
+                 not those it has so. A centre of gravity under that of buoyancy makes no such moment",
                 self.body.constant_force[2] / 1e3
             );
             warnings.push(Warning::new("balance", words));

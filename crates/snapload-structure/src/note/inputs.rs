@@ -1,6 +1,7 @@
 //! What a note lists as its inputs.
 
 use crate::structure::{Outline, Structure, Water};
+use crate::words::{digits, kilo, tenths};
 use askama::Template;
 
 #[derive(Template)]

@@ -19,6 +19,7 @@ use crate::runs::assess::Assessment;
 use crate::runs::design::Check;
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::Structure;
+use crate::words::{digits, kilo, maybe_kilo, tenths, with_error};
 use askama::Template;
 use inputs::resistance;
 use snapload_figures::{FigureError, Picture};
@@ -213,24 +214,13 @@ impl askama::filters::Escaper for Escaper {
     }
 }
 
-fn kilo(newtons: &f64) -> String {
-    format!("{:.0}", newtons / 1e3)
-}
-
-fn maybe_kilo(newtons: &Option<f64>) -> String {
-    newtons.map_or("not known".to_owned(), |newtons| kilo(&newtons))
-}
-
 fn maybe_part(part: &Option<f64>) -> String {
     part.map_or("not known".to_owned(), |part| format!("{part:.2}"))
 }
 
 /// The mean and the values that 50, 90 and 99 % stay below.
 fn expected(fit: Option<Gumbel>, unit: f64, digits: usize) -> [String; 4] {
-    let cell = |estimate: Estimate| {
-        let [value, error] = [estimate.value / unit, estimate.error / unit];
-        format!("{value:.digits$} ± {error:.digits$}")
-    };
+    let cell = |estimate: Estimate| with_error(&estimate, unit, digits);
     match fit {
         Some(fit) => {
             let [half, most, nearly_all] = [0.5, 0.9, 0.99].map(|p| cell(fit.quantile(p)));

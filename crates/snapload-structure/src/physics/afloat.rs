@@ -10,11 +10,12 @@ use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
 use super::sea::Spectrum;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, Structure, Water};
+use crate::words::kilo;
 use nalgebra::{Complex, Matrix3, Vector3};
 use snapload::{
     Body, CaseError, Excitation, Exponential, Floating, FloatingUnits, Forcing, System,
 };
-use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest};
+use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest, rest_adrift};
 
 /// Waves outside the file's frequencies may have this part of the sea's energy.
 const OUTSIDE: f64 = 0.01;
@@ -93,8 +94,14 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     })
 }
 
-/// That a body rests nowhere on its lines, or would without the loads of the case.
-fn nowhere(structure: &Structure, afloat: &Afloat, error: &HydroError) -> CaseError {
+/// That a body rests nowhere on its lines, or would without the loads of the case; `adrift` is where
+/// it floats without tension, and how far the ends of each line are apart there.
+fn nowhere(
+    structure: &Structure,
+    afloat: &Afloat,
+    error: &HydroError,
+    adrift: Option<(Vector3<f64>, Vec<f64>)>,
+) -> CaseError {
     if let Some(error) = pushed_away(structure, |calm| rest_afloat(calm, afloat).is_ok()) {
         return error;
     }
@@ -111,8 +118,29 @@ fn nowhere(structure: &Structure, afloat: &Afloat, error: &HydroError) -> CaseEr
     }
     let lengths = structure.lines.iter().map(|line| line.length_m.to_string());
     let shown = format!("[{}]", lengths.collect::<Vec<_>>().join(", "));
-    CaseError::value("line.length", shown, error.to_string())
-        .with_hint("give run.start, or lines that hold the body")
+    let Some((q, apart_m)) = adrift else {
+        return CaseError::value("line.length", shown, format!("lines that hold it; {error}"))
+            .with_hint("give run.start, or lines that hold the body");
+    };
+    let [_, z] = structure.body.position_m;
+    let apart = apart_m.iter().map(|apart| format!("{apart:.3}"));
+    let allowed = format!(
+        "lines one of which at the least is taut at rest, so that the body is held in surge; without tension it \
+         floats at z = {:.3} m, where their ends are [{}] m apart",
+        z + q[1],
+        apart.collect::<Vec<_>>().join(", ")
+    );
+    let error = CaseError::value("line.length", shown, allowed);
+    let [mass_kg, displaced_kg] = [structure.body.mass_kg, structure.displaced_mass_kg()];
+    error.with_hint(match mass_kg > displaced_kg {
+        true => format!(
+            "the body weighs {} t where it displaces {} t: make it lighter, or the lines shorter; run.start says \
+             where it begins without being held",
+            kilo(&mass_kg, 1),
+            kilo(&displaced_kg, 1)
+        ),
+        false => "shorten the lines; run.start says where it begins without being held".to_owned(),
+    })
 }
 
 fn impossible(error: &HydroError) -> CaseError {
@@ -173,9 +201,18 @@ pub(super) fn left_out(structure: &Structure, afloat: &Afloat) -> f64 {
     }
 }
 
+/// A displacement; what is left by rounding of a place that is symmetric has no sign.
+fn without_rounding(displacement: f64) -> f64 {
+    if displacement.abs() < ROUNDING {
+        0.0
+    } else {
+        displacement
+    }
+}
+
 /// Where it rests on its lines, and the small motion that they leave it there. Where no line holds it
-/// in surge there is no such place, and a case that says where it starts begins there without
-/// tension.
+/// in surge, one that floats without tension rests at the surge of the case's start; one that would
+/// not has no place of rest that is known.
 pub(super) fn rest_afloat(
     structure: &Structure,
     afloat: &Afloat,
@@ -195,10 +232,19 @@ pub(super) fn rest_afloat(
     let place = match (rest(hydro, &body, &lines), structure.start_m) {
         (Ok(place), _) => place,
         (Err(_), Some(place_m)) => {
+            let adrift = rest_adrift(hydro, &body, &lines, place_m[0] - x);
+            let [_, heave, pitch] = match &adrift {
+                Some((q, _)) => q.map(without_rounding).into(),
+                None => [0.0; 3],
+            };
             let equilibrium = Equilibrium {
-                place_m,
-                theta_rad: 0.0,
+                place_m: match adrift {
+                    Some(_) => [place_m[0], z + heave],
+                    None => place_m,
+                },
+                theta_rad: 0.0 - pitch,
                 tension_n: vec![0.0; lines.len()],
+                rests: adrift.is_some(),
                 taut: Vec::new(),
                 indeterminate: false,
                 shared: None,
@@ -207,23 +253,18 @@ pub(super) fn rest_afloat(
             return Ok((equilibrium, Vec::new()));
         }
         (Err(error), None) => {
-            return Err(nowhere(structure, afloat, &error));
+            let adrift = rest_adrift(hydro, &body, &lines, 0.0);
+            return Err(nowhere(structure, afloat, &error, adrift));
         }
     };
     let fit = &afloat.report.fit;
     let held = place.natural(hydro, &body, &fit.memory, &fit.added_mass_inf);
     let (natural, modes) = held.map_err(|error| impossible(&error))?;
-    // What is left by rounding of a place that is symmetric has no sign.
-    let [surge, heave, pitch] = [0, 1, 2].map(|i| {
-        if place.q[i].abs() < ROUNDING {
-            0.0
-        } else {
-            place.q[i]
-        }
-    });
+    let [surge, heave, pitch] = place.q.map(without_rounding).into();
     let equilibrium = Equilibrium {
         place_m: [x + surge, z + heave],
         theta_rad: 0.0 - pitch,
+        rests: true,
         taut: place.taut,
         tension_n: place.tension_n,
         indeterminate: false,

@@ -33,6 +33,9 @@ pub struct Equilibrium {
     pub theta_rad: f64,
     /// Tension of each line, 0 where it is slack \[N\].
     pub tension_n: Vec<f64>,
+    /// Whether it is one: where no place of rest is known it is where the case starts, without
+    /// tension.
+    pub rests: bool,
     /// The lines that are just taut, by index, a slack one that touches included.
     pub taut: Vec<usize>,
     /// Whether more lines are taut than the body has freedoms for, so that their stiffness decides
@@ -91,6 +94,7 @@ pub fn equilibrium(structure: &Structure) -> Result<Equilibrium, CaseError> {
         place_m,
         theta_rad: -best.theta,
         tension_n: of_all(&model, &taut, &tension),
+        rests: true,
         indeterminate: dependent(system, &taut, &best),
         shared: None,
         relaxed_n: None,

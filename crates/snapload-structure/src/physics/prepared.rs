@@ -71,7 +71,9 @@ impl Prepared {
             held,
             ..Self::starting(structure, rest, model)
         };
-        prepared.share_by_stiffness();
+        if prepared.rest.rests {
+            prepared.share_by_stiffness();
+        }
         Ok(prepared)
     }
 

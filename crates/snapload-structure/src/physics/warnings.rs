@@ -7,7 +7,7 @@ use super::prepared::Prepared;
 use super::waterline::Waterline;
 use super::wave::LinearWave;
 use crate::structure::{Afloat, LineSi, Structure, THREE_HOURS_S, Water};
-use crate::words::{decimals, paragraph};
+use crate::words::{decimals, kilo, paragraph};
 use askama::Template;
 use serde::Serialize;
 use snapload_hydro::Format;
@@ -197,9 +197,9 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
     let words = rest.shared.as_ref().map(|shared| {
         format!(
             "{} kN at z = {:.3} m, and by their stiffness {} kN at z = {:.3} m",
-            kilo(&shared.unstretched_n),
+            each_kilo(&shared.unstretched_n),
             rest.place_m[1],
-            kilo(&rest.tension_n),
+            each_kilo(&rest.tension_n),
             shared.place_m[1]
         )
     });
@@ -210,13 +210,17 @@ fn shared_loads(rest: &Equilibrium) -> Option<Warning> {
 /// The warning that the lines of a floating body carry another load as they stretch.
 fn stretch_at_rest(rest: &Equilibrium) -> Option<Warning> {
     let relaxed = rest.relaxed_n.as_ref()?;
-    let words = format!("{} kN, and not {}", kilo(relaxed), kilo(&rest.tension_n));
+    let words = format!(
+        "{} kN, and not {}",
+        each_kilo(relaxed),
+        each_kilo(&rest.tension_n)
+    );
     broken(true, "stretch at rest", [0.0; 2], &words)
 }
 
 /// Tensions in kN, one after the other.
-fn kilo(tensions_n: &[f64]) -> String {
-    let each = tensions_n.iter().map(|pull| format!("{:.0}", pull / 1e3));
+fn each_kilo(tensions_n: &[f64]) -> String {
+    let each = tensions_n.iter().map(|pull| kilo(pull, 0));
     each.collect::<Vec<_>>().join("/")
 }
 
@@ -314,9 +318,19 @@ pub(crate) fn short_records(structure: &Structure) -> Option<Warning> {
 
 /// The warning that a body turns so far that what resists its rotation counts, and nothing does.
 pub(crate) fn turning_warning(structure: &Structure, turned_rad: f64) -> Option<Warning> {
-    let free = structure.body.turning_damping_n_m_s == 0.0;
+    let (damped, key) = match &structure.afloat {
+        Some(afloat) => {
+            let radiates = !afloat.report.fit.memory.terms.is_empty();
+            let given = afloat.body.damping[(2, 2)] != 0.0;
+            (radiates || given, "the third number of float.damping")
+        }
+        None => (
+            structure.body.turning_damping_n_m_s != 0.0,
+            "turning_damping",
+        ),
+    };
     let numbers = [turned_rad.to_degrees(), FREE_TURN];
-    broken(free && numbers[0] > FREE_TURN, "turning", numbers, "")
+    broken(!damped && numbers[0] > FREE_TURN, "turning", numbers, key)
 }
 
 /// The wave by which a structure is judged: the regular one, or the highest of a sea at its peak

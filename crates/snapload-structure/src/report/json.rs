@@ -78,6 +78,7 @@ impl Assessment {
     pub fn to_json(&self, name: &str) -> Value {
         let structure = &self.prepared.structure;
         let (rest, groups) = (&self.prepared.rest, &self.prepared.model.groups);
+        let known = |number: f64| rest.rests.then_some(number);
         let utilisations = self.outcome.utilisations(structure);
         let line = |index: usize| {
             let line = &structure.lines[index];
@@ -88,7 +89,7 @@ impl Assessment {
             row["stiffness_n"] = json!(line.stiffness_n);
             row["mass_per_length_kg_m"] = json!(line.mass_per_length_kg_m);
             row["breaking_load_n"] = json!(line.breaking_load_n);
-            row["rest_tension_n"] = json!(rest.tension_n[index]);
+            row["rest_tension_n"] = json!(known(rest.tension_n[index]));
             row["utilisation"] = json!(utilisations[index]);
             // What remains of its strength; infinite, and so null, where nothing pulls.
             row["safety_factor"] = json!(utilisations[index].map(f64::recip));
@@ -115,7 +116,8 @@ impl Assessment {
             "checks": checks.collect::<Vec<_>>(),
             "warnings": self.warnings,
             "rest": {
-                "x_m": rest.place_m[0], "z_m": rest.place_m[1], "theta_rad": rest.theta_rad,
+                "x_m": known(rest.place_m[0]), "z_m": known(rest.place_m[1]),
+                "theta_rad": known(rest.theta_rad),
                 "indeterminate": rest.indeterminate,
                 "unstretched_tension_n": rest.shared.as_ref().map(|shared| &shared.unstretched_n),
                 "stretched_m": rest.shared.as_ref().map(|shared| shared.place_m),

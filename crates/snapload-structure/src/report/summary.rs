@@ -16,7 +16,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, slack_part};
 use crate::runs::seas::{Lines, Seas};
 use crate::structure::{Structure, Water};
-use crate::words::{decimals, laid_out};
+use crate::words::{decimals, kilo, laid_out, tenths, with_error};
 use askama::Template;
 
 /// The number of pulls and snaps that are listed; JSON has them all.
@@ -181,6 +181,12 @@ impl BothModels {
 /// Where a body rests, and how far turned.
 fn rest_words(rest: &Equilibrium) -> String {
     let [x, z] = rest.place_m.map(|coordinate| decimals(&coordinate, 3));
+    if !rest.rests {
+        return format!(
+            "nowhere that is known, as no line holds it in surge, and at the surge of its start it would not float \
+             without tension; begins at x = {x} m, z = {z} m"
+        );
+    }
     let turned = decimals(&rest.theta_rad.to_degrees(), 2);
     format!("x = {x} m, z = {z} m, turned by {turned} degrees")
 }
@@ -196,7 +202,7 @@ fn troughs_words(sorted_n: &[f64]) -> String {
     for (value, what) in told.map(|(part, what)| (quantile(sorted_n, part), what)) {
         // Of those that are slack all is said.
         if let Some(value) = value.filter(|value| *value > 0.0) {
-            words.push(format!("{what} {:.0} kN", value / 1e3));
+            words.push(format!("{what} {} kN", kilo(&value, 0)));
         }
     }
     words.join(", ")
@@ -207,19 +213,19 @@ fn pull_words(pull: &Pull) -> String {
         .rebound_m_s
         .map_or("-".to_owned(), |speed| format!("{speed:.2}"));
     format!(
-        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8.0}{rebound:>10}",
+        "  {:>4}{:>8.3}{:>8.3}{:>8}{:>8}{rebound:>10}",
         pull.line + 1,
         pull.from_s,
         pull.to_s,
         decimals(&pull.speed_m_s, 3),
-        pull.peak_n / 1e3
+        kilo(&pull.peak_n, 0)
     )
 }
 
 fn snap_words(snap: &Snap) -> String {
     let peak = snap
         .energy_peak_n
-        .map_or("-".to_owned(), |peak| format!("{:.0}", peak / 1e3));
+        .map_or("-".to_owned(), |peak| kilo(&peak, 0));
     format!(
         "{:>6}{:>8.3}{:>8.3}{peak:>8}",
         snap.line + 1,

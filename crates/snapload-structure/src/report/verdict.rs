@@ -9,7 +9,7 @@ use crate::runs::outcome::Outcome;
 use crate::runs::quantile::{quantile, sorted};
 use crate::runs::seas::Seas;
 use crate::structure::{Structure, Water};
-use crate::words::paragraph;
+use crate::words::{digits, kilo, paragraph, tenths, with_error};
 use askama::Template;
 use serde::Serialize;
 use snapload::Stop;
@@ -75,7 +75,8 @@ struct VerdictWords<'a> {
     standing: Standing,
     outcome: &'a Outcome,
     end: &'static str,
-    slack: bool,
+    /// Whether a line goes slack in the time that is judged, and in all.
+    slack: [bool; 2],
     /// The lines that would break, each with its utilisation and how.
     broken: Vec<(usize, f64, &'static str)>,
     /// The line with the largest utilisation that is known.
@@ -244,7 +245,10 @@ fn verdict(
         standing,
         outcome,
         end: end_words(outcome.stop),
-        slack: outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
+        slack: [
+            outcome.lines.iter().any(|line| line.least_n == Some(0.0)),
+            outcome.lines.iter().any(|line| line.slack_fraction > 0.0),
+        ],
         worst: worst.map_or((0, 0.0), |(number, _, u)| (*number, *u)),
         broken,
         transient_s: structure.transient_s,

@@ -234,7 +234,8 @@ pub(crate) fn force_check(prepared: &Prepared) -> Option<Check> {
 
 /// What one line carries.
 struct Tensions {
-    rest_n: f64,
+    /// None where no place of rest is known.
+    rest_n: Option<f64>,
     largest_n: Option<f64>,
     least_n: Option<f64>,
 }
@@ -245,8 +246,8 @@ impl Tensions {
         Self {
             // Both of lines that do not stretch, where those would share the load otherwise.
             rest_n: match &prepared.rest.shared {
-                Some(shared) => shared.unstretched_n[line],
-                None => prepared.rest.tension_n[line],
+                Some(shared) => Some(shared.unstretched_n[line]),
+                None => prepared.rest.rests.then_some(prepared.rest.tension_n[line]),
             },
             largest_n: of_line.largest_n(),
             least_n: of_line.least_n,
@@ -258,29 +259,25 @@ impl Tensions {
         [rest, environment, strength]: [f64; 3],
         load_n: Option<f64>,
     ) -> Option<f64> {
-        let largest = self.largest_n?.max(self.rest_n);
-        let factored = rest * self.rest_n + environment * (largest - self.rest_n);
+        let rest_n = self.rest_n?;
+        let largest = self.largest_n?.max(rest_n);
+        let factored = rest * rest_n + environment * (largest - rest_n);
         Some(factored / (strength * load_n?))
     }
 
     /// T_min/T_0; none of a line that carries nothing at rest.
     fn least_part(&self) -> Option<f64> {
-        let carries = self.rest_n > 0.0;
-        self.least_n
-            .filter(|_| carries)
-            .map(|least| least / self.rest_n)
+        let rest_n = self.rest_n.filter(|rest_n| *rest_n > 0.0)?;
+        self.least_n.map(|least| least / rest_n)
     }
 }
 
 /// Times at which the force of a sea is looked at in each of its peak periods.
 const LOOKS: f64 = 40.0;
 
-/// max |f_z|/F of the waves within the time that is judged; none in still water, and none of a
-/// floating body, which the waves lift by its waterplane.
+/// max |f_z|/F of the waves within the time that is judged; none in still water. A floating body,
+/// which the waves lift by its waterplane, has no such check.
 fn wave_force_part(prepared: &Prepared) -> Option<f64> {
-    if prepared.structure.afloat.is_some() {
-        return None;
-    }
     let Structure {
         duration_s,
         transient_s,

@@ -25,6 +25,15 @@ pub(super) fn read_design(entries: &Entries) -> Result<DesignRule, CaseError> {
     }
     let fields = entries.table("design", 0);
     let given = |key| fields.get::<f64>(key);
+    if let Some(value) = fields
+        .given("force_share")
+        .filter(|_| entries.count("float") > 0)
+    {
+        let allowed = "nothing beside [float], as waves lift a body that floats by its waterplane";
+        return Err(fields
+            .refuse("force_share", value, allowed)
+            .with_hint("leave it out; least_share and the factors check the lines' tensions"));
+    }
     Ok(DesignRule {
         strength: together(fields, DesignRule::STRENGTH)?,
         least_share: given("least_share")?,

@@ -39,6 +39,34 @@ fn run(prepared: &Prepared, springs: &[Spring]) -> ElasticRun {
     run_elastic(prepared, springs, 0.05, &unwatched).expect("a run")
 }
 
+/// The state is kept at the times that one writes, whatever steps the integrator makes, and at the
+/// end: let go below, the body rises by F/M t²/2 until its lines take hold.
+#[test]
+fn looks_are_at_the_times_asked_for() {
+    let prepared = vertical(1.0, -6.0);
+    let law = springs(&prepared, 1.0).expect("springs");
+    let rise = prepared.structure.net_buoyancy_n() / 800.0;
+    for (every, written) in [(0.3, "3.9"), (0.07, "3.99"), (0.5, "3.5")] {
+        let motion = run_elastic(&prepared, &law, every, &unwatched).expect("a run");
+        let times: Vec<String> = motion.looks.iter().map(|l| l.t_s.to_string()).collect();
+        assert_eq!(times[..2], ["0".to_owned(), every.to_string()]);
+        assert_eq!(times[times.len() - 2..], [written, "4"]);
+        let taken = motion.pulls[0].from_s;
+        let free = motion.looks.iter().filter(|look| look.t_s < taken);
+        for look in free.clone() {
+            let [_, z] = prepared.model.scales.to_si([look.state.x, look.state.y]);
+            let known = -6.0 + 0.5 * rise * look.t_s * look.t_s;
+            assert!((z - known).abs() < 1e-9, "{} {z} {known}", look.t_s);
+            assert_eq!(look.tension_n, [0.0, 0.0]);
+        }
+        assert_eq!(free.count(), (taken / every) as usize + 1);
+    }
+    for every in [0.0, -1.0, f64::NAN, 1e-9] {
+        let refused = run_elastic(&prepared, &law, every, &unwatched).expect_err("a refusal");
+        assert!(refused.to_string().contains("every ="), "{refused}");
+    }
+}
+
 /// Let go below, the body rises at F/M to speed v = sqrt(2 F h/M), and a spring k stops it with
 /// k δ = F + sqrt(F² + k M v²), after a time known too; then it is thrown back at v.
 #[test]

@@ -3,7 +3,7 @@
 use crate::verdicts::{source, structure};
 use snapload::analysis::unwatched;
 use snapload_structure::note::{page, seas_page};
-use snapload_structure::{Lines, Prepared, Standing, Warning, assess, both_models, seas};
+use snapload_structure::{Answer, Lines, Prepared, Standing, Warning, assess, both_models, seas};
 
 const EXAMPLE: &str = include_str!("../../../../docs/examples/cylinder.toml");
 const SEA: &str = include_str!("../../../../docs/examples/cylinder-sea.toml");
@@ -297,4 +297,73 @@ fn the_columns_of_pulls_are_explained() {
     ] {
         assert!(told.contains(column), "{column} in {told}");
     }
+}
+
+/// A model in a basin, 2 kg and 4 l on two lines.
+const MODEL: &str = "
+[body]
+width = 0.1
+displaced_volume = 0.004
+mass = 2
+position = [0, -0.12]
+[[line]]
+anchor = [0.12, -0.3]
+fairlead = [0.04, -0.15]
+length = 0.17
+stiffness = 2000
+breaking_load = 50
+[[line]]
+anchor = [-0.12, -0.3]
+fairlead = [-0.04, -0.15]
+length = 0.17
+stiffness = 2000
+breaking_load = 50
+[site]
+depth = 0.3
+water_density = 1000
+gravity = 9.81
+[wave]
+height = 0.04
+period = 0.85
+[run]
+restitution = 0.5
+duration = 12
+[design]
+least_share = 0
+";
+
+/// A small body's numbers keep their digits: lines at an angle of cos 15/17 carry 2 kg g/2 17/15.
+#[test]
+fn a_small_body_is_told_in_digits() {
+    let assessment = assess(structure(MODEL), 0, &unwatched).unwrap();
+    let told = flat(&assessment.summary("model"));
+    let rest_n = 0.5 * 2.0 * 9.81 * 17.0 / 15.0;
+    for words in [
+        format!("{:.4} kN at rest", rest_n / 1e3),
+        "net buoyancy 0.0196 kN".to_owned(),
+        "breaks at 0.0500 kN".to_owned(),
+        "0.00200 t".to_owned(),
+    ] {
+        assert!(told.contains(&words), "{words} in {told}");
+    }
+    assert!(!told.contains(" 0 kN at"), "{told}");
+    let page = page(source("model"), &assessment, None).unwrap();
+    assert!(page.contains("breaking load 0.0500 kN") && page.contains("EA 0.00200 MN"));
+}
+
+/// The verdict tells of slack where its checks look for it, in the time that is judged.
+#[test]
+fn slack_before_anything_is_judged_is_told_as_such() {
+    let prepared = Prepared::for_springs(structure(MODEL)).unwrap();
+    let both = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap();
+    assert!(
+        both.checks()
+            .iter()
+            .all(|check| check.answer == Answer::Passes)
+    );
+    let words = flat(&both.verdict().words);
+    assert!(
+        words.contains("No line goes slack but in the first 6 s, which are not judged."),
+        "{words}"
+    );
 }

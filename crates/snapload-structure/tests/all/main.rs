@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod added_mass;
+mod adrift;
 mod afloat;
 mod afloat_lines;
 mod conversion;

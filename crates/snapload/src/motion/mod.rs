@@ -17,6 +17,7 @@ pub(crate) mod limits;
 pub(crate) mod outcome;
 pub(crate) mod playback;
 pub(crate) mod projection;
+pub(crate) mod sampling;
 pub(crate) mod segments;
 pub(crate) mod simulation;
 pub(crate) mod start;

@@ -145,7 +145,7 @@ impl<'a, const N: usize> Phase<'a, N> {
         time: f64,
         start: Components<N>,
         fresh: &mut TautSet,
-        mut see: impl FnMut(f64, &State),
+        record: &mut Record<'_>,
     ) -> Result<(f64, Components<N>, Option<usize>), CaseError> {
         let mut steps = self.steps([0.0, time], start)?;
         while steps.advance()? {
@@ -159,11 +159,13 @@ impl<'a, const N: usize> Phase<'a, N> {
                 let state = state_of(&y);
                 if let Some(line) = self.changed(&state, fresh) {
                     let s = steps.locate(line, last, s);
+                    steps.keep_looks(s, record);
                     // The dense output is less exact than the steps.
                     let reached = self.at(s, before, steps.method.y_prev())?;
                     return Ok((s, reached, Some(line)));
                 }
-                see(self.begin + s, &state);
+                steps.keep_looks(s, record);
+                record.see(self.begin + s, &state, self.pulling);
                 last = s;
             }
         }
@@ -198,6 +200,17 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
         }
     }
 
+    /// Keeps the states of all looks up to a time of the phase, by the dense output of the step.
+    fn keep_looks(&mut self, s: f64, record: &mut Record<'_>) {
+        let Phase { begin, pulling, .. } = *self.phase;
+        while let Some((t_s, t)) = record.next_look(begin + s) {
+            let within = (t - begin).clamp(self.method.t_prev(), self.method.t());
+            if let Ok(y) = self.method.interpolate(within) {
+                record.keep(t_s, &state_of(&y), pulling);
+            }
+        }
+    }
+
     /// When a line changes, by bisection on the dense output.
     fn locate(&mut self, line: usize, mut low: f64, mut high: f64) -> f64 {
         while high - low > f64::EPSILON * high.abs().max(1.0) {
@@ -214,7 +227,8 @@ impl<M: Method<N>, const N: usize> Steps<'_, M, N> {
 }
 
 /// Runs a structure on lines that stretch, to the end of its duration or until it is turned by a
-/// quarter. `look_s` is the time between the states that are kept.
+/// quarter. The state is kept at every multiple of `look_s` and at the end, or nowhere if that is
+/// infinite.
 ///
 /// # Errors
 /// A [`CaseError`] if there are not as many springs as lines, or the integrator gives up, and
@@ -248,7 +262,7 @@ fn run<const N: usize>(
     look_s: f64,
     on_progress: OnProgress,
 ) -> Result<ElasticRun, Unfinished> {
-    let mut record = Record::new(prepared, body, look_s);
+    let mut record = Record::new(prepared, body, look_s)?;
     let (mut t, mut state, mut fresh) = (0.0, prepared.start(), TautSet::SLACK);
     let mut components: Components<N> = [0.0; N];
     components[..DRY].copy_from_slice(&state.components());
@@ -266,8 +280,7 @@ fn run<const N: usize>(
             pulling,
             longest_step,
         };
-        let see = |t: f64, state: &State| record.see(t, state, pulling);
-        let (s, reached, changed) = phase.follow(until - t, components, &mut fresh, see)?;
+        let (s, reached, changed) = phase.follow(until - t, components, &mut fresh, &mut record)?;
         (components, state) = (reached, state_of(&reached));
         let Some(line) = changed else {
             t = until;
@@ -283,7 +296,7 @@ fn run<const N: usize>(
         record.change(t, &state, before, pulling);
     }
     let stop = exceeded(prepared, &state);
-    Ok(record.finish(t, state, stop))
+    Ok(record.finish(t, state, pulling, stop))
 }
 
 /// The limit that a state is beyond, as for lines that do not stretch. It is asked for now and then, so that a run may end a little later than it should.

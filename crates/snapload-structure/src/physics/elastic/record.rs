@@ -8,7 +8,8 @@ use crate::physics::waterline::Waterline;
 use crate::physics::waves_of_tension::WavesOfTension;
 use crate::structure::Structure;
 use serde::Serialize;
-use snapload::{MAX_CABLES, State, Stop, TautSet};
+use snapload::{CaseError, MAX_CABLES, Sampling, State, Stop, TautSet};
+use std::iter::Peekable;
 
 /// A line that pulls for a while.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -83,8 +84,9 @@ pub(super) struct Record<'a> {
     /// Where the body rests on these lines \[m\].
     rest_x_m: f64,
     body: &'a SprungBody<'a>,
-    look: f64,
-    next: f64,
+    /// The times of the looks that are still to come, before the end \[s\].
+    looks: Peekable<Box<dyn Iterator<Item = f64>>>,
+    kept: bool,
     transient_s: f64,
     run: ElasticRun,
     /// The wave of tension that each line is in.
@@ -94,15 +96,35 @@ pub(super) struct Record<'a> {
 }
 
 impl<'a> Record<'a> {
-    pub(super) fn new(prepared: &'a Prepared, body: &'a SprungBody<'a>, look_s: f64) -> Self {
+    /// Of a run whose state is kept at every multiple of `look_s` and at its end, or nowhere if that
+    /// is infinite.
+    ///
+    /// # Errors
+    /// A [`CaseError`] if that is no time, or gives too many looks.
+    pub(super) fn new(
+        prepared: &'a Prepared,
+        body: &'a SprungBody<'a>,
+        look_s: f64,
+    ) -> Result<Self, CaseError> {
         let scales = &prepared.model.scales;
-        Self {
+        let end_s = prepared.structure.duration_s;
+        let kept = look_s != f64::INFINITY;
+        let looks: Box<dyn Iterator<Item = f64>> = match kept {
+            true => {
+                let sampling = Sampling::every(look_s, end_s);
+                let sampling = sampling
+                    .map_err(|allowed| CaseError::value("every", look_s.to_string(), allowed))?;
+                Box::new(sampling.times().take_while(move |t_s| *t_s < end_s))
+            }
+            false => Box::new(std::iter::empty()),
+        };
+        Ok(Self {
             scales,
             structure: &prepared.structure,
             rest_x_m: prepared.rest.place_m[0],
             body,
-            look: look_s / scales.time_s,
-            next: 0.0,
+            looks: looks.peekable(),
+            kept,
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),
@@ -112,7 +134,28 @@ impl<'a> Record<'a> {
             },
             waves: WavesOfTension::of_lines(&prepared.rest),
             open: vec![None; body.springs.len()],
-        }
+        })
+    }
+
+    /// The next look that is to be kept up to a time, in seconds and in the engine's units.
+    pub(super) fn next_look(&mut self, until: f64) -> Option<(f64, f64)> {
+        let time_s = self.scales.time_s;
+        let t_s = self.looks.next_if(|t_s| t_s / time_s <= until)?;
+        Some((t_s, t_s / time_s))
+    }
+
+    /// Keeps the state at a look.
+    pub(super) fn keep(&mut self, t_s: f64, state: &State, pulling: TautSet) {
+        let tension = |line| match pulling.contains(line) {
+            true => self.tension_n(line, state),
+            false => 0.0,
+        };
+        let tension_n = (0..self.open.len()).map(tension).collect();
+        self.run.looks.push(Look {
+            t_s,
+            state: *state,
+            tension_n,
+        });
     }
 
     /// The tension of a line that pulls \[N\].
@@ -149,14 +192,6 @@ impl<'a> Record<'a> {
                 (pull.peak_n, pull.peak_s) = (tension, t_s);
             }
         }
-        if t >= self.next {
-            self.run.looks.push(Look {
-                t_s,
-                state: *state,
-                tension_n: tensions.to_vec(),
-            });
-            self.next = t + self.look;
-        }
     }
 
     /// Takes note of lines that take hold or let go.
@@ -189,9 +224,22 @@ impl<'a> Record<'a> {
     }
 
     /// Ends the record; what pulls then pulls to the end.
-    pub(super) fn finish(mut self, t: f64, state: State, stop: Option<Stop>) -> ElasticRun {
+    pub(super) fn finish(
+        mut self,
+        t: f64,
+        state: State,
+        pulling: TautSet,
+        stop: Option<Stop>,
+    ) -> ElasticRun {
         self.run.stop = stop;
-        self.run.end_s = t * self.scales.time_s;
+        self.run.end_s = match stop {
+            // As it was asked for, not as it comes back from the engine's units.
+            None => self.structure.duration_s,
+            Some(_) => t * self.scales.time_s,
+        };
+        if self.kept {
+            self.keep(self.run.end_s, &state, pulling);
+        }
         self.run.end = state;
         for place in self.open.into_iter().flatten() {
             self.run.pulls[place].to_s = self.run.end_s;

@@ -20,6 +20,7 @@ use crate::physics::model::Model;
 use crate::physics::prepared::Prepared;
 use nalgebra::{Matrix3, Vector3};
 use snapload::{CaseError, State};
+use std::f64::consts::FRAC_PI_2;
 
 /// A force that is left over, in the engine's units, at rest.
 const BALANCED: f64 = 1e-12;
@@ -27,6 +28,8 @@ const BALANCED: f64 = 1e-12;
 const STEPS: usize = 400;
 /// Step of the differences that stand for derivatives of rows.
 const DIFFERENCE: f64 = 1e-6;
+/// What lines have to do for a body to rest on them.
+const HELD: &str = "lines that hold the body at rest as they stretch";
 /// What is added to the second derivatives at first, and at most.
 const DAMPING: [f64; 2] = [1e-6, 1e12];
 
@@ -41,6 +44,11 @@ impl Prepared {
         let body = SprungBody::new(&still, springs);
         let rest = self.model.at_rest(self.rest.place_m, self.rest.theta_rad);
         let rest = least_energy(&body, rest)?;
+        if rest.theta.abs() >= FRAC_PI_2 {
+            let shown = format!("(turned by {:.0} degrees)", rest.theta.abs().to_degrees());
+            return Err(CaseError::value("line.stiffness", shown, HELD)
+                .with_hint("look at the lines' lengths, and at the moments on the body"));
+        }
         let place_m = self.model.scales.to_si([rest.x, rest.y]);
         let tension = |line: usize| body.stretch(line, &rest).force.max(0.0);
         let tension_n = (0..springs.len()).map(|line| tension(line) * self.model.scales.force_n);
@@ -49,6 +57,7 @@ impl Prepared {
         let rest = Equilibrium {
             place_m,
             theta_rad: -rest.theta,
+            rests: true,
             taut: taut.collect(),
             tension_n,
             indeterminate: false,
@@ -163,7 +172,6 @@ fn nowhere(left: &Vector3<f64>) -> Result<State, CaseError> {
         "(forces out of balance by {:.1e} of the buoyancy)",
         left.amax()
     );
-    let allowed = "lines that hold the body at rest as they stretch";
-    Err(CaseError::value("line.stiffness", shown, allowed)
+    Err(CaseError::value("line.stiffness", shown, HELD)
         .with_hint("give run.start, or look at the lines' stiffness and lengths"))
 }

@@ -1,0 +1,126 @@
+//! Floating bodies that no line holds in surge, and what damps a body's rotation.
+
+use crate::afloat::{case, parsed, structure};
+use snapload::analysis::unwatched;
+use snapload_structure::{Prepared, assess, both_models};
+
+/// On lines that are slack where it floats a body rests as its weight and water have it, at the surge
+/// of its start, whether lines stretch or not: heave by (ρV − m) g / C33, and pitch by the arm of its
+/// weight over C55.
+#[test]
+fn without_tension_it_rests_as_it_floats() {
+    let start = "duration = 20\nstart = [0.3, -0.2]";
+    let at = |mass: f64, arm: f64| {
+        let text = case(-0.2, 2.0, 11.0, "", start).replace("80000", &mass.to_string());
+        let weight = format!("[float]\ncentre_of_gravity = [{arm}, -0.2]");
+        Prepared::for_springs(structure(&text.replace("[float]", &weight))).unwrap()
+    };
+    for (mass, arm) in [(98_400.0, 0.0), (90_000.0, 0.0), (98_400.0, 0.05)] {
+        let prepared = at(mass, arm);
+        let afloat = prepared.structure.afloat.as_ref().unwrap();
+        let stiffness = &afloat.body.stiffness;
+        let heave = (98_400.0 - mass) * 9.81 / stiffness[(1, 1)];
+        let pitch = mass * 9.81 * arm / stiffness[(2, 2)];
+        let rest = &prepared.rest;
+        assert!(rest.rests && rest.tension_n == [0.0, 0.0]);
+        assert!((rest.place_m[0] - 0.3).abs() < 1e-12);
+        assert!((rest.place_m[1] + 0.2 - heave).abs() < 1e-9, "{rest:?}");
+        assert!((rest.theta_rad + pitch).abs() < 1e-9, "{rest:?} {pitch}");
+        let both = both_models(prepared.clone(), 1.0, f64::INFINITY, &unwatched).unwrap();
+        let sprung = &both.sprung.rest;
+        assert!((sprung.place_m[1] - rest.place_m[1]).abs() < 1e-9);
+        assert!((sprung.theta_rad - rest.theta_rad).abs() < 1e-9);
+    }
+}
+
+/// Where a line is too short for it to float without tension at its start, no place of rest is told.
+#[test]
+fn a_start_is_not_told_as_a_place_of_rest() {
+    let line = |side: f64| {
+        let (anchor, fairlead) = (60.0 * side, 5.0 * side);
+        format!(
+            "[[line]]\nanchor = [{anchor}, -50]\nfairlead = [{fairlead}, -3]\nlength = 72.4\n\
+             stiffness = 3e8\nbreaking_load = 2e6\n"
+        )
+    };
+    let text = |arm: f64| {
+        format!(
+            "[body]\nshape = \"rectangle\"\nwidth = 10\nheight = 5\ndisplaced_volume = 600\nmass = 615000\n\
+             moment_of_inertia = 6.4e6\nposition = [0, -0.5]\n[float]\ncentre_of_gravity = [{arm}, -1]\n\
+             [site]\ndepth = 50\n[run]\nrestitution = 0.4\nduration = 10\nstart = [0, -0.5]\n{}{}",
+            line(1.0),
+            line(-1.0)
+        )
+    };
+    let assessment = assess(structure(&text(0.3)), 0, &unwatched).unwrap();
+    assert!(!assessment.prepared.rest.rests);
+    let told = assessment.summary("case");
+    assert!(told.contains("at rest   nowhere that is known"), "{told}");
+    assert!(told.contains("line 1    not known at rest"), "{told}");
+    let json = assessment.to_json("case");
+    assert!(json["rest"]["z_m"].is_null() && json["lines"][0]["rest_tension_n"].is_null());
+    // So far turned nothing rests on lines that stretch either.
+    let prepared = Prepared::for_springs(structure(&text(1000.0))).unwrap();
+    let refused = both_models(prepared, 1.0, f64::INFINITY, &unwatched).unwrap_err();
+    let shown = refused.to_string();
+    assert!(
+        shown.contains("turned by") && shown.contains("line.stiffness"),
+        "{shown}"
+    );
+}
+
+/// Without a start such a body is refused in words that say how long the lines would have to be, and
+/// what is too heavy.
+#[test]
+fn what_nothing_holds_is_refused_with_the_lengths_that_would() {
+    let text = case(-0.2, 2.0, 9.8, "", "duration = 5");
+    // Where it floats the ends are √(4² + 8.8²) apart, and as much nearer as it lies deeper.
+    for (mass, says) in [
+        (98_400.0, "shorten the lines"),
+        (110_000.0, "weighs 110.0 t"),
+    ] {
+        let refused = parsed(&text.replace("80000", &mass.to_string()));
+        let refused = refused.and_then(Prepared::new).unwrap_err();
+        let deeper = (mass - 98_400.0) * 9.81 / 804_420.0;
+        let apart = 4.0_f64.hypot(8.8 - deeper);
+        let shown = refused.to_string();
+        assert!(
+            shown.contains(&format!("[{apart:.3}, {apart:.3}] m apart")),
+            "{shown}"
+        );
+        assert!(
+            shown.contains(says) && shown.contains("line.length = [9.8, 9.8]"),
+            "{shown}"
+        );
+    }
+}
+
+/// A body that turns far with nothing to damp it is warned of, by the key that would damp it; one
+/// that its damping or the waves that it makes hold back is not.
+#[test]
+fn what_damps_a_rotation_is_known() {
+    let seen = |text: &str| {
+        let assessment = assess(parsed(text).unwrap(), 0, &unwatched).unwrap();
+        let found = assessment.warnings.iter().find(|w| w.rule == "turning");
+        (
+            assessment.outcome.turned_rad,
+            found.map(|w| w.message.clone()),
+        )
+    };
+    // Let go upright, a body whose weight would hold it at 40 degrees turns about twice as far.
+    let text = case(-0.2, 2.0, 13.0, "", "duration = 10\nstart = [0, -0.2]");
+    let text = text.replace("80000", "98400");
+    let by_waves = text.replace("[float]", "[float]\ncentre_of_gravity = [0.5, -0.2]");
+    let undamped = by_waves.replace("file = \"pontoon.nc\"\ndeep_water = true\npairs = 6\n", "");
+    let damped = undamped.replace("[float]", "[float]\ndamping = [0, 0, 1]");
+    for (text, key) in [
+        (by_waves, None),
+        (undamped, Some("give the third number of float.damping")),
+        (damped, None),
+    ] {
+        let (turned, warned) = seen(&text);
+        assert!(turned > 1.1, "{turned}");
+        let says = |key: &str| warned.as_ref().is_some_and(|words| words.ends_with(key));
+        assert!(key.map_or(warned.is_none(), says), "{warned:?}");
+    }
+}
