@@ -3,11 +3,13 @@
 //! is claimed. The bits are where it begins.
 
 use crate::arithmetic::ball::Ball;
+use crate::arithmetic::decimal::fixed;
 use crate::case::ExactCase;
 use crate::format::{FORMAT, Line, MODEL, TAUT_FORMAT, UNDECIDED, Written, decimal};
 use crate::proof::prove;
 use crate::proved::{Proved, ProvedEnd, ProvedImpact, Reason};
 use crate::verdict::{Trouble, with_more_bits};
+use crate::writer::PLACES;
 use std::ops::ControlFlow;
 
 /// The bits that a certificate may name.
@@ -246,10 +248,10 @@ fn equals(what: &str, ball: &Ball, text: &str) -> Result<(), Trouble> {
     if room.is_positive() {
         Ok(())
     } else if room.is_negative() {
-        Err(Trouble::False(format!(
-            "{what}: {text} is claimed, and it is {}",
-            ball.to_f64()
-        )))
+        // With the decimals of certificates, as a double may not tell the two apart.
+        let proved = fixed(ball, PLACES).unwrap_or_else(|| ball.to_f64().to_string());
+        let words = format!("{what}: {text} is claimed, and it is {proved}");
+        Err(Trouble::False(words))
     } else {
         Err(Trouble::undecided(format!("the last digit of {what}")))
     }

@@ -13,7 +13,7 @@ use serde::{Serialize, Serializer};
 use std::ops::ControlFlow;
 
 /// Places after the point of times and of the state at the end.
-const PLACES: i64 = 25;
+pub(crate) const PLACES: i64 = 25;
 /// Significant digits of normal velocities.
 const DIGITS: i64 = 17;
 

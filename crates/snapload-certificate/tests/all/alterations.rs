@@ -95,6 +95,27 @@ fn altered_numbers_are_refused() {
     refused(&altered, "the time of the end");
 }
 
+/// What is claimed and what is true are told with so many digits that one sees where they differ.
+#[test]
+fn a_refusal_shows_where_the_digits_differ() {
+    let true_one = certificate();
+    for [place, field] in [[7, 1], [20, 1]] {
+        let mut altered = true_one.clone();
+        let known = true_one["impacts"][place][field]
+            .as_str()
+            .expect("a decimal");
+        altered["impacts"][place][field] = last_digit(&true_one["impacts"][place][field]);
+        let claimed = altered["impacts"][place][field]
+            .as_str()
+            .expect("a decimal");
+        let Verdict::Refused(words) = check(&altered.to_string()) else {
+            panic!("passed");
+        };
+        let said = format!("{claimed} is claimed, and it is {known}");
+        assert!(words.contains(&said), "{words}");
+    }
+}
+
 #[test]
 fn altered_lists_are_refused() {
     let true_one = certificate();
