@@ -192,7 +192,7 @@ class BaseRun:
         """The spectrum of finite-time Lyapunov exponents, the largest first.
 
         Columns ``direction``, from 1, and ``exponent`` [1/T], minus infinity in the two directions that a cable closes
-        which has stayed taut. Empty without trust.
+        which has stayed taut. Six of them, four of a point mass; none without trust.
 
         See Also
         --------

@@ -118,7 +118,8 @@ class Trust(Result):
         Errors of ``rho1``, ``rho2`` and ``rho3`` [L/T], ``y_max`` [L] and ``theta_max`` [rad]; None where what is past
         the horizon enters.
     exponents : tuple of float or None
-        Finite-time Lyapunov exponents, the largest first [1/T]; None where sticking closes a direction.
+        Finite-time Lyapunov exponents, the largest first [1/T], six, or four of a point mass; None where sticking
+        closes a direction.
     grazes : tuple of dict
         Impacts that magnify a deviation by more than a hundred: ``impact``, ``v_n``, ``factor``.
     sensitivity : tuple of dict

@@ -33,7 +33,7 @@ pub struct TrustRow<'a> {
     uncertainty: UncertaintyJson<'a>,
     end_error: Option<f64>,
     norm_errors: NormErrorRow,
-    exponents: [f64; 6],
+    exponents: &'a [f64],
     grazes: Vec<GrazeRow>,
     sensitivity: Vec<SensitivityRow<'a>>,
 }
@@ -54,7 +54,7 @@ impl<'a> TrustRow<'a> {
             uncertainty: UncertaintyJson(&trusted.uncertainty),
             end_error: Some(*end_error).filter(|error| error.is_finite()),
             norm_errors: NormErrorRow::new(NormErrors::of(&trusted.run, &trusted.trust)),
-            exponents: *exponents,
+            exponents,
             grazes: grazes
                 .iter()
                 .map(|graze| GrazeRow {

@@ -25,6 +25,8 @@ pub struct Frame {
     bounces: u32,
     /// Steps along taut cables since the directions were last put back along them.
     taut_steps: u32,
+    /// How many directions the body has: four of a point mass, which has no rotation.
+    count: usize,
 }
 
 /// Directions to be made orthogonal, by the best instructions for it.
@@ -64,12 +66,19 @@ impl Frame {
             lengths: [1.0; 6],
             bounces: 0,
             taut_steps: 0,
+            count: 6,
         }
     }
 
     /// That of a motion that begins with taut cables.
     pub fn along(system: &System, state: &State, taut: TautSet) -> Self {
         let mut frame = Self::new();
+        if system.body.inverse_inertia() == 0.0 {
+            for rotation in [2, 5] {
+                frame.directions.0[rotation][rotation] = 0.0;
+            }
+            frame.count = 4;
+        }
         frame.keep_along(system, state, taut);
         frame.lengths = [1.0; 6];
         frame
@@ -244,10 +253,11 @@ impl Frame {
         logs
     }
 
-    /// The exponents over a time t, the largest first.
-    pub fn exponents(&self, t: f64) -> [f64; 6] {
-        let mut exponents = self.logs().map(|log| log / t);
+    /// The exponents over a time t, the largest first, one for each direction that the body has.
+    pub fn exponents(&self, t: f64) -> Vec<f64> {
+        let mut exponents = self.logs().map(|log| log / t).to_vec();
         exponents.sort_by(|a, b| b.total_cmp(a));
+        exponents.truncate(self.count);
         exponents
     }
 }

@@ -130,9 +130,10 @@ impl Certainty {
             let monitor = SpreadMonitor::of_exact_case(&case, case.start());
             (case.into_boxed(), monitor)
         });
-        Ok(side_by_side(lanes, runs, counter)?
-            .filter_map(|told| told)
-            .collect())
+        let told = side_by_side(lanes, runs, counter)?;
+        let mut all = Vec::with_capacity(told.len());
+        all.extend(told.flatten());
+        Ok(all)
     }
 
     /// Whether the way in which the run ends is certain.

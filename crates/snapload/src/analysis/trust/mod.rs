@@ -226,8 +226,8 @@ pub struct Trust {
     /// Impacts that magnify deviations.
     pub grazes: Vec<Graze>,
     /// Finite-time Lyapunov exponents, the largest first \[1/T\]; −∞ in directions that cables close
-    /// which have stayed taut.
-    pub exponents: [f64; 6],
+    /// which have stayed taut. Six, or four of a point mass.
+    pub exponents: Vec<f64>,
 }
 
 impl Trust {
