@@ -5,7 +5,7 @@ use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use crate::whole::whole;
 use snapload_structure::note::{self, Source};
-use snapload_structure::{Lines, SeaOutcome, Seas, end_words, seas};
+use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_words, seas};
 use std::io;
 use std::path::PathBuf;
 
@@ -18,7 +18,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
     /// How many records are run
-    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(1, 10_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(SEEDS))]
     seeds: u32,
     /// Take the lines as springs, which is slower; needed where they are too soft to snap at once
     #[arg(long)]

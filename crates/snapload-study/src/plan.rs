@@ -1,11 +1,13 @@
 //! Which cases a study has: the axes of a grid, the sides of a box, or a list.
 
 use crate::{Grid, List, Sobol, StudyError};
-use snapload::{Kind, Value, check_entry, key_named};
+use snapload::{Key, Kind, Value, check_entry, key_named};
 use std::fmt;
 
 /// The most cases of a study, for a slip of the keyboard.
 pub const MOST_CASES: u64 = 1_000_000_000_000;
+/// How many random points may be asked for.
+pub const RANDOM: Key = Key::option("random", Kind::Count(1, MOST_CASES));
 /// The most sides of a box of random points.
 pub const MOST_SIDES: usize = Sobol::MOST;
 

@@ -259,11 +259,23 @@ fn elastic_runs_both_ways() {
     let motion = fs::read_to_string(room.path().join("motion.csv")).unwrap();
     assert!(motion.starts_with("t_s,x_m,z_m,theta_rad,tension_1_n,tension_2_n\n"));
     assert!((25..=32).contains(&motion.lines().count()));
-    snapload(room.path())
-        .args(["elastic", "cylinder.toml", "--stiffer", "0"])
-        .assert()
-        .code(2)
-        .stderr(contains("a number from 1e-6 to 1e9"));
+    for (options, words) in [
+        (
+            &["--stiffer", "0"][..],
+            "error: --stiffer = 0 is not allowed; allowed: a number, 1e-6 <= stiffer <= 1e9",
+        ),
+        (
+            &["--every", "1e-6", "--out", "motion.csv"],
+            "error: --every = 1e-6 is not allowed; allowed: 6e-5 s or more, as at most 1e7 states of the 600 s",
+        ),
+    ] {
+        snapload(room.path())
+            .args(["elastic", "cylinder.toml"])
+            .args(options)
+            .assert()
+            .code(2)
+            .stderr(contains(words));
+    }
 }
 
 #[test]

@@ -186,6 +186,21 @@ fn what_varies_is_said() {
 }
 
 #[test]
+fn what_can_not_be_swept_is_told_as_it_was_written() {
+    let d = directory();
+    for (asked, words) in [
+        (
+            &["--vary", "e=0.5:0.9", "--random", "0"][..],
+            "--random = 0 is not allowed; allowed: a whole number, 1 <= random <= 1e12",
+        ),
+    ] {
+        sweep(d.path(), asked, "a.parquet")
+            .code(2)
+            .stderr(contains(words));
+    }
+}
+
+#[test]
 fn more_threads_than_help_are_not_started() {
     let d = directory();
     let few = ["--set", "t_end=0.1", "--threads", "65535"];
