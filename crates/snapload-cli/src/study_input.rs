@@ -10,6 +10,7 @@ use snapload::{
     parse_value,
 };
 use snapload_study::{Axis, List, Plan, RANDOM, Side, Study};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// What a study file says beside the keys of a case.
@@ -208,7 +209,7 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
     if values.contains(':') {
         return Ok((key.to_owned(), Varied::Range(values.to_owned())));
     }
-    let refuse = |shown| match key_named(key) {
+    let refuse = |shown: Cow<'static, str>| match key_named(key) {
         Ok(known) => known.refuse(key, shown),
         Err(unknown) => unknown,
     };

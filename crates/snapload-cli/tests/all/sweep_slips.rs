@@ -193,6 +193,12 @@ fn what_can_not_be_swept_is_told_as_it_was_written() {
             &["--vary", "e=0.5:0.9", "--random", "0"][..],
             "--random = 0 is not allowed; allowed: a whole number, 1 <= random <= 1e12",
         ),
+        (&["--vary", "f_o=1e400"], "f_o = 1e400 is not allowed"),
+        (&["--set", "f_o=-1e400"], "f_o = -1e400 is not allowed"),
+        (
+            &["--set", "max_impacts=99999999999999999999"],
+            "max_impacts = 99999999999999999999 is not allowed",
+        ),
     ] {
         sweep(d.path(), asked, "a.parquet")
             .code(2)
