@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 import snapload
 
@@ -117,3 +118,15 @@ def test_the_bounds_themselves_are_allowed():
     assert whole("neighbours", np.int64(100_000)) == 100_000
     assert whole("seeds", np.array(1)) == 1
     assert whole("symbol", 2, 2) == 2
+
+
+def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
+    with pytest.raises(ValueError, match=r'^the list of cases: there is no key "f_oo"; did you mean f_o\?'):
+        snapload.sweep(CASE, cases=pandas.DataFrame({"f_oo": [0.1]}))
+    with pytest.raises(ValueError, match="^can not read the list of cases: it holds no case"):
+        snapload.sweep(CASE, cases={"f_o": []})
+    path = tmp_path / "mine.csv"
+    path.write_text("f_oo\n0.1\n")
+    with pytest.raises(ValueError) as error:
+        snapload.sweep(CASE, cases=path)
+    assert str(error.value).startswith(f'{path}: there is no key "f_oo"')

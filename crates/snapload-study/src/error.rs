@@ -114,12 +114,12 @@ impl Occupied {
 impl StudyError {
     /// A file that can not be written.
     pub(crate) fn write(path: &Path, error: impl Into<io::Error>) -> Self {
-        Self::Failed(about("write", path, &error.into()))
+        Self::Failed(about("write", path.display(), &error.into()))
     }
 
     /// A file that can not be read.
-    pub(crate) fn read(path: &Path, error: impl Display) -> Self {
-        Self::Failed(about("read", path, &error))
+    pub(crate) fn read(called: impl Display, error: impl Display) -> Self {
+        Self::Failed(about("read", called, &error))
     }
 
     /// A file of rows that can not be read.
@@ -139,9 +139,9 @@ impl StudyError {
     }
 }
 
-fn about(verb: &str, path: &Path, error: &impl Display) -> String {
+fn about(verb: &str, called: impl Display, error: &impl Display) -> String {
     let error = without_number(error);
-    format!("can not {verb} {}: {error}", path.display())
+    format!("can not {verb} {called}: {error}")
 }
 
 /// The system's words without its number: `No space left on device`.
