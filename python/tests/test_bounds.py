@@ -130,3 +130,8 @@ def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
     with pytest.raises(ValueError) as error:
         snapload.sweep(CASE, cases=path)
     assert str(error.value).startswith(f'{path}: there is no key "f_oo"')
+
+
+def test_random_points_without_a_range_say_how_to_give_one():
+    with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; let one vary .* such as e=\(0.5, 0.9\)$"):
+        snapload.sweep(CASE, random=10)

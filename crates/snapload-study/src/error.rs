@@ -15,6 +15,9 @@ pub enum StudyError {
     /// What was asked for can not be done as it is.
     #[error("{0}")]
     Input(String),
+    /// Random points were asked for, and nothing varies; so many keys could.
+    #[error("{}", no_side(*.0, "--vary KEY=low:high, such as --vary e=0.5:0.9"))]
+    NoSide(usize),
     /// Something stands where the rows are to be kept.
     #[error("{}", .0.in_words("--resume", "--out"))]
     Occupied(Occupied),
@@ -137,6 +140,13 @@ impl StudyError {
             other => other,
         }
     }
+}
+
+/// That nothing varies, with words on how a key is let vary.
+pub fn no_side(most: usize, how: &str) -> String {
+    format!(
+        "random points are drawn from the ranges of 1 to {most} keys, and none varies; let one vary by {how}"
+    )
 }
 
 fn about(verb: &str, called: impl Display, error: &impl Display) -> String {

@@ -29,14 +29,14 @@ mod table_file;
 mod threads;
 mod whole;
 
-pub use error::{Occupied, StudyError, without_number};
+pub use error::{Occupied, StudyError, no_side, without_number};
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
 pub use parquet_file::{Holds, Values};
 #[cfg(feature = "pictures")]
 pub use picture::{StudyPicture, key_label};
-pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, RANDOM, Side};
+pub use plan::{Axis, MOST_CASES, Plan, RANDOM, Side};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};

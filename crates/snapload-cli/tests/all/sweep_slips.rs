@@ -190,7 +190,11 @@ fn what_can_not_be_swept_is_told_as_it_was_written() {
     let d = directory();
     for (asked, words) in [
         (
-            &["--vary", "e=0.5:0.9", "--random", "0"][..],
+            &["--random", "9"][..],
+            "1 to 16 keys, and none varies; let one vary by --vary KEY=low:high, such as --vary e=0.5:0.9",
+        ),
+        (
+            &["--vary", "e=0.5:0.9", "--random", "0"],
             "--random = 0 is not allowed; allowed: a whole number, 1 <= random <= 1e12",
         ),
         (&["--vary", "f_o=1e400"], "f_o = 1e400 is not allowed"),
