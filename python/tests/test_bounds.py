@@ -135,3 +135,12 @@ def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
 def test_random_points_without_a_range_say_how_to_give_one():
     with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; let one vary .* such as e=\(0.5, 0.9\)$"):
         snapload.sweep(CASE, random=10)
+
+
+def test_a_file_that_is_no_study_is_called_so(tmp_path: Path):
+    for contents in (b"", b"f_o\n0.1\n"):
+        path = tmp_path / "x.csv"
+        path.write_bytes(contents)
+        with pytest.raises(ValueError) as error:
+            snapload.open_study(path)
+        assert str(error.value) == f"{path}: not a file of snapload sweep"
