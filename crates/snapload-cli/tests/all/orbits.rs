@@ -262,6 +262,7 @@ fn what_can_not_be_is_refused() {
         &["orbit", "--find", "3", "--seed", vast],
         &format!("error: --seed = {vast} {whole} 0 <= seed < 2^64"),
     );
+    refused(&["run", "--json"], "write --json - for standard output");
     refused(
         &["branch", "--along", "f_o=0.2:0.4", "--step", "far"],
         "error: --step = far is not allowed; allowed: a number",
