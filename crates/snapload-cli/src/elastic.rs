@@ -6,6 +6,7 @@ use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use crate::whole::number;
 use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
+use snapload_report::tables::in_digits;
 use snapload_structure::{BothModels, EVERY, Prepared, STIFFER, both_models, checked_every};
 use std::io;
 use std::path::PathBuf;
@@ -73,7 +74,7 @@ fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
         let [x, z] = both.sprung.model.scales.to_si([state.x, state.y]);
         let place = [look.t_s, x, z, 0.0 - state.theta];
         let row = place.iter().chain(&look.tension_n);
-        table.write_record(row.map(f64::to_string))?;
+        table.write_record(row.copied().map(in_digits))?;
     }
     table.flush()
 }

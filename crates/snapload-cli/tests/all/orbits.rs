@@ -203,7 +203,7 @@ fn a_basin_tells_of_its_cells() {
         "--set",
         "t_end=20",
         "--vary",
-        "x=-0.1:0.1:3",
+        "x=-1e-20:1e-20:3",
         "--vary",
         "y=0.1:0.2:2",
         "--out",
@@ -220,6 +220,7 @@ fn a_basin_tells_of_its_cells() {
         "{table}"
     );
     assert_eq!(table.lines().count(), 7);
+    assert!(table.contains("\n-1e-20,0.1,"), "{table}");
     let safe = table.lines().filter(|line| !line.contains("limit")).count() - 1;
     assert_eq!(number(&basin["safe"]), safe as f64);
 }
