@@ -58,7 +58,7 @@ class Animation:
             raise ValueError(
                 f"start = {start!r}, stop = {stop!r} is not allowed; allowed: 0 <= start < stop <= {end!r}, the end"
             )
-        fps = whole("fps", fps, 1, 120)
+        fps = whole("fps", fps)
         if not 0 < seconds * fps <= _MOST_FRAMES:
             raise ValueError(
                 f"seconds = {seconds!r} is not allowed; allowed: 0 < seconds <= {_MOST_FRAMES / fps:g} at {fps} "

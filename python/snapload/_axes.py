@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import whole
+from ._check import number, whole
 
 
 def listed(key: str, values: ArrayLike | str) -> str | NDArray[Any]:
@@ -34,7 +34,7 @@ def side(key: str, ends: Any) -> str | tuple[float, float]:
         return ends
     try:
         low, high = (float(end) for end in ends)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         allowed = 'its two ends, such as (0.1, 0.6) or "0.1:0.6"'
         raise ValueError(f"{key} = {ends!r} is not allowed; allowed with random: {allowed}") from None
     return low, high
@@ -110,5 +110,6 @@ def evenly(first: float | str, last: float | str, count: int) -> NDArray[np.floa
     >>> float(snapload.evenly(0.1, 0.5, 5)[2]), float(numpy.linspace(0.1, 0.5, 5)[2])
     (0.3, 0.30000000000000004)
     """
-    words = [str(bound) if isinstance(bound, str) else repr(float(bound)) for bound in (first, last)]
-    return np.frombuffer(_engine.evenly(words[0], words[1], whole("count", count, 1, 10**9)))
+    ends = (("first", first), ("last", last))
+    words = [end if isinstance(end, str) else repr(number(name, end)) for name, end in ends]
+    return np.frombuffer(_engine.evenly(words[0], words[1], whole("count", count)))

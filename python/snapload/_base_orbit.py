@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
-from ._check import whole
+from ._check import number, whole
 from ._later import Later
 from ._table import Table
 
@@ -184,7 +184,7 @@ class BaseOrbit:
         >>> int(lap.leg[-1]), bool(abs(lap.x[-1] - lap.x[0]) < 1e-12)
         (2, True)
         """
-        data = self._engine.curve(whole("pieces", pieces, 1, 10**7))
+        data = self._engine.curve(whole("pieces", pieces))
         names = ("leg", "taut", "t", *STATE)
         rows = np.frombuffer(data, dtype=np.float64).reshape(-1, len(names))
         kinds = [(name, "i8" if name in ("leg", "taut") else "f8") for name in names]
@@ -286,18 +286,18 @@ def start_of(start: Start) -> dict[str, Any]:
 def wanted(periods: int | None, symbol: Iterable[int | str] | None, phase: float, cables: int = 2) -> Wanted:
     """What is looked for, checked as far as the engine does not."""
     if periods is not None:
-        periods = whole("periods", periods, 1, 1024)
+        periods = whole("orbit.periods", periods)
     if symbol is None:
-        return periods, None, float(phase)
+        return periods, None, number("phase", phase)
     struck = []
     words = symbol.split(",") if isinstance(symbol, str) else symbol
     for word in words:
         # As an orbit tells its own: what sticks and lets go follows from what snaps.
         if isinstance(word, str) and word.strip().split(" ")[0] in ("stick", "release", "none", ""):
             continue
-        number = int(word) if isinstance(word, str) and word.strip().isdigit() else word
-        struck.append(whole("symbol", number, 1, cables))  # type: ignore[arg-type]
-    return periods, struck, float(phase)
+        cable = int(word) if isinstance(word, str) and word.strip().isdigit() else word
+        struck.append(whole("symbol", cable, cables))  # type: ignore[arg-type]
+    return periods, struck, number("phase", phase)
 
 
 def _events(rows: list[dict[str, Any]]) -> Table:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
+from ._check import number
 from ._later import Later
 from ._neighbours import Ensemble, Share
 from ._table import Table
@@ -244,7 +245,7 @@ class BaseRun:
         >>> motion.shape, float(motion.y[0])
         ((347,), 0.1)
         """
-        return self._records(self._engine.motion(float(dt)))
+        return self._records(self._engine.motion(number("dt", dt)))
 
     def at(self, t: ArrayLike) -> np.recarray[Any, Any]:
         """Play the motion at any times, held to the span of the run; at the instant of an event, just after it.

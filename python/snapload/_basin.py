@@ -155,7 +155,7 @@ def basins_of_attraction(
     from ._dataset import ABOUT
 
     engine, sides = engine_of(case), _sides(window)
-    transient = whole("transient", transient, 1, 10**7)
+    transient = whole("transient", transient)
     with bar("basins of attraction", _WHOLE, progress) as tell:
         answer, columns, orbits = _engine.basins_of_attraction(engine, sides, transient, tell)
     told, coords = json.loads(answer), _coords(sides)

@@ -324,7 +324,7 @@ class Branch:
             allowed = "'period_doubling', the one kind at which a branch of other orbits is followed"
             raise ValueError(f"kind = {kind!r} is not allowed; allowed: {allowed}")
         if number is not None:
-            number = whole("number", number, 1, 10**6)
+            number = whole("number", number)
         known = self._options
         options = options_of(
             self.along,
@@ -405,7 +405,7 @@ _WORDS = {True: "stable", False: "unstable"}
 
 
 def options_of(key: str, between: Any, step: float, points: int) -> Options:
-    return side(key, between), a_number("step", step), whole("points", points, 1, 10**6)
+    return side(key, between), a_number("step", step), whole("points", points)
 
 
 def _born(branch: _engine.Branch | None, why: str) -> _engine.Branch:

@@ -304,8 +304,8 @@ class Case(KeyValues, HasOrbits):
         options: Options = (
             plain(uncertainty),
             number("tolerance", tolerance),
-            members if members is None else whole("members", members, 0, 10**9),
-            whole("seed", seed, 0, 2**64 - 1),
+            members if members is None else whole("members", members),
+            whole("seed", seed),
         )
         return Run(self, options, _engine.run(self._engine, *options))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from operator import index
 from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex, TypeAlias
 
 from . import _engine
@@ -29,15 +28,9 @@ def engine_of(case: Case) -> _engine.Case:
     raise TypeError(f"case = {case!r} is not allowed; allowed: a snapload.Case, such as snapload.Case(f_o=0.31)")
 
 
-def whole(name: str, value: SupportsIndex, low: int, high: int) -> int:
-    """A whole number within bounds."""
-    try:
-        number = index(value)
-    except TypeError:
-        number = low - 1
-    if low <= number <= high:
-        return number
-    raise ValueError(f"{name} = {value!r} is not allowed; allowed: a whole number, {low} <= {name} <= {high:g}")
+def whole(option: str, value: SupportsIndex, most: int | None = None) -> int:
+    """A whole number that an option takes, which the engine knows by its name."""
+    return _engine.whole(option, value, most)
 
 
 def threads_for(asked: SupportsIndex, callers: int) -> int:
@@ -45,7 +38,7 @@ def threads_for(asked: SupportsIndex, callers: int) -> int:
 
     Where these are fewer a warning says so, at the code that called the package through so many functions.
     """
-    threads, fewer = _engine.threads_for(number := whole("threads", asked, 1, 65535))
+    threads, fewer = _engine.threads_for(number := whole("threads", asked))
     if fewer:
         warnings.warn(f"threads={number}: {fewer}", stacklevel=2 + callers)
     return threads
@@ -56,7 +49,7 @@ def number(name: str, value: SupportsFloat) -> float:
     try:
         if not isinstance(value, (str, bytes)):
             return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         pass
     raise ValueError(f"{name} = {value!r} is not allowed; allowed: a number")
 

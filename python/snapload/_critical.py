@@ -226,7 +226,7 @@ def critical_force(
         if members or uncertainty is not None:
             raise ValueError("over goes without neighbours; leave out members and uncertainty, or over")
         return _over(engine, over, step, largest, progress)
-    members, seed = whole("members", members, 0, 10**9), whole("seed", seed, 0, 2**64 - 1)
+    members, seed = whole("members", members), whole("seed", seed)
     if uncertainty is not None and members == 0:
         raise ValueError("uncertainty asks for neighbours, but none are to be run; give members, such as members=200")
     found = json.loads(_engine.critical_force(engine, step, largest))

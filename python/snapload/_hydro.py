@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _engine
+from ._check import whole
 from ._later import Later
 
 if TYPE_CHECKING:
@@ -175,7 +176,7 @@ class Hydro:
 
     @classmethod
     def _of(cls, name: str, variables: list[_Variable] | None, asked: Asked) -> Hydro:
-        given = {key: value for key, value in asked.items() if value is not None}
+        given = {key: _plain(key, value) for key, value in asked.items() if value is not None}
         text, summary = _engine.hydro(name, variables, json.dumps(given))
         answer = json.loads(text)
         floating = answer["floating"] or {}
@@ -246,6 +247,21 @@ class Hydro:
     def _repr_html_(self) -> str:
         rows = (f"<tr><td>{escape(label)}</td><td>{escape(words)}</td></tr>" for label, words in self._summary)
         return f"<table><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _plain(key: str, value: Any) -> Any:
+    """What is asked as JSON can tell it, which has no number that is not finite."""
+    if key == "pairs":
+        return whole(key, value)
+    if isinstance(value, str):
+        return value
+    try:
+        numbers = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        numbers = np.array(np.nan)
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"{key} = {value!r} is not allowed; allowed: finite numbers")
+    return numbers.tolist()
 
 
 def _variables(dataset: xarray.Dataset) -> list[_Variable]:

@@ -211,7 +211,7 @@ def lyapunov_spectrum(
     >>> math.isclose(spectrum.values.sum(), 2 * math.log(0.35) * 2 * 3.1 / math.tau, rel_tol=1e-9)
     True
     """
-    periods, transient = whole("periods", periods, 1, 10**6 - 1), whole("transient", transient, 0, 10**8)
+    periods, transient = whole("spectrum.periods", periods), whole("spectrum.transient", transient)
     # Growth is measured between sections, so that one more than periods is needed.
     told = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
     if told["stop"] is not None:
@@ -283,7 +283,7 @@ def orbit_diagram(
         raise ValueError(f"keys = {given} is not allowed; allowed: one key with its values, such as f_o='0.6:1:41'")
     engine = engine_of(case)
     ((key, values),) = axis.items()
-    stretch = whole("periods", periods, 1, 10**8), whole("keep", keep, 1, 10**6), number("phase", phase)
+    stretch = whole("periods", periods), whole("keep", keep), number("phase", phase)
     side = key, listed(key, values)  # type: ignore[arg-type]
     with bar("following the attractor", _count(side[1]), progress) as tell:
         answer, counts, data = _engine.diagram(engine, side, bool(down), stretch, tell)
@@ -337,7 +337,7 @@ def of_state(name: str) -> dict[str, Any]:
 
 def _section(case: Case, periods: int, keep: int, phase: float, impacts: bool, progress: bool) -> dict[str, Any]:
     engine = engine_of(case)
-    periods, keep = whole("periods", periods, 1, 10**8), whole("keep", keep, 1, 10**6)
+    periods, keep = whole("periods", periods), whole("keep", keep)
     with bar("following the motion", periods, progress) as tell:
         told: dict[str, Any] = json.loads(_engine.section(engine, periods, keep, number("phase", phase), impacts, tell))
     return told

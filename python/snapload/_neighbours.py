@@ -132,7 +132,7 @@ def ensemble(
     >>> snapload.ensemble(snapload.Case(f_o=0.31), 50).ends["rotation_limit"].count
     50
     """
-    members, seed = whole("members", members, 1, 10**9), whole("seed", seed, 0, 2**64 - 1)
+    members, seed = whole("ensemble.members", members), whole("seed", seed)
     with bar("neighbours", members, progress) as tell:
         rows = json.loads(_engine.ensemble(engine_of(case), plain(uncertainty), members, seed, tell))
     ends = {row.pop("reason"): Share(**row) for row in rows}

@@ -178,7 +178,7 @@ class Orbit(BaseOrbit):
         start: Any = dict(zip(STATE, self._engine.begins(), strict=True))
         case = self.case.replace(
             **start,
-            t_end=whole("laps", laps, 1, 10**6) * self.period,
+            t_end=whole("laps", laps) * self.period,
             v_stick=min(_V_STICK, self.case.v_stick),
             stop_when_settled=False,
             stop_when_sliding=False,
@@ -270,7 +270,7 @@ class SystemOrbit(BaseOrbit):
         start: Any = dict(zip(STATE, self._engine.begins(), strict=True))
         system = self.system.replace(
             **start,
-            t_end=whole("laps", laps, 1, 10**6) * self.period,
+            t_end=whole("laps", laps) * self.period,
             v_stick=min(_V_STICK, self.system.v_stick),
             settled_below=None,
             sliding_above=None,
@@ -410,7 +410,7 @@ def find_orbits(
     (True, False)
     """
     engine, asked = engine_of(case), wanted(periods, symbol, phase)
-    starts, seed = whole("starts", starts, 1, 10**7), whole("seed", seed, 0, 2**64 - 1)
+    starts, seed = whole("starts", starts), whole("seed", seed)
     with bar("random starts", starts, progress) as tell:
         found = _engine.find_orbits(engine, starts, seed, *asked, bool(prove), tell)
     return [Orbit(case, orbit) for orbit in found]

@@ -28,8 +28,8 @@ class Plan:
     axes: list[tuple[str, Any]] = field(default_factory=list)
     #: How many points in the box, and which.
     random: tuple[int, int] | None = None
-    #: Name and contents of the file with a row a case.
-    table: tuple[str, bytes] | None = None
+    #: Name and contents of the file with a row a case, and what errors call it.
+    table: tuple[str, bytes, str] | None = None
 
     @cached_property
     def study(self) -> _engine.Study:
@@ -39,10 +39,10 @@ class Plan:
             # It is read as long as the study goes on.
             room = tempfile.mkdtemp(prefix="snapload-")
             finalize(self, rmtree, room, ignore_errors=True)
-            name, contents = self.table
+            name, contents, called = self.table
             path = Path(room) / name
             path.write_bytes(contents)
-            return _engine.Study.listed(case, path, self.trust)
+            return _engine.Study.listed(case, path, called, self.trust)
         if self.random is not None:
             return _engine.Study.random(case, self.axes, *self.random, self.trust)
         return _engine.Study.grid(case, self.axes, self.trust)
@@ -59,13 +59,13 @@ def plan(case: Case, trust: bool, axes: Mapping[str, Any], random: int | None, s
             raise ValueError("cases says itself what varies; leave out random, seed and the values of keys, or cases")
         if isinstance(cases, (str, PathLike)):
             path = Path(there(fspath(cases)))
-            return Plan(case, trust, table=(path.name, path.read_bytes()))
-        return Plan(case, trust, table=("cases.csv", table_of(cases)))
+            return Plan(case, trust, table=(path.name, path.read_bytes(), str(path)))
+        return Plan(case, trust, table=("cases.csv", table_of(cases), "the list of cases"))
     if random is None:
         if seed is not None:
             raise ValueError(
                 f"seed = {seed!r} says which random points, and there are none; add random, or leave it out"
             )
         return Plan(case, trust, [(key, listed(key, values)) for key, values in axes.items()])
-    points = whole("random", random, 1, 10**12), whole("seed", 0 if seed is None else seed, 0, 2**64 - 1)
+    points = whole("random", random), whole("seed", 0 if seed is None else seed)
     return Plan(case, trust, [(key, side(key, ends)) for key, ends in axes.items()], random=points)

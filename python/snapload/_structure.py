@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _engine
 from ._assessed import Assessment, Elastic, Seas
+from ._check import number, whole
 from ._progress import bar
 
 
@@ -189,7 +190,8 @@ class Structure:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     snapload.Structure.example().to_moordyn(f"{folder}/lines.txt", segments=20)
         """
-        Path(path).write_text(self._engine.to_moordyn(segments), encoding="utf-8", newline="\n")
+        text = self._engine.to_moordyn(whole("segments", segments))
+        Path(path).write_text(text, encoding="utf-8", newline="\n")
 
     def replace(self, changes: Mapping[str, object]) -> Structure:
         """The same with other values of keys.
@@ -214,7 +216,7 @@ class Structure:
         >>> snapload.Structure.example().replace({"wave.height": 60})
         Traceback (most recent call last):
             ...
-        ValueError: wave.height = 60: allowed is 0 <= height <= 50
+        ValueError: wave.height = 60 is not allowed; allowed: a number in m, 0 <= height <= 50
         """
         return Structure(self._engine.replace(_changes(changes)), self.notes)
 
@@ -244,7 +246,7 @@ class Structure:
         """
         optional = ("wave", "sea", "design", "project")
         if table not in optional:
-            raise ValueError(f"table = {table!r}: allowed is one of {', '.join(optional)}")
+            raise ValueError(f"table = {table!r} is not allowed; allowed: one of {', '.join(optional)}")
         kept, inside = [], False
         for row in self.to_toml().splitlines():
             inside = row.strip() == f"[{table}]" if row.startswith("[") else inside
@@ -298,6 +300,7 @@ class Structure:
         >>> answer
         <Assessment: holds>
         """
+        neighbours = whole("neighbours", neighbours)
         with bar("assess", neighbours, progress) as shown:
             return Assessment(self._engine.assess(neighbours, shown))
 
@@ -329,6 +332,7 @@ class Structure:
         >>> snapload.Structure.example().without("wave").replace(sea).seas(seeds=4)
         <Seas: 4 records>
         """
+        seeds = whole("seeds", seeds)
         with bar("seas", seeds, progress) as shown:
             return Seas(self._engine.seas(seeds, elastic, shown))
 
@@ -359,8 +363,7 @@ class Structure:
         >>> snapload.Structure.example().replace({"run.duration": 5}).elastic()
         <Elastic: 2 pulls>
         """
-        if not every > 0:
-            raise ValueError(f"every = {every}: allowed is more than 0")
+        stiffer, every = number("stiffer", stiffer), number("every", every)
         with bar("elastic", 100, progress) as shown:
             return Elastic(self._engine.elastic(stiffer, every, shown))
 

@@ -127,7 +127,7 @@ class System(LimitBounds):
         for name in _RULES:
             if getattr(self, name) is not None:
                 put(self, **{name: within(name, getattr(self, name))})
-        put(self, max_impacts=whole("max_impacts", self.max_impacts, 1, 10**7))
+        put(self, max_impacts=whole("max_impacts", self.max_impacts))
         put(self, v_stick=within("v_stick", self.v_stick, 0.0))
         if self.body.inertia is None:
             self._check_point()

@@ -48,8 +48,9 @@ fn first_column(word: Option<&str>) -> PyResult<FirstColumn> {
         Some("frequency") => Ok(FirstColumn::Frequency),
         Some("wavenumber") => Ok(FirstColumn::WaveNumber),
         Some(other) => {
-            let words =
-                format!("first_column = {other:?}: period, frequency or wavenumber is allowed");
+            let words = format!(
+                "first_column = {other:?} is not allowed; allowed: period, frequency or wavenumber"
+            );
             Err(PyValueError::new_err(words))
         }
     }

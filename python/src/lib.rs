@@ -9,6 +9,7 @@ mod errors;
 mod hydro;
 mod interrupt;
 mod long_run;
+mod options;
 mod orbit;
 mod pool;
 mod question;
@@ -38,6 +39,8 @@ mod _engine {
     use super::hydro::hydro;
     #[pymodule_export]
     use super::long_run::{basins_of_attraction, diagram, erosion, safe_basin, section};
+    #[pymodule_export]
+    use super::options::whole;
     #[pymodule_export]
     use super::orbit::{Branch, Orbit, continuation, find_orbits, orbit, orbit_of_system};
     #[pymodule_export]

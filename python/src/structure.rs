@@ -5,7 +5,9 @@ use crate::interrupt::interruptible;
 use pyo3::prelude::*;
 use snapload::{CaseError, Entries};
 use snapload_structure::note::{self, Source};
-use snapload_structure::{BothModels, Lines, Prepared, STRUCTURE, both_models, moordyn};
+use snapload_structure::{
+    BothModels, Lines, Prepared, STRUCTURE, both_models, checked_every, moordyn,
+};
 use std::path::Path;
 
 /// The example of the manual.
@@ -131,6 +133,7 @@ impl Structure {
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Elastic> {
         let structure = self.structure.clone();
+        let every_s = checked_every(structure.duration_s, every_s).map_err(of_case)?;
         let found = interruptible(py, progress, move |watch| {
             let prepared = Prepared::for_springs(structure)?;
             both_models(prepared, stiffer, every_s, &|progress| {

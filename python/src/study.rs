@@ -48,10 +48,19 @@ impl Study {
         Self::of(case, plan, trust)
     }
 
-    /// Of a case and a file with a row a case, which has to stay as long as the study does.
+    /// Of a case and a file with a row a case, which has to stay as long as the study does; `called` is what errors
+    /// call it.
     #[staticmethod]
-    fn listed(py: Python<'_>, case: &Case, path: PathBuf, trust: bool) -> PyResult<Self> {
-        let list = py.detach(|| List::open(&path)).map_err(of_study)?;
+    fn listed(
+        py: Python<'_>,
+        case: &Case,
+        path: PathBuf,
+        called: String,
+        trust: bool,
+    ) -> PyResult<Self> {
+        let list = py
+            .detach(|| List::open_called(&path, &called))
+            .map_err(of_study)?;
         Self::of(case, Plan::List(list), trust)
     }
 

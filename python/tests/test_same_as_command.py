@@ -127,9 +127,9 @@ def test_parts_lists_and_random_points_open(command, tmp_path: Path):
     command("sweep", "--list", str(tmp_path / "cases.csv"), "--out", str(cases))
     listed = snapload.open_study(cases)
     assert listed.end.values.tolist() == ["settled", ""] and "e = 2 is not allowed" in listed.error.values[1]
-    (tmp_path / "other.parquet").write_bytes(b"no")
-    with pytest.raises(OSError, match="other.parquet"):
-        snapload.open_study(tmp_path / "other.parquet")
+    (tmp_path / "half.parquet").write_bytes(box.read_bytes()[:-100])
+    with pytest.raises(OSError, match="half.parquet"):
+        snapload.open_study(tmp_path / "half.parquet")
 
 
 def test_random_points_tables_and_parts_are_the_same(command, tmp_path: Path):

@@ -6,7 +6,7 @@ use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use crate::whole::whole;
 use snapload::analysis::Progress;
 use snapload_structure::note::{self, Source};
-use snapload_structure::{DEFAULT_NEIGHBOURS, STRUCTURE, assess};
+use snapload_structure::{DEFAULT_NEIGHBOURS, NEIGHBOURS, STRUCTURE, assess};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/assess.txt").trim_ascii_end();
@@ -26,7 +26,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     json: JsonArgs,
     /// Neighbours of the run, 1e-6 of the wave height away, that show how far it can be trusted
-    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole::<u32>(0, 100_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = DEFAULT_NEIGHBOURS, value_parser = whole::<u32>(NEIGHBOURS))]
     neighbours: u32,
     /// Leave the scan over wave heights and periods out of the page
     #[arg(long)]

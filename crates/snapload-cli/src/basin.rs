@@ -10,7 +10,7 @@ use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::Progress;
 use snapload_orbits::{
-    Attraction, AttractionRow, Basin, BasinRow, Erosion, ErosionRow, Fate, Window,
+    Attraction, AttractionRow, BASIN_TRANSIENT, Basin, BasinRow, Erosion, ErosionRow, Fate, Window,
     attraction_in_words, basin_in_words, erosion_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "safe", value_parser = ["safe", "attractor"])]
     kind: String,
     /// Periods of the forcing before attractors are looked at
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u64>(1, 10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole::<u64>(BASIN_TRANSIENT))]
     transient: u64,
     /// Write a table with a row a cell, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

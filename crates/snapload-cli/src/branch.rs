@@ -13,7 +13,9 @@ use serde::Serialize;
 use snapload::Parameters;
 use snapload::analysis::{OnProgress, Progress};
 use snapload_figures::Layer;
-use snapload_orbits::{Along, Branch, BranchEvent, BranchRow, Kind, Moored, branch_in_words};
+use snapload_orbits::{
+    Along, Branch, BranchEvent, BranchRow, Kind, Moored, POINTS, branch_in_words,
+};
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
 use std::fmt::Write;
@@ -54,7 +56,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Points in either direction at most
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = whole::<u32>(POINTS))]
     points: u32,
     /// Kinds of events that are told, with commas between them
     #[arg(long, value_name = "all|fold,graze,...", default_value = "all")]

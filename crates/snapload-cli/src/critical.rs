@@ -8,7 +8,9 @@ use crate::stage::Stage;
 use crate::uncertainty::UncertaintyArgs;
 use crate::whole::whole;
 use serde::Serialize;
-use snapload::analysis::{CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress};
+use snapload::analysis::{
+    CriticalForce, ExceedanceCurve, ForceScan, OnProgress, Progress, SOME_MEMBERS,
+};
 use snapload::{CaseError, Value};
 use snapload_report::{CriticalRow, Probability, case_in_words};
 use snapload_study::Axis;
@@ -47,7 +49,7 @@ pub(crate) struct Args {
     max: f64,
     /// Run N neighbours at each amplitude where one run can not tell, and give the probability of
     /// exceeding
-    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole::<u32>(1, u32::MAX))]
+    #[arg(long, value_name = "N", conflicts_with = "over", value_parser = whole::<u32>(SOME_MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,

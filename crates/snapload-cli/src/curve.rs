@@ -14,7 +14,8 @@ use snapload::analysis::{OnProgress, Progress};
 use snapload::{Parameters, key_named};
 use snapload_figures::Layer;
 use snapload_orbits::{
-    Across, Along, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit, curve_in_words,
+    Across, Along, BranchEvent, Curve, CurvePoint, CurveRow, Kind, Moored, Orbit, POINTS,
+    curve_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use snapload_study::{Side, Values};
@@ -61,7 +62,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 0.01)]
     step: f64,
     /// Points in either direction at most
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole::<u32>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole::<u32>(POINTS))]
     points: u32,
     /// Write a table with a row a point, FILE.parquet or FILE.csv
     #[arg(long, value_name = "FILE")]

@@ -5,6 +5,7 @@ use crate::json::JsonArgs;
 use crate::structure_input::Answers;
 use serde::Serialize;
 use snapload_hydro::{Decay, FREEDOMS, Swing, decay, swings};
+use snapload_report::tables::in_digits;
 use snapload_structure::told;
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -155,7 +156,8 @@ fn words(called: &str, swings: &[Swing], freedom: usize, comes_back: bool) -> St
 fn table(motion: &Decay) -> String {
     let mut text = "t_s,surge_m,heave_m,pitch_rad\n".to_owned();
     for (t, q) in motion.t_s.iter().zip(&motion.q) {
-        let _ = writeln!(text, "{t},{},{},{}", q[0], q[1], q[2]);
+        let row = [*t, q[0], q[1], q[2]].map(in_digits);
+        let _ = writeln!(text, "{}", row.join(","));
     }
     text
 }

@@ -3,8 +3,11 @@ use crate::bar::Bar;
 use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
+use crate::whole::number;
+use snapload::CaseError;
 use snapload::analysis::{Progress, Unfinished};
-use snapload_structure::{BothModels, Prepared, both_models};
+use snapload_report::tables::in_digits;
+use snapload_structure::{BothModels, EVERY, Prepared, STIFFER, both_models, checked_every};
 use std::io;
 use std::path::PathBuf;
 
@@ -17,34 +20,16 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
     /// Take the lines this many times as stiff as they are
-    #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = times)]
+    #[arg(long, value_name = "TIMES", default_value_t = 1.0, value_parser = number(STIFFER))]
     stiffer: f64,
     /// Write the motion as CSV: time, place, rotation and the tension of each line
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
     /// Time between two rows of the CSV, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = number(EVERY))]
     every: f64,
     #[command(flatten)]
     json: JsonArgs,
-}
-
-/// The most rows of the CSV.
-const MOST_ROWS: f64 = 1e7;
-
-fn times(text: &str) -> Result<f64, String> {
-    within(text, 1e-6, 1e9)
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    within(text, 1e-6, 1e6)
-}
-
-fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    let number = text.parse::<f64>().ok();
-    number
-        .filter(|number| (low..=high).contains(number))
-        .ok_or_else(|| format!("allowed: a number from {low:e} to {high:e}"))
 }
 
 /// Runs it.
@@ -55,17 +40,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(path) = &args.out {
         ending(path, &["csv"])?;
     }
-    let rows = structure.duration_s / args.every;
-    if args.out.is_some() && rows > MOST_ROWS {
-        let message = format!(
-            "--every {}: {rows:.1e} rows; allowed are at most {MOST_ROWS:e}, every {:e} s or less often",
-            args.every,
-            structure.duration_s / MOST_ROWS
-        );
-        return Err(Failure::BadInput(message));
-    }
+    let every_s = match &args.out {
+        Some(_) => checked_every(structure.duration_s, args.every).map_err(as_option)?,
+        None => f64::INFINITY,
+    };
     let mut answers = Answers::open(&args.json, args.out.as_deref())?;
-    let every_s = args.out.as_ref().map_or(f64::INFINITY, |_| args.every);
     let bar = Bar::new();
     let on_progress = |progress: Progress| bar.show(progress);
     let both = Prepared::for_springs(structure)
@@ -75,6 +54,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(bar);
     answers.write(|out| table(&both, out))?;
     answers.finish(&both.to_json(&name), both.summary(&name))
+}
+
+/// An error that names an option, with the option as it is written on a command line.
+fn as_option(mut error: CaseError) -> CaseError {
+    error.key = format!("--{}", error.key);
+    error
 }
 
 /// A row a look.
@@ -89,7 +74,7 @@ fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
         let [x, z] = both.sprung.model.scales.to_si([state.x, state.y]);
         let place = [look.t_s, x, z, 0.0 - state.theta];
         let row = place.iter().chain(&look.tension_n);
-        table.write_record(row.map(f64::to_string))?;
+        table.write_record(row.copied().map(in_digits))?;
     }
     table.flush()
 }

@@ -4,11 +4,13 @@ use crate::failure::{Failure, plain, print};
 use crate::interrupt::{Graceful, end_gracefully, say};
 use crate::structure_input::{entries_of, structure_of};
 use crate::whole::whole;
-use snapload::Parameters;
+use snapload::{Key, Kind, Parameters};
 use snapload_explore::{Opened, Server, Start};
 use std::io;
 use std::path::Path;
 
+/// Ports; 0 is any that is free.
+const PORT: Key = Key::option("port", Kind::Count(0, 65_535));
 /// The port where none is asked for.
 const USUAL_PORT: u16 = 7627;
 
@@ -38,7 +40,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
     /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(0, u16::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(PORT))]
     port: Option<u16>,
     /// Print the address, and leave it to you to open it
     #[arg(long)]

@@ -6,6 +6,7 @@ use crate::whole::whole;
 use snapload_hydro::{
     FirstColumn, FitOptions, Given, GivenMemory, HydroError, Line, Report, Request, Weight, read,
 };
+use snapload_structure::PAIRS;
 use std::path::{Path, PathBuf};
 
 /// The file of a panel code, the body's weight, and the memory.
@@ -56,7 +57,7 @@ pub(crate) struct HydroArgs {
     #[arg(long, value_name = "B1,B3,B5", value_parser = triple, help_heading = "The body")]
     damping: Option<[f64; 3]>,
     /// Pairs of poles of the memory; without it as many as are needed for 1 %
-    #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>(0, usize::MAX), help_heading = "The memory")]
+    #[arg(long, value_name = "NUMBER", value_parser = whole::<usize>(PAIRS), help_heading = "The memory")]
     pairs: Option<usize>,
     /// Take the memory from a file that --json wrote, and fit none
     #[arg(

@@ -211,6 +211,14 @@ fn refuse(mut error: clap::Error) -> ! {
         let status = failure::exit_status(Err(failure::Failure::BadInput(message)));
         std::process::exit(i32::from(status));
     }
+    if error.kind() == ErrorKind::InvalidValue
+        && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)
+        && option.starts_with("--json")
+    {
+        let tip = "write --json - for standard output, or --json FILE";
+        let tips = ContextValue::StyledStrs(vec![tip.into()]);
+        error.insert(ContextKind::Suggested, tips);
+    }
     if error.kind() == ErrorKind::UnknownArgument
         && error.get(ContextKind::SuggestedArg).is_none()
         && let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg)

@@ -6,7 +6,7 @@ use crate::stage::Stage;
 use crate::structure_input::{ReadStructure, StructureArgs};
 use crate::whole::whole;
 use clap::Subcommand;
-use snapload_structure::{Structure, moordyn, told};
+use snapload_structure::{SEGMENTS, Structure, moordyn, told};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,7 @@ struct Write {
     input: StructureArgs,
     /// Segments of each line; with one it is a spring with a damper, with more it has mass along
     /// its length
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u32>(1, 10_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u32>(SEGMENTS))]
     segments: u32,
     /// Write to a file; without it, to standard output
     #[arg(long, value_name = "LINES.txt")]

@@ -7,11 +7,11 @@ use crate::stage::Stage;
 use crate::table::{TableFile, axis};
 use crate::whole::whole;
 use serde::Serialize;
-use snapload::analysis::{OnProgress, START_KEYS};
+use snapload::analysis::{OnProgress, SEED, START_KEYS};
 use snapload::{CaseError, Parameters, Value, parse_value};
 use snapload_orbits::{
-    Moored, Orbit, OrbitRow, Point, Proofs, Wanted, check_start, checked_phase, distance,
-    of_attractor, orbit_in_words, start_of,
+    Moored, ORBIT_PERIODS, Orbit, OrbitRow, Point, Proofs, STARTS, Wanted, check_start,
+    checked_phase, distance, of_attractor, orbit_in_words, start_of,
 };
 use snapload_report::{CaseEcho, case_in_words};
 use std::fmt::Write;
@@ -48,14 +48,14 @@ pub(crate) struct Args {
     #[arg(long, value_name = "2,1")]
     symbol: Option<String>,
     /// Try so many random starts, and tell all orbits found
-    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole::<u32>(1, 10_000_000))]
+    #[arg(long, value_name = "N", conflicts_with = "start", value_parser = whole::<u32>(STARTS.called("find")))]
     find: Option<u32>,
     /// Which random starts
     #[arg(
         long,
         value_name = "S",
         default_value_t = 0,
-        value_parser = whole::<u64>(0, u64::MAX),
+        value_parser = whole::<u64>(SEED),
         requires = "find"
     )]
     seed: u64,
@@ -86,7 +86,7 @@ pub(crate) struct NearArgs {
     #[arg(long, value_name = "x=..,y=..", allow_hyphen_values = true)]
     start: Option<String>,
     /// Length in periods of the forcing; 1 near a start, what the motion has otherwise
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(1, 1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(ORBIT_PERIODS))]
     periods: Option<u32>,
     /// Time of the section, in periods of the forcing
     #[arg(long, value_name = "P", default_value_t = 0.0)]

@@ -8,7 +8,7 @@ use crate::pictures::pictures;
 use crate::stage::{Room, Stage};
 use crate::uncertainty::UncertaintyArgs;
 use crate::whole::whole;
-use snapload::analysis::Progress;
+use snapload::analysis::{MEMBERS, Progress};
 use snapload::{Case, Sampling};
 use snapload_certificate::Cancelled;
 use snapload_report::{
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     uncertainty: UncertaintyArgs,
     /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if
     /// those end alike
-    #[arg(long, value_name = "N", value_parser = whole::<u32>(0, u32::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(MEMBERS.called("ensemble")))]
     ensemble: Option<u32>,
     /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out its
     /// certificate is run.cert

@@ -4,8 +4,9 @@ use crate::failure::Failure;
 use crate::json::JsonArgs;
 use crate::structure_input::{Answers, ReadStructure, StructureArgs, ending};
 use crate::whole::whole;
+use snapload_report::tables::in_digits;
 use snapload_structure::note::{self, Source};
-use snapload_structure::{Lines, SeaOutcome, Seas, end_words, seas};
+use snapload_structure::{Lines, SEEDS, SeaOutcome, Seas, end_words, seas};
 use std::io;
 use std::path::PathBuf;
 
@@ -18,7 +19,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     input: StructureArgs,
     /// How many records are run
-    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(1, 10_000))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 20, value_parser = whole::<u32>(SEEDS))]
     seeds: u32,
     /// Take the lines as springs, which is slower; needed where they are too soft to snap at once
     #[arg(long)]
@@ -86,7 +87,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let slack = outcome.lines.iter().map(|line| line.slack_fraction);
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);
-        let peak = outcome.peak_n().map(|peak| peak.to_string());
+        let peak = outcome.peak_n().map(in_digits);
         // Of a record that ends before anything is judged there is nothing to tell.
         let judged = |told: String| match outcome.is_unjudged() {
             true => String::new(),
@@ -94,14 +95,14 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         };
         table.write_record([
             seed.to_string(),
-            outcome.end_s.to_string(),
+            in_digits(outcome.end_s),
             end_words(outcome.stop).to_owned(),
             judged(outcome.snaps().to_string()),
-            judged(outcome.speed_m_s().to_string()),
+            judged(in_digits(outcome.speed_m_s())),
             peak.unwrap_or_default(),
-            judged(outcome.largest_n().to_string()),
-            least.map(|least| least.to_string()).unwrap_or_default(),
-            judged(slack.fold(0.0, f64::max).to_string()),
+            judged(in_digits(outcome.largest_n())),
+            least.map(in_digits).unwrap_or_default(),
+            judged(in_digits(slack.fold(0.0, f64::max))),
         ])?;
     }
     table.flush()

@@ -11,7 +11,7 @@ use serde::Serialize;
 use snapload::analysis::{Progress, START_KEYS};
 use snapload_figures::{Colour, Layer, Shape};
 use snapload_orbits::{
-    ImpactPoint, MOST_KEPT, Section, SectionRow, Stretch, section_in_words, stretch,
+    ImpactPoint, KEEP, MOST_KEPT, PERIODS, Section, SectionRow, Stretch, section_in_words, stretch,
     without_points_in_words,
 };
 use snapload_report::{CaseEcho, case_in_words};
@@ -62,10 +62,10 @@ pub(crate) struct Args {
 #[derive(clap::Args)]
 pub(crate) struct StretchArgs {
     /// Periods of the forcing in all
-    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u64>(1, 100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole::<u64>(PERIODS))]
     periods: u64,
     /// Periods that are kept, the last ones
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(1, 1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole::<u64>(KEEP))]
     keep: u64,
     /// Time of the section, in periods of the forcing; the start is the state then, so that another
     /// phase is another motion

@@ -4,24 +4,25 @@ use crate::failure::Failure;
 use crate::interrupt::say;
 use crate::whole::whole;
 use snapload::DefaultValue::{Count, Derived, Flag};
+use snapload::analysis::SEED;
 use snapload::{
     CASE_KEYS, CaseError, Entries, Heading, KEYS, Key, Kind, Schema, Table, Value, key_named,
     parse_value,
 };
-use snapload_study::{Axis, List, Plan, Side, Study};
+use snapload_study::{Axis, List, Plan, RANDOM, Side, Study};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// What a study file says beside the keys of a case.
 #[rustfmt::skip] // one row a key
 const STUDY_KEYS: &[Key] = &[
     Key::new("case", "", Kind::Text, Derived("the standard case"), "built-in case to begin with"),
-    Key::new("random", "", COUNT, Derived("a grid"), "so many random points in the box of the ranges"),
-    Key::new("seed", "", COUNT, Count(0), "which random points"),
+    Key::new("random", "", RANDOM.kind, Derived("a grid"), "so many random points in the box of the ranges"),
+    Key::new("seed", "", SEED.kind, Count(0), "which random points"),
     Key::new("list", "", Kind::Text, Derived("none"), "file with a row a case, beside the study file"),
     Key::new("list_sha256", "", Kind::Text, Derived("any"), "what sha256sum has to say of that file"),
     Key::new("trust", "", Kind::Flag, Flag(true), "whether every run says how far it can be trusted"),
 ];
-const COUNT: Kind = Kind::Count(0, u64::MAX);
 
 /// A study file: the keys of a case, what a study says beside them, and what varies.
 static STUDY: Schema = Schema {
@@ -50,10 +51,10 @@ pub(crate) struct StudyArgs {
     #[arg(long, value_name = "KEY=VALUES", allow_hyphen_values = true)]
     vary: Vec<String>,
     /// Sobol points in the box of the ranges instead of a grid
-    #[arg(long, value_name = "N", value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(RANDOM))]
     random: Option<u64>,
     /// Which random points
-    #[arg(long, value_name = "S", value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "S", value_parser = whole::<u64>(SEED))]
     seed: Option<u64>,
     /// Cases from a CSV or Parquet file: a row a case, a column a key
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "random", "seed"])]
@@ -208,7 +209,7 @@ fn of_text(text: &str) -> Result<(String, Varied), Failure> {
     if values.contains(':') {
         return Ok((key.to_owned(), Varied::Range(values.to_owned())));
     }
-    let refuse = |shown| match key_named(key) {
+    let refuse = |shown: Cow<'static, str>| match key_named(key) {
         Ok(known) => known.refuse(key, shown),
         Err(unknown) => unknown,
     };

@@ -8,7 +8,7 @@ use crate::study_summary::Summary;
 use crate::whole::whole;
 use clap::CommandFactory;
 use snapload::analysis::{Cancelled, Progress};
-use snapload_study::{Identity, Opened, Shard, Store, StudyError, sweep, threads_for};
+use snapload_study::{Identity, Opened, Shard, Store, StudyError, THREADS, sweep, threads_for};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -47,7 +47,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "i/n", conflicts_with = "plot")]
     shard: Option<String>,
     /// Threads to use; as many as the machine has if left out, and at the most four times as many
-    #[arg(long, value_name = "N", value_parser = whole::<u16>(1, u16::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(THREADS))]
     threads: Option<u16>,
     #[command(flatten)]
     picture: PictureArgs,

@@ -2,6 +2,7 @@
 use crate::failure::Failure;
 use crate::json::{folder_for, refuse_directory};
 use crate::stage::{Room, Stage};
+use snapload_report::tables::in_digits;
 use snapload_study::{Axis, Values, write_table};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -63,7 +64,10 @@ fn texts(values: &Values) -> Vec<String> {
         list.iter().map(text).collect()
     }
     match values {
-        Values::Numbers(list) => all(list),
+        Values::Numbers(list) => {
+            let text = |value: &Option<f64>| value.map(in_digits).unwrap_or_default();
+            list.iter().map(text).collect()
+        }
         Values::Counts(list) => all(list),
         Values::Flags(list) => all(list),
         Values::Words(list) => all(list),

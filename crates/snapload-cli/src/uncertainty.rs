@@ -2,7 +2,7 @@
 use crate::failure::Failure;
 use crate::whole::whole;
 use snapload::Case;
-use snapload::analysis::Uncertainty;
+use snapload::analysis::{SEED, Uncertainty};
 use snapload_report::TOLERANCE;
 
 /// What counts as known, as given on the command line.
@@ -30,7 +30,7 @@ pub(crate) struct UncertaintyArgs {
     #[command(flatten)]
     tolerance: ToleranceArgs,
     /// Which neighbours an ensemble draws
-    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u64>(0, u64::MAX))]
+    #[arg(long, value_name = "NUMBER", default_value_t = 1, value_parser = whole::<u64>(SEED))]
     seed: u64,
 }
 

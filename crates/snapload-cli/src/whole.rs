@@ -3,28 +3,35 @@
 use clap::builder::ValueParser;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, Command};
-use snapload::{Key, Kind, Value, parse_value};
+use snapload::{CaseError, Key, Kind, Value, parse_value};
 use std::error::Error;
-use std::fmt::Display;
 use std::num::ParseFloatError;
-use std::str::FromStr;
 
-/// Reads a whole number from `low` to `high`.
-pub(crate) fn whole<T>(low: T, high: T) -> ValueParser
+/// Reads a whole number that an option may be.
+pub(crate) fn whole<T>(option: Key) -> ValueParser
 where
-    T: FromStr + PartialOrd + Display + Copy + Send + Sync + 'static,
+    T: TryFrom<u64> + Clone + Send + Sync + 'static,
 {
     ValueParser::from(move |text: &str| {
-        let number = text.trim().parse::<T>().ok();
-        number
-            .filter(|number| (low..=high).contains(number))
-            .ok_or_else(|| beyond(low, high))
+        let number = text.trim().parse::<u64>().ok();
+        let number = number.filter(|number| option.takes_count(*number));
+        let number = number.and_then(|number| T::try_from(number).ok());
+        number.ok_or_else(|| allowed(&option.refuse(option.name, text)))
     })
 }
 
-/// What is allowed for a whole number.
-fn beyond(low: impl Display, high: impl Display) -> String {
-    format!("allowed: a whole number from {low} to {high}")
+/// Reads a number that an option may be.
+pub(crate) fn number(option: Key) -> ValueParser {
+    ValueParser::from(move |text: &str| {
+        let number = text.trim().parse::<f64>().ok();
+        let number = number.filter(|number| option.check(option.name, &(*number).into()).is_ok());
+        number.ok_or_else(|| allowed(&option.refuse(option.name, text)))
+    })
+}
+
+/// What is allowed, as [`refusal`] looks for it.
+fn allowed(error: &CaseError) -> String {
+    format!("allowed: {}", error.allowed)
 }
 
 /// Reads the value of an option that a row describes as a key.
@@ -41,10 +48,7 @@ pub(crate) fn described(key: &'static Key) -> ValueParser {
             Some(value) => key.check(key.name, &value).map(|()| value),
             None => Err(key.refuse(key.name, text)),
         };
-        checked.map_err(|error| match key.kind {
-            Kind::Count(low, high) => beyond(low, high),
-            _ => format!("allowed: {}", error.allowed),
-        })
+        checked.map_err(|error| allowed(&error))
     })
 }
 

@@ -82,7 +82,8 @@ pub use moored_questions::OnLap;
 pub use multipliers::{Multipliers, Stability, multipliers};
 pub use newton::{Closed, close};
 pub use options::{
-    across, along, check_start, check_start_of_system, checked_phase, followed, stretch,
+    BASIN_TRANSIENT, KEEP, ORBIT_PERIODS, PERIODS, POINTS, STARTS, across, along, check_start,
+    check_start_of_system, checked_phase, followed, stretch,
 };
 pub use orbit::{EventRow, NoOrbit, Orbit, Proof, Wanted};
 pub use orbit_row::OrbitRow;

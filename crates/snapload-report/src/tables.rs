@@ -58,6 +58,15 @@ impl Serialize for ImpactRow {
     }
 }
 
+/// A number of a table in as few digits as give it back: with an exponent below 1e-5 and from 1e16 on,
+/// as the writer of CSV has it, where all the rest would be zeros.
+pub fn in_digits(number: f64) -> String {
+    match number == 0.0 || !number.is_finite() || (1e-5..1e16).contains(&number.abs()) {
+        true => number.to_string(),
+        false => format!("{number:e}"),
+    }
+}
+
 /// A value of a table: a number with or without a fraction, a flag, a word or nothing.
 #[derive(Serialize)]
 #[serde(untagged)]
@@ -131,4 +140,29 @@ fn write<R: Serialize>(
         table.serialize(row)?;
     }
     table.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_digits;
+
+    #[test]
+    fn numbers_have_no_row_of_zeros_and_are_read_back() {
+        let told = [
+            (5.810_268_896_183_074e-20, "5.810268896183074e-20"),
+            (-9.9e-6, "-9.9e-6"),
+            (1e-5, "0.00001"),
+            (0.0, "0"),
+            (0.1, "0.1"),
+            (1.0, "1"),
+            (9e15, "9000000000000000"),
+            (1e16, "1e16"),
+            (f64::NAN, "NaN"),
+        ];
+        for (number, words) in told {
+            assert_eq!(in_digits(number), words);
+            let read: f64 = words.parse().expect("a number");
+            assert_eq!(read.to_bits(), number.to_bits());
+        }
+    }
 }

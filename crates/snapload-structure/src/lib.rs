@@ -10,6 +10,7 @@
 mod catalogue;
 pub mod moordyn;
 pub mod note;
+mod options;
 mod physics;
 mod report;
 mod runs;
@@ -18,6 +19,7 @@ mod structure;
 mod words;
 
 pub use catalogue::{Section, section};
+pub use options::{EVERY, NEIGHBOURS, PAIRS, SEEDS, SEGMENTS, STIFFER, checked_every};
 pub use physics::afloat::HeldMotion;
 pub use physics::elastic::{ElasticRun, Look, Pull, Spring, damping_ratio, run_elastic, springs};
 pub use physics::equilibrium::{Equilibrium, equilibrium};

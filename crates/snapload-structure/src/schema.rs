@@ -1,6 +1,7 @@
 //! The keys of a structure's case: tables, names, units, ranges, defaults and help texts.
 
 use crate::catalogue::{GRADES, TYPES};
+use crate::options::PAIRS;
 use snapload::DefaultValue::{Count, Derived, Flag, Number, Required, Word};
 use snapload::{Heading, Key, Kind, Schema, Table};
 
@@ -71,7 +72,7 @@ const FLOAT: &[Key] = &[
         "[surge, heave, pitch], pitch in N m s: linear damping beside that of waves"),
     Key::new("constant_moment", "N m", Kind::number(-1e18, 1e18), Number(0.0),
         "a moment that does not change, counter-clockwise: of wind on the deck, or of a load aside"),
-    Key::new("pairs", "1", Kind::Count(1, 20), Derived("as many as 1 % takes"), "pairs of poles of the memory"),
+    Key::new("pairs", "1", PAIRS.kind, Derived("as many as 1 % takes"), "pairs of poles of the memory"),
     Key::new("memory", "", Kind::Text, Derived("fitted"), "a memory that snapload hydro --json wrote, in place of a fit"),
     Key::new("reference", "m", PLACE, Derived("the file's"), "[x, z] that the file's pitch is about, where it does not say"),
     Key::new("file_centre_of_gravity", "m", PLACE, Derived("the file's"),

@@ -15,6 +15,9 @@ pub enum StudyError {
     /// What was asked for can not be done as it is.
     #[error("{0}")]
     Input(String),
+    /// Random points were asked for, and nothing varies; so many keys could.
+    #[error("{}", no_side(*.0, "--vary KEY=low:high, such as --vary e=0.5:0.9"))]
+    NoSide(usize),
     /// Something stands where the rows are to be kept.
     #[error("{}", .0.in_words("--resume", "--out"))]
     Occupied(Occupied),
@@ -114,12 +117,12 @@ impl Occupied {
 impl StudyError {
     /// A file that can not be written.
     pub(crate) fn write(path: &Path, error: impl Into<io::Error>) -> Self {
-        Self::Failed(about("write", path, &error.into()))
+        Self::Failed(about("write", path.display(), &error.into()))
     }
 
     /// A file that can not be read.
-    pub(crate) fn read(path: &Path, error: impl Display) -> Self {
-        Self::Failed(about("read", path, &error))
+    pub(crate) fn read(called: impl Display, error: impl Display) -> Self {
+        Self::Failed(about("read", called, &error))
     }
 
     /// A file of rows that can not be read.
@@ -139,9 +142,16 @@ impl StudyError {
     }
 }
 
-fn about(verb: &str, path: &Path, error: &impl Display) -> String {
+/// That nothing varies, with words on how a key is let vary.
+pub fn no_side(most: usize, how: &str) -> String {
+    format!(
+        "random points are drawn from the ranges of 1 to {most} keys, and none varies; let one vary by {how}"
+    )
+}
+
+fn about(verb: &str, called: impl Display, error: &impl Display) -> String {
     let error = without_number(error);
-    format!("can not {verb} {}: {error}", path.display())
+    format!("can not {verb} {called}: {error}")
 }
 
 /// The system's words without its number: `No space left on device`.

@@ -29,14 +29,14 @@ mod table_file;
 mod threads;
 mod whole;
 
-pub use error::{Occupied, StudyError, without_number};
+pub use error::{Occupied, StudyError, no_side, without_number};
 pub use grid::Grid;
 pub use list::List;
 pub use metadata::{Identity, Shard};
 pub use parquet_file::{Holds, Values};
 #[cfg(feature = "pictures")]
 pub use picture::{StudyPicture, key_label};
-pub use plan::{Axis, MOST_CASES, MOST_SIDES, Plan, Side};
+pub use plan::{Axis, MOST_CASES, Plan, RANDOM, Side};
 pub use rows::{Row, Run, rows};
 pub use sobol::Sobol;
 pub use store::{Opened, Store, check_name, chunk, folder_of, parent_of};
@@ -44,7 +44,7 @@ pub use study::{Drawn, NoCase, Study};
 pub use sweep::sweep;
 pub use table::{Column, Take, columns};
 pub use table_file::write_table;
-pub use threads::threads_for;
+pub use threads::{THREADS, threads_for};
 pub use whole::{
     Shown, StudyEnds, checked_identity, columns_of_files, ends, identity_of, merge, read_rows,
     read_shown,

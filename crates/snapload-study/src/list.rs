@@ -9,6 +9,7 @@ use parquet::basic::ConvertedType;
 use parquet::schema::types::Type;
 use snapload::{CaseError, Value, key_named};
 use std::error::Error;
+use std::fmt::Display;
 use std::fs::File;
 use std::io::Read;
 use std::ops::Range;
@@ -27,6 +28,8 @@ type Unreadable = Box<dyn Error>;
 #[derive(Debug)]
 pub struct List {
     path: PathBuf,
+    /// What errors call it.
+    called: String,
     keys: Vec<&'static str>,
     count: u64,
     sha256: String,
@@ -46,7 +49,15 @@ impl List {
     /// [`StudyError::Input`] if there is no such file, if it is of another kind, holds no case, or
     /// if a column is no key.
     pub fn open(path: &Path) -> Result<Self, StudyError> {
-        let input = |error: &dyn std::fmt::Display| StudyError::read(path, error).of_input();
+        Self::open_called(path, &path.display().to_string())
+    }
+
+    /// The same of a file that errors call otherwise, as it is a copy, or was made for this.
+    ///
+    /// # Errors
+    /// As for [`List::open`].
+    pub fn open_called(path: &Path, called: &str) -> Result<Self, StudyError> {
+        let input = |error: &dyn Display| StudyError::read(called, error).of_input();
         let about = path.metadata().map_err(|error| input(&error))?;
         if !about.is_file() {
             // It is read more than once, from any row, and has to end.
@@ -69,13 +80,13 @@ impl List {
                 )));
             }
             let count = reader.about().num_rows();
-            let names = named_columns(path, &reader)?;
+            let names = named_columns(called, &reader)?;
             (names, count.unsigned_abs(), Format::Parquet)
         } else {
             let (names, marks, count) = index(path).map_err(|error| input(&error))?;
             (names, count, Format::Csv { marks })
         };
-        let keys = keys(path, &names)?;
+        let keys = keys(called, &names)?;
         let sha256 = digest(path).map_err(|error| input(&error))?;
         if count == 0 {
             let words = match names.is_empty() {
@@ -86,6 +97,7 @@ impl List {
         }
         Ok(Self {
             path: path.to_owned(),
+            called: called.to_owned(),
             keys,
             count,
             sha256,
@@ -129,12 +141,12 @@ impl List {
             Format::Csv { marks } => self.read_csv(marks, &range),
             Format::Parquet => self.read_parquet(&range),
         };
-        let rows = rows.map_err(|error| StudyError::read(&self.path, error))?;
+        let rows = rows.map_err(|error| StudyError::read(&self.called, error))?;
         if rows.len() as u64 == range.end - range.start {
             return Ok(rows);
         }
         Err(StudyError::read(
-            &self.path,
+            &self.called,
             "it has fewer rows than before",
         ))
     }
@@ -228,14 +240,14 @@ fn index(path: &Path) -> csv::Result<(Vec<String>, Vec<Position>, u64)> {
 }
 
 /// The names of the columns of a Parquet file, if each is of a type that a key could have.
-fn named_columns(path: &Path, reader: &ParquetReader) -> Result<Vec<String>, StudyError> {
+fn named_columns(called: &str, reader: &ParquetReader) -> Result<Vec<String>, StudyError> {
     let fields = reader.fields().map(|(field, holds)| {
         let (name, allowed) = (field.name(), "numbers, texts, or true and false");
         holds.map(|_| name.to_owned()).ok_or_else(|| {
-            let (shown, file) = (CaseError::value(name, "", allowed).key, path.display());
+            let shown = CaseError::value(name, "", allowed).key;
             let kind = shown_type(field);
             StudyError::Input(format!(
-                "{file}: column {shown} holds {kind}; allowed: {allowed}"
+                "{called}: column {shown} holds {kind}; allowed: {allowed}"
             ))
         })
     });
@@ -256,13 +268,13 @@ fn shown_type(field: &Type) -> String {
 }
 
 /// The keys that the columns are named after, each once.
-fn keys(path: &Path, names: &[String]) -> Result<Vec<&'static str>, StudyError> {
-    let wrong = |words: String| StudyError::Input(format!("{}: {words}", path.display()));
+fn keys(called: &str, names: &[String]) -> Result<Vec<&'static str>, StudyError> {
+    let wrong = |words: String| StudyError::Input(format!("{called}: {words}"));
     let mut keys = Vec::new();
     for name in names {
         let key = key_named(name).map_err(|error| {
             wrong(format!(
-                "{error}\nhint: a list has the names of keys in its first line, and nothing else beside them"
+                "{error}\nhint: a list has a column a key, named in the first line of a CSV file, and nothing else beside them"
             ))
         })?;
         if keys.contains(&key.name) {

@@ -17,7 +17,9 @@ use parquet::file::serialized_reader::{ReadOptionsBuilder, SerializedFileReader}
 use parquet::schema::types::Type;
 use std::borrow::Cow;
 use std::fs::File;
+use std::io::{self, Read};
 use std::ops::Range;
+use std::path::Path;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,6 +95,18 @@ impl Values {
             Self::Words(list) => Self::Words(list.drain(..count).collect()),
         }
     }
+}
+
+/// With these bytes a Parquet file begins and ends.
+const MAGIC: &[u8; 4] = b"PAR1";
+
+/// Whether a file begins as one of Parquet does, and may be damaged at the most.
+pub(crate) fn is_parquet(path: &Path) -> io::Result<bool> {
+    let mut begin = Vec::new();
+    File::open(path)?
+        .take(MAGIC.len() as u64)
+        .read_to_end(&mut begin)?;
+    Ok(begin == MAGIC)
 }
 
 /// A file that is read.

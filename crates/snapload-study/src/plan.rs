@@ -1,13 +1,13 @@
 //! Which cases a study has: the axes of a grid, the sides of a box, or a list.
 
 use crate::{Grid, List, Sobol, StudyError};
-use snapload::{Kind, Value, check_entry, key_named};
+use snapload::{KEYS, Key, Kind, Value, check_entry, key_named};
 use std::fmt;
 
 /// The most cases of a study, for a slip of the keyboard.
 pub const MOST_CASES: u64 = 1_000_000_000_000;
-/// The most sides of a box of random points.
-pub const MOST_SIDES: usize = Sobol::MOST;
+/// How many random points may be asked for.
+pub const RANDOM: Key = Key::option("random", Kind::Count(1, MOST_CASES));
 
 /// One key of a grid, with its values.
 #[derive(Clone, Debug)]
@@ -120,6 +120,16 @@ fn wrong_range(key: &str, text: &str, what: &str, form: &str) -> StudyError {
     StudyError::Input(format!("{key} = {text:?}: {what}; write {form}"))
 }
 
+/// Whether a key takes every number of a range, so that it can be drawn at random.
+fn is_drawn(key: &Key) -> bool {
+    matches!(key.kind, Kind::Number(_))
+}
+
+/// How many keys can be drawn at random.
+fn most_sides() -> usize {
+    KEYS.iter().filter(|key| is_drawn(key)).count()
+}
+
 /// One side of a box of random points.
 #[derive(Clone, Debug)]
 pub struct Side {
@@ -137,7 +147,7 @@ impl Side {
     pub fn new(key: &str, low: f64, high: f64) -> Result<Self, StudyError> {
         check_entry(key, &Value::Number(low))?;
         let key = check_entry(key, &Value::Number(high))?;
-        if !matches!(key.kind, Kind::Number { .. }) {
+        if !is_drawn(key) {
             let words = format!(
                 "{} can not be drawn at random, as it takes no fractions; let it vary over a grid",
                 key.name
@@ -236,16 +246,12 @@ impl Plan {
     /// Random points.
     ///
     /// # Errors
-    /// [`StudyError::Input`] for a key with two sides, a box without any or with more than
-    /// [`MOST_SIDES`], and for no points or too many.
+    /// [`StudyError::NoSide`] for a box without any, and [`StudyError::Input`] for a key with two
+    /// sides, and for no points or too many.
     pub fn random(sides: Vec<Side>, count: u64, seed: u64) -> Result<Self, StudyError> {
         once(sides.iter().map(Side::key))?;
-        let points = Sobol::new(sides.len(), seed).ok_or_else(|| {
-            StudyError::Input(format!(
-                "random points need a box of 1 to {MOST_SIDES} keys, and {} vary",
-                sides.len()
-            ))
-        })?;
+        let points =
+            Sobol::new(sides.len(), seed).ok_or_else(|| StudyError::NoSide(most_sides()))?;
         check_count(count)?;
         Ok(Self::Random {
             sides,
@@ -313,4 +319,16 @@ fn check_count(count: u64) -> Result<(), StudyError> {
         "{count} cases were asked for; allowed: from 1 to {MOST_CASES:e}; vary fewer values of a \
          key, or another number of points"
     )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::most_sides;
+    use crate::Sobol;
+
+    /// So that no sides at all is the only number that a box can not have.
+    #[test]
+    fn there_are_points_for_all_keys_that_can_be_drawn() {
+        assert!((1..=Sobol::MOST).contains(&most_sides()));
+    }
 }

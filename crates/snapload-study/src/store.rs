@@ -246,7 +246,7 @@ impl Store {
     /// Takes up the chunks that are there and whole; what is not is done again.
     fn find_chunks(&mut self) -> Result<(), StudyError> {
         let entries = fs::read_dir(&self.directory);
-        let entries = entries.map_err(|error| StudyError::read(&self.directory, error))?;
+        let entries = entries.map_err(|error| StudyError::read(self.directory.display(), error))?;
         let mut found: Vec<Range<u64>> = entries
             .filter_map(|entry| parse_chunk_name(entry.ok()?.file_name().to_str()?))
             .collect();

@@ -1,6 +1,10 @@
 //! How many threads a study takes that is told a number of them.
 
+use snapload::{Key, Kind};
 use std::num::NonZero;
+
+/// How many threads may be asked for.
+pub const THREADS: Key = Key::option("threads", Kind::Count(1, 65_535));
 
 /// Threads for each that the machine runs at a time: enough for whatever it says of itself.
 const MOST: usize = 4;

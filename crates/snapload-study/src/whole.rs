@@ -1,7 +1,7 @@
 //! Files of rows: written, joined in one pass, and read again.
 
 use crate::metadata::{Identity, Shard};
-use crate::parquet_file::{Holds, Reader, Values};
+use crate::parquet_file::{Holds, Reader, Values, is_parquet};
 use crate::parquet_writer::{Field, Writer};
 use crate::seal::{blank, flaw, seal};
 use crate::table::{columns_of, fields};
@@ -342,6 +342,9 @@ pub fn columns_of_files() -> Vec<(&'static str, Holds)> {
 /// # Errors
 /// [`StudyError::Damaged`] if the file can not be read, or is not as it was written.
 pub fn checked_identity(path: &Path) -> Result<Option<Identity>, StudyError> {
+    if !is_parquet(path).map_err(|error| StudyError::damaged(path, error))? {
+        return Ok(None);
+    }
     let Some(identity) = identity(&open(path)?) else {
         return Ok(None);
     };

@@ -155,7 +155,10 @@ fn hydro_refuses_with_reasons() {
         (&["hydro", "none.nc"], "none.nc"),
         (&["hydro", "pontoon.toml"], "Capytaine's .nc"),
         (&["hydro", "pontoon.nc", "--density", "1000"], "1025"),
-        (&["hydro", "pontoon.nc", "--pairs", "99"], "1 to 20"),
+        (
+            &["hydro", "pontoon.nc", "--pairs", "99"],
+            "--pairs = 99 is not allowed; allowed: a whole number, 1 <= pairs <= 20",
+        ),
         (&["hydro", "pontoon.nc", "--mass=-1"], "above 0"),
         (
             &["hydro", "pontoon.nc", "--memory", "no.json"],

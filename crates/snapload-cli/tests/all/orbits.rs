@@ -203,7 +203,7 @@ fn a_basin_tells_of_its_cells() {
         "--set",
         "t_end=20",
         "--vary",
-        "x=-0.1:0.1:3",
+        "x=-1e-20:1e-20:3",
         "--vary",
         "y=0.1:0.2:2",
         "--out",
@@ -220,6 +220,7 @@ fn a_basin_tells_of_its_cells() {
         "{table}"
     );
     assert_eq!(table.lines().count(), 7);
+    assert!(table.contains("\n-1e-20,0.1,"), "{table}");
     let safe = table.lines().filter(|line| !line.contains("limit")).count() - 1;
     assert_eq!(number(&basin["safe"]), safe as f64);
 }
@@ -237,32 +238,32 @@ fn what_can_not_be_is_refused() {
         &["branch", "--along", "f_o=0.2:0.4", "--start", "y=5"],
         "--start: y = 5 is not allowed",
     );
-    let whole = "is not allowed; allowed: a whole number from 1 to";
-    for (option, value) in [
-        ("--find", "x"),
-        ("--find", "0"),
-        ("--find", "-3"),
-        ("--periods", "2.5"),
+    let whole = "is not allowed; allowed: a whole number,";
+    for (option, value, range) in [
+        ("--find", "x", "1 <= find <= 1e7"),
+        ("--find", "0", "1 <= find <= 1e7"),
+        ("--find", "-3", "1 <= find <= 1e7"),
+        ("--periods", "2.5", "1 <= periods <= 1024"),
     ] {
         refused(
             &["orbit", option, value],
-            &format!("error: {option} = {value} {whole}"),
+            &format!("error: {option} = {value} {whole} {range}"),
         );
     }
-    let whole = "is not allowed; allowed: a whole number from";
     refused(
         &["verify", "--digits", "-3"],
-        &format!("error: --digits = -3 {whole} 1 to"),
+        &format!("error: --digits = -3 {whole} 1 <= digits <= 307"),
     );
     refused(
         &["run", "--ensemble", "-1"],
-        &format!("error: --ensemble = -1 {whole} 0 to"),
+        &format!("error: --ensemble = -1 {whole} 0 <= ensemble <= 1e9"),
     );
     let vast = "99999999999999999999";
     refused(
         &["orbit", "--find", "3", "--seed", vast],
-        &format!("error: --seed = {vast} {whole} 0 to"),
+        &format!("error: --seed = {vast} {whole} 0 <= seed < 2^64"),
     );
+    refused(&["run", "--json"], "write --json - for standard output");
     refused(
         &["branch", "--along", "f_o=0.2:0.4", "--step", "far"],
         "error: --step = far is not allowed; allowed: a number",

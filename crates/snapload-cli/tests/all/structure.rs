@@ -255,15 +255,34 @@ fn elastic_runs_both_ways() {
         (a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 1e-6
     };
     assert!(near(&pull["from_s"], &snap["t_s"]) && near(&pull["speed_m_s"], &snap["speed_m_s"]));
-    assert!((json["end_s"].as_f64().unwrap() - 3.0).abs() < 1e-9);
+    assert_eq!(json["end_s"], 3.0);
     let motion = fs::read_to_string(room.path().join("motion.csv")).unwrap();
     assert!(motion.starts_with("t_s,x_m,z_m,theta_rad,tension_1_n,tension_2_n\n"));
-    assert!((25..=32).contains(&motion.lines().count()));
-    snapload(room.path())
-        .args(["elastic", "cylinder.toml", "--stiffer", "0"])
-        .assert()
-        .code(2)
-        .stderr(contains("a number from 1e-6 to 1e9"));
+    let times = motion
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').next().unwrap());
+    let known: Vec<String> = (0..=30)
+        .map(|k| (f64::from(k) / 10.0).to_string())
+        .collect();
+    assert_eq!(times.collect::<Vec<_>>(), known);
+    for (options, words) in [
+        (
+            &["--stiffer", "0"][..],
+            "error: --stiffer = 0 is not allowed; allowed: a number, 1e-6 <= stiffer <= 1e9",
+        ),
+        (
+            &["--every", "1e-6", "--out", "motion.csv"],
+            "error: --every = 1e-6 is not allowed; allowed: a number above 0 that gives no more than 1e7 rows",
+        ),
+    ] {
+        snapload(room.path())
+            .args(["elastic", "cylinder.toml"])
+            .args(options)
+            .assert()
+            .code(2)
+            .stderr(contains(words));
+    }
 }
 
 #[test]

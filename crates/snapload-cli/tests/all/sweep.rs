@@ -383,7 +383,6 @@ fn slips_are_refused_before_anything_is_run() {
             &["--vary", "e=0.5,0.6", "--random", "9"],
             "write e=low:high",
         ),
-        (&["--random", "9"], "a box of 1 to"),
         (&["--list", "c.csv"], "did you mean omega?"),
         (&["--list", "no.csv"], "No such file"),
         (&["--list", "c.csv", "--vary", "e=1"], "cannot be used with"),

@@ -186,6 +186,31 @@ fn what_varies_is_said() {
 }
 
 #[test]
+fn what_can_not_be_swept_is_told_as_it_was_written() {
+    let d = directory();
+    for (asked, words) in [
+        (
+            &["--random", "9"][..],
+            "1 to 16 keys, and none varies; let one vary by --vary KEY=low:high, such as --vary e=0.5:0.9",
+        ),
+        (
+            &["--vary", "e=0.5:0.9", "--random", "0"],
+            "--random = 0 is not allowed; allowed: a whole number, 1 <= random <= 1e12",
+        ),
+        (&["--vary", "f_o=1e400"], "f_o = 1e400 is not allowed"),
+        (&["--set", "f_o=-1e400"], "f_o = -1e400 is not allowed"),
+        (
+            &["--set", "max_impacts=99999999999999999999"],
+            "max_impacts = 99999999999999999999 is not allowed",
+        ),
+    ] {
+        sweep(d.path(), asked, "a.parquet")
+            .code(2)
+            .stderr(contains(words));
+    }
+}
+
+#[test]
 fn more_threads_than_help_are_not_started() {
     let d = directory();
     let few = ["--set", "t_end=0.1", "--threads", "65535"];

@@ -150,25 +150,26 @@ pub fn swings(decay: &Decay, freedom: usize) -> Vec<Swing> {
     let furthest = turns.iter().map(|turn| turn.1.abs()).fold(0.0, f64::max);
     let first = heights.first().map_or(0.0, |height| height.abs());
     let least = (1e-3 * first).max(ROUNDING * furthest);
-    let ends = turns.iter().zip(turns.iter().skip(2));
-    let heights = heights.iter().zip(heights.iter().skip(2));
-    let swing = |((from, to), (x0, x1)): ((&(f64, f64), &(f64, f64)), (&f64, &f64))| {
+    let swing = |k: usize| {
+        let (x0, x1) = (heights[k], heights[k + 2]);
         let ratio = x1 / x0;
         (ratio > 0.0 && x1.abs() > least).then(|| {
             let delta = -ratio.ln();
             Swing {
-                from_s: from.0,
+                from_s: turns[k].0,
                 amplitude: if about_zero {
-                    *x0
+                    x0
                 } else {
                     x0 / (1.0 + ratio.sqrt())
                 },
-                period_s: to.0 - from.0,
+                period_s: turns[k + 2].0 - turns[k].0,
                 damping_ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
             }
         })
     };
-    ends.zip(heights).filter_map(swing).collect()
+    (0..heights.len().saturating_sub(2))
+        .filter_map(swing)
+        .collect()
 }
 
 /// Where a freedom turns, and when, with its start.

@@ -1,5 +1,6 @@
 //! From a structure to a file that MoorDyn v2 loads.
 
+use crate::options::{SEGMENTS, check};
 use crate::physics::elastic::springs;
 use crate::physics::prepared::Prepared;
 use crate::structure::{BodySi, Outline, Site, SpectrumShape, Structure, Water};
@@ -54,8 +55,9 @@ fn project(structure: &Structure) -> Vec<(&str, String)> {
 /// them.
 ///
 /// # Errors
-/// A [`CaseError`] if a line has no stiffness or mass, or the structure rests nowhere.
+/// A [`CaseError`] unless the segments are of [`SEGMENTS`], if a line has no stiffness or mass, or the structure rests nowhere.
 pub fn write(name: &str, structure: &Structure, segments: u32) -> Result<String, CaseError> {
+    check(&SEGMENTS, i64::from(segments))?;
     if structure.afloat.is_some() {
         let allowed = "nothing: MoorDyn has no body that floats by coefficients of its own";
         return Err(CaseError::value("[float]", "(given)", allowed));

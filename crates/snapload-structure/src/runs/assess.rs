@@ -4,6 +4,7 @@
 use super::design::{Check, checks};
 use super::outcome::{Outcome, Tally};
 use super::quantile::{quantile, sorted};
+use crate::options::{NEIGHBOURS, check};
 use crate::physics::periods::NaturalPeriods;
 use crate::physics::prepared::Prepared;
 use crate::physics::sea::uniform;
@@ -69,13 +70,15 @@ pub const DEFAULT_NEIGHBOURS: u32 = 40;
 /// Runs a structure with its neighbours.
 ///
 /// # Errors
-/// A [`snapload::CaseError`] if the structure rests nowhere or can not start, and
+/// A [`snapload::CaseError`] if more neighbours than [`NEIGHBOURS`] are asked for, the structure rests
+/// nowhere or can not start, and
 /// [`Unfinished::Cancelled`].
 pub fn assess(
     structure: Structure,
     neighbours: u32,
     on_progress: OnProgress,
 ) -> Result<Assessment, Unfinished> {
+    check(&NEIGHBOURS, i64::from(neighbours))?;
     let prepared = Prepared::new(structure)?;
     let others = Others::new(&prepared, neighbours);
     let counter = Counter::new("runs", 0, 1 + others.len() as u64, on_progress);

@@ -2,6 +2,7 @@
 
 use super::design::{Check, checks};
 use super::outcome::{Outcome, add_slack};
+use crate::options::{STIFFER, check};
 use crate::physics::elastic::{ElasticRun, Spring, run_elastic, springs};
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::{Snap, snaps_of_step};
@@ -46,7 +47,7 @@ pub struct Inextensible {
 /// unless the case starts elsewhere, and on lines that do not stretch; the motion on the former is kept every `every_s` seconds.
 ///
 /// # Errors
-/// A [`CaseError`] if a line has no stiffness, or the integrator gives up, and
+/// A [`CaseError`] unless `stiffer` is of [`STIFFER`], if a line has no stiffness, or the integrator gives up, and
 /// [`Unfinished::Cancelled`].
 pub fn both_models(
     prepared: Prepared,
@@ -54,6 +55,7 @@ pub fn both_models(
     every_s: f64,
     on_progress: OnProgress,
 ) -> Result<BothModels, Unfinished> {
+    check(&STIFFER, stiffer)?;
     let springs = springs(&prepared, stiffer)?;
     let clock = Instant::now();
     let sprung = prepared.on_springs(&springs)?;

@@ -3,6 +3,7 @@
 use super::design::{Check, RecordsCheck, checks};
 use super::outcome::Outcome;
 use super::quantile::sorted;
+use crate::options::{SEEDS, check};
 use crate::physics::elastic::springs;
 use crate::physics::gumbel::Gumbel;
 use crate::physics::prepared::Prepared;
@@ -53,7 +54,7 @@ pub enum Lines {
 /// it.
 ///
 /// # Errors
-/// A [`CaseError`] if the case has no sea, the structure rests nowhere, or lines that stretch have no
+/// A [`CaseError`] unless the count is of [`SEEDS`], if the case has no sea, the structure rests nowhere, or lines that stretch have no
 /// stiffness, and [`Unfinished::Cancelled`].
 pub fn seas(
     structure: Structure,
@@ -61,6 +62,7 @@ pub fn seas(
     lines: Lines,
     on_progress: OnProgress,
 ) -> Result<Seas, Unfinished> {
+    check(&SEEDS, i64::from(count))?;
     let Water::Sea(sea) = structure.water else {
         let allowed = "an irregular sea, to draw records from";
         let error = CaseError::value("[sea]", "(left out)", allowed).with_hint(

@@ -5,6 +5,7 @@ use crate::analysis::progress::{Counter, OnProgress, Unfinished};
 use crate::analysis::trust::{START_KEYS, Uncertainty};
 use crate::case::Case;
 use crate::case::error::CaseError;
+use crate::case::key::{Key, Kind};
 use crate::case::parameters::{Parameters, natural_inertia};
 use crate::case::value::Value;
 use crate::model::rules::Stop;
@@ -32,6 +33,17 @@ pub const DEFAULT_CLOUD: f64 = 1e-12;
 
 /// How many members, unless told.
 pub const DEFAULT_MEMBERS: u32 = 1000;
+
+/// How many members may be asked for.
+pub const MEMBERS: Key = Key::option("members", Kind::Count(0, MOST_MEMBERS));
+
+/// The same where there has to be one.
+pub const SOME_MEMBERS: Key = Key::option("members", Kind::Count(1, MOST_MEMBERS));
+
+/// Which members may be asked for.
+pub const SEED: Key = Key::option("seed", Kind::Count(0, u64::MAX));
+
+const MOST_MEMBERS: u64 = 1_000_000_000;
 
 /// Where the first so many members end alike, it is clear enough how a case ends.
 const CLEAR: u32 = 200;

@@ -14,7 +14,9 @@ mod trust;
 
 pub use critical::{CriticalForce, Exceedance, ForceScan};
 pub use digits::digits_within;
-pub use ensemble::{DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, Share};
+pub use ensemble::{
+    DEFAULT_CLOUD, DEFAULT_MEMBERS, Ensemble, EnsembleEnds, MEMBERS, SEED, SOME_MEMBERS, Share,
+};
 pub use exceedance::{ExceedanceCurve, Exceeding};
 pub use known::NormErrors;
 pub use lyapunov::Frame;

@@ -132,6 +132,18 @@ impl Key {
         }
     }
 
+    /// An option of which no more than the range is said once: its default and what it means are
+    /// told where it is offered.
+    pub const fn option(name: &'static str, kind: Kind) -> Self {
+        Self::new(name, "1", kind, DefaultValue::Required, "")
+    }
+
+    /// The same under the name that it has where it is offered.
+    pub const fn called(mut self, name: &'static str) -> Self {
+        self.name = name;
+        self
+    }
+
     /// Its meaning in short, without what its group says already.
     pub fn title(&self) -> &'static str {
         let meaning = self.meaning;
@@ -181,7 +193,7 @@ impl Key {
                 let limit = short(limit);
                 format!("0 <= {name} <= {limit}, or [surge, heave, pitch], each from 0 to {limit}")
             }
-            Kind::Count(low, u64::MAX) => format!("a whole number, {low} or more"),
+            Kind::Count(low, u64::MAX) => format!("a whole number, {low} <= {name} < 2^64"),
             Kind::Count(low, high) => {
                 let (low, high) = (short(low as f64), short(high as f64));
                 format!("a whole number, {low} <= {name} <= {high}")
@@ -211,6 +223,11 @@ impl Key {
         (!matches!(self.unit, "" | "1")).then_some(self.unit)
     }
 
+    /// Whether this key can take a whole number, of which [`Value`] can not hold the largest.
+    pub fn takes_count(&self, number: u64) -> bool {
+        matches!(self.kind, Kind::Count(low, high) if (low..=high).contains(&number))
+    }
+
     /// Whether this key can take the value.
     pub(crate) fn takes(&self, value: &Value) -> bool {
         match self.kind {
@@ -232,7 +249,7 @@ impl Key {
                 let one = value.number().as_ref().is_some_and(within);
                 one || value.triple().is_some_and(|three| three.iter().all(within))
             }
-            Kind::Count(low, high) => value.count().is_some_and(|n| (low..=high).contains(&n)),
+            Kind::Count(..) => value.count().is_some_and(|n| self.takes_count(n)),
             Kind::Flag => matches!(value, Value::Bool(_)),
             Kind::Choice(words) => value.text().is_some_and(|word| words.contains(&word)),
             Kind::Text => value.text().is_some(),

@@ -5,6 +5,7 @@ use crate::case::entries::Entries;
 use crate::case::error::{CaseError, Fault, SET, echo};
 use crate::case::schema::{Heading, Schema, Table};
 use crate::case::value::Value;
+use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
@@ -54,7 +55,7 @@ impl Entries {
                 Ok(())
             }
             Err(shown) => {
-                let error = refuse(table, &table.path(index, key), key, shown).at(place);
+                let error = refuse(table, &table.path(index, key), key, &shown).at(place);
                 let heading = value.is_table() && table.heading == Heading::None;
                 Err(match error.fault {
                     Fault::UnknownKey { .. } if heading => error.with_hint(format!(
@@ -80,7 +81,7 @@ impl Entries {
             let (table, mut indices, key) = self.meant(path)?;
             let written = DeValue::parse(value).ok();
             let written = written.and_then(|value| digits_of(value.get_ref()));
-            let value = parse_value(value).map_err(|shown| refuse(table, path, key, shown))?;
+            let value = parse_value(value).map_err(|shown| refuse(table, path, key, &shown))?;
             let known = table.key(path, key);
             known.map_err(|error| error.given(&value))?;
             indices.try_for_each(|index| {
@@ -143,9 +144,9 @@ impl Entries {
 }
 
 /// A value as it stands on a command line, where a word needs no quotes; else what it is instead.
-pub fn parse_value(text: &str) -> Result<Value, &'static str> {
+pub fn parse_value(text: &str) -> Result<Value, Cow<'static, str>> {
     match DeValue::parse(text) {
-        _ if text.is_empty() => Err("(nothing)"),
+        _ if text.is_empty() => Err("(nothing)".into()),
         Ok(value) => value_of(value.get_ref()),
         Err(_) => Ok(Value::Text(text.to_owned())),
     }
@@ -213,23 +214,29 @@ fn refuse(table: &Table, path: &str, key: &str, shown: &str) -> CaseError {
     }
 }
 
-/// A value of TOML as a value of a key; else what it is instead, in words.
-fn value_of(value: &DeValue<'_>) -> Result<Value, &'static str> {
-    let beyond = "(a number beyond all bounds)";
+/// A value of TOML as a value of a key; else what it is instead, in words, or as it is written.
+fn value_of(value: &DeValue<'_>) -> Result<Value, Cow<'static, str>> {
     Ok(match value {
         DeValue::String(text) => Value::Text(text.to_string()),
         DeValue::Boolean(flag) => Value::Bool(*flag),
         DeValue::Integer(digits) => {
             let number = i64::from_str_radix(digits.as_str(), digits.radix());
-            Value::Integer(number.map_err(|_| beyond)?)
+            Value::Integer(number.map_err(|_| digits.as_str().to_owned())?)
         }
-        DeValue::Float(digits) => Value::Number(digits.as_str().parse().map_err(|_| beyond)?),
+        DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
+            // A finite number that no double holds would be told of as one that nobody wrote.
+            Ok(number) if number.is_infinite() && !digits.as_str().ends_with("inf") => {
+                return Err(digits.as_str().to_owned().into());
+            }
+            Ok(number) => Value::Number(number),
+            Err(_) => return Err(digits.as_str().to_owned().into()),
+        },
         DeValue::Array(items) => {
             let values = items.iter().map(|item| value_of(item.get_ref()));
             Value::List(values.collect::<Result<_, _>>().map_err(|_| "(a list)")?)
         }
-        DeValue::Table(_) => return Err("(a table)"),
-        DeValue::Datetime(_) => return Err("(a date or time)"),
+        DeValue::Table(_) => return Err("(a table)".into()),
+        DeValue::Datetime(_) => return Err("(a date or time)".into()),
     })
 }
 

@@ -1,6 +1,7 @@
 //! What is kept of a motion on lines that stretch.
 
 use super::body::SprungBody;
+use crate::options::looks;
 use crate::physics::model::Scales;
 use crate::physics::prepared::Prepared;
 use crate::physics::snap::number_of_line;
@@ -108,23 +109,16 @@ impl<'a> Record<'a> {
     ) -> Result<Self, CaseError> {
         let scales = &prepared.model.scales;
         let end_s = prepared.structure.duration_s;
-        let kept = look_s != f64::INFINITY;
-        let looks: Box<dyn Iterator<Item = f64>> = match kept {
-            true => {
-                let sampling = Sampling::every(look_s, end_s);
-                let sampling = sampling
-                    .map_err(|allowed| CaseError::value("every", look_s.to_string(), allowed))?;
-                Box::new(sampling.times().take_while(move |t_s| *t_s < end_s))
-            }
-            false => Box::new(std::iter::empty()),
-        };
+        let sampling = looks(end_s, look_s)?;
+        let times = sampling.into_iter().flat_map(Sampling::times);
+        let looks: Box<dyn Iterator<Item = f64>> = Box::new(times.take_while(move |t| *t < end_s));
         Ok(Self {
             scales,
             structure: &prepared.structure,
             rest_x_m: prepared.rest.place_m[0],
             body,
             looks: looks.peekable(),
-            kept,
+            kept: sampling.is_some(),
             transient_s: prepared.structure.transient_s,
             run: ElasticRun {
                 waterline: Waterline::before(&prepared.structure),

@@ -1,0 +1,146 @@
+"""What an option may not be is refused in the words of the command line, before anything is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+import pytest
+import snapload
+
+ROOT = Path(__file__).resolve().parents[2]
+CYLINDER = str(ROOT / "docs/examples/cylinder.toml")
+PONTOON = str(ROOT / "docs/examples/pontoon.nc")
+CASE = snapload.Case()
+POINT = snapload.Case(body="point", r=1.7, e=0.35, f_o=1.4, nu=0.8, omega=3.1)
+SEA = {"sea.hs": 2, "sea.tp": 6}
+
+
+def cylinder() -> snapload.Structure:
+    return snapload.Structure.from_toml(CYLINDER)
+
+
+def sea() -> snapload.Structure:
+    return cylinder().without("wave").replace(SEA)
+
+
+BOX: dict[str, Any] = {"e": (0.5, 0.9)}
+WINDOW: dict[str, Any] = {"x": [0, 0.1], "y": [0, 0.1]}
+#: The option of Python; that of the command and what comes before it; and the call.
+WHOLE: list[tuple[str, str, list[str], Callable[[Any], Any]]] = [
+    ("neighbours", "--neighbours", ["assess", CYLINDER], lambda n: cylinder().assess(neighbours=n)),
+    ("seeds", "--seeds", ["seas", CYLINDER], lambda n: sea().seas(seeds=n)),
+    ("segments", "--segments", ["moordyn", "write", CYLINDER], lambda n: cylinder().to_moordyn("x.txt", segments=n)),
+    ("pairs", "--pairs", ["hydro", PONTOON], lambda n: snapload.Hydro.from_file(PONTOON, pairs=n)),
+    ("members", "--ensemble", ["run"], lambda n: CASE.run(members=n)),
+    ("seed", "--seed", ["run"], lambda n: CASE.run(seed=n)),
+    ("members", "--ensemble", ["critical"], lambda n: snapload.ensemble(CASE, n)),
+    ("periods", "--periods", ["section"], lambda n: snapload.section(CASE, periods=n)),
+    ("keep", "--keep", ["section"], lambda n: snapload.section(CASE, keep=n)),
+    ("periods", "--periods", ["orbit"], lambda n: CASE.orbit(periods=n)),
+    ("starts", "--find", ["orbit"], lambda n: snapload.find_orbits(CASE, starts=n)),
+    ("seed", "--seed", ["orbit", "--find", "1"], lambda n: snapload.find_orbits(CASE, starts=1, seed=n)),
+    ("transient", "--transient", ["basin"], lambda n: snapload.basins_of_attraction(CASE, transient=n, **WINDOW)),
+    ("random", "--random", ["sweep", "--out", "x.parquet"], lambda n: snapload.sweep(CASE, random=n, **BOX)),
+    ("seed", "--seed", ["sweep", "--out", "x.parquet"], lambda n: snapload.sweep(CASE, random=1, seed=n, **BOX)),
+    ("threads", "--threads", ["sweep", "--out", "x.parquet"], lambda n: snapload.sweep(CASE, threads=n, e=[0.5])),
+    ("digits", "--digits", ["verify"], lambda n: snapload.verify(CASE, n)),
+    ("impacts", "--impacts", ["sensitivities"], lambda n: snapload.sensitivities(CASE, n)),
+]
+
+
+@pytest.mark.parametrize("value", [-1, 10**30])
+@pytest.mark.parametrize(("name", "option", "verb", "call"), WHOLE, ids=[f"{row[2][0]}-{row[0]}" for row in WHOLE])
+def test_whole_numbers_have_the_bounds_and_words_of_the_command(command, name, option, verb, call, value):
+    told = command(*verb, option, str(value), fails=True)
+    with pytest.raises(ValueError) as error:
+        call(value)
+    # Python calls some options otherwise.
+    words = told.replace(option, name).replace(f"= {option[2:]} <=", f"= {name} <=")
+    assert f"error: {error.value}\n" == words
+    assert f"{name} = {value} is not allowed; allowed: a whole number, " in words
+
+
+@pytest.mark.parametrize(
+    ("name", "option", "value"),
+    [
+        *(("stiffer", "--stiffer", value) for value in (0, -1, 1e12, float("nan"), float("inf"))),
+        *(("every", "--every", value) for value in (0, -1, float("nan"), 1e9)),
+    ],
+)
+def test_numbers_have_the_bounds_and_words_of_the_command(command, name, option, value):
+    told = command("elastic", CYLINDER, option, str(value), fails=True)
+    with pytest.raises(ValueError) as error:
+        cylinder().elastic(**{name: value})
+    allowed = "is not allowed; allowed: a number, 1e-6 <= "
+    assert allowed in told and allowed in str(error.value)
+    assert told.rpartition("allowed: ")[2].rstrip() == str(error.value).rpartition("allowed: ")[2]
+    assert str(error.value).startswith(f"{name} = ")
+
+
+def test_the_states_that_are_kept_fit_into_memory(command, tmp_path: Path):
+    told = command("elastic", CYLINDER, "--every", "1e-6", "--out", str(tmp_path / "x.csv"), fails=True)
+    with pytest.raises(ValueError) as error:
+        cylinder().elastic(every=1e-6)
+    assert told == f"error: --{error.value}\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "call"),
+    [
+        ("seeds = 0 is not", lambda: sea().seas(seeds=0)),
+        ("seeds = 10001 is not", lambda: sea().seas(seeds=10001)),
+        ("neighbours = 1000000000 is not", lambda: cylinder().assess(neighbours=10**9)),
+        ("neighbours = 2.5 is not", lambda: cylinder().assess(neighbours=2.5)),
+        ("neighbours = 'many' is not", lambda: cylinder().assess(neighbours="many")),
+        ("pairs = 0 is not", lambda: snapload.Hydro.from_file(PONTOON, pairs=0)),
+        ("mass = nan is not", lambda: snapload.Hydro.from_file(PONTOON, mass=float("nan"))),
+        ("damping = .* is not", lambda: snapload.Hydro.from_file(PONTOON, damping=("a", 0, 0))),
+        ("count = -1 is not", lambda: snapload.evenly(0, 1, -1)),
+        ("laps = -1 is not", lambda: POINT.orbit().run(laps=-1)),
+        ("max_impacts = 0 is not", lambda: CASE.replace(max_impacts=0)),
+        ("stiffer = 10+ is not", lambda: cylinder().elastic(stiffer=10**400)),
+        ("phase = 10+ is not", lambda: POINT.orbit(phase=10**400)),
+        ("first = 10+ is not", lambda: snapload.evenly(10**400, 1, 2)),
+    ],
+)
+def test_what_the_command_can_not_be_asked_is_refused_as_well(words, call):
+    with pytest.raises(ValueError, match=words):
+        call()
+
+
+def test_the_bounds_themselves_are_allowed():
+    whole = snapload._engine.whole
+    assert whole("seed", 2**64 - 1) == 2**64 - 1
+    assert whole("neighbours", np.int64(100_000)) == 100_000
+    assert whole("seeds", np.array(1)) == 1
+    assert whole("symbol", 2, 2) == 2
+
+
+def test_a_list_of_cases_is_called_what_it_is(tmp_path: Path):
+    with pytest.raises(ValueError, match=r'^the list of cases: there is no key "f_oo"; did you mean f_o\?'):
+        snapload.sweep(CASE, cases=pandas.DataFrame({"f_oo": [0.1]}))
+    with pytest.raises(ValueError, match="^can not read the list of cases: it holds no case"):
+        snapload.sweep(CASE, cases={"f_o": []})
+    path = tmp_path / "mine.csv"
+    path.write_text("f_oo\n0.1\n")
+    with pytest.raises(ValueError) as error:
+        snapload.sweep(CASE, cases=path)
+    assert str(error.value).startswith(f'{path}: there is no key "f_oo"')
+
+
+def test_random_points_without_a_range_say_how_to_give_one():
+    with pytest.raises(ValueError, match=r"1 to 16 keys, and none varies; let one vary .* such as e=\(0.5, 0.9\)$"):
+        snapload.sweep(CASE, random=10)
+
+
+def test_a_file_that_is_no_study_is_called_so(tmp_path: Path):
+    for contents in (b"", b"f_o\n0.1\n"):
+        path = tmp_path / "x.csv"
+        path.write_bytes(contents)
+        with pytest.raises(ValueError) as error:
+            snapload.open_study(path)
+        assert str(error.value) == f"{path}: not a file of snapload sweep"
