@@ -1,9 +1,9 @@
 //! A floating body on its lines: from the coefficients of a panel code to the engine's units, and
-//! where it rests (docs/floating.md).
+//! its position of rest (docs/floating.md).
 //!
-//! The centre of the engine's picture is the mean place, where the coefficients were computed, and
-//! not the place of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the net
-//! buoyancy may be nothing.
+//! The origin of the engine's axes is the mean position, for which the coefficients were computed,
+//! and not the position of rest. The units are M = m + A33(∞), F = M g and T = sqrt(L/g), as the
+//! net buoyancy may be zero.
 
 use super::equilibrium::{Equilibrium, pushed_away};
 use super::model::{Groups, Model, Scales, cable, drag, rules, shape, waves};
@@ -16,13 +16,13 @@ use snapload::{
 };
 use snapload_hydro::{HydroError, Line, Mode, Natural, Term, rest};
 
-/// Waves outside the file's frequencies may have this part of the sea's energy.
+/// The largest part of the sea's energy that waves outside the file's frequencies may have.
 const OUTSIDE: f64 = 0.01;
 
-/// Less is no displacement \[m, rad\].
+/// A smaller displacement counts as zero \[m, rad\].
 const ROUNDING: f64 = 1e-12;
 
-/// The natural motions that taut lines leave to a floating body, without damping and with it.
+/// A natural motion of a floating body that its taut lines allow, without damping and with it.
 pub type HeldMotion = (Natural, Mode);
 
 fn rows<T: Copy, U>(matrix: &Matrix3<T>, of: impl Fn(T) -> U) -> [[U; 3]; 3] {
@@ -35,7 +35,7 @@ fn units(structure: &Structure, length_m: f64) -> FloatingUnits {
     FloatingUnits::new(length_m, structure.site.gravity_m_s2, mass_kg)
 }
 
-/// The structure in the engine's units, about the mean place of the body's centre.
+/// The structure in the engine's units, about the mean position of the body's centre.
 pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, CaseError> {
     let origin_m = structure.body.position_m;
     let scales = Scales::new(structure, origin_m);
@@ -93,7 +93,8 @@ pub(super) fn model(structure: &Structure, afloat: &Afloat) -> Result<Model, Cas
     })
 }
 
-/// That a body rests nowhere on its lines, or would without the loads of the case.
+/// The error of a body without a position of rest on its lines, which says whether it would have
+/// one without the loads of the case.
 fn nowhere(structure: &Structure, afloat: &Afloat, error: &HydroError) -> CaseError {
     if let Some(error) = pushed_away(structure, |calm| rest_afloat(calm, afloat).is_ok()) {
         return error;
@@ -159,7 +160,7 @@ fn excitation(
     Ok(waves.iter().filter_map(one).collect())
 }
 
-/// The part of the waves' energy that is left out, as the file has no coefficients there.
+/// The part of the waves' energy that is left out because the file has no coefficients there.
 pub(super) fn left_out(structure: &Structure, afloat: &Afloat) -> f64 {
     let [low, high] = afloat.report.reading.hydro.range_rad_s();
     let outside = |omega: f64| f64::from(u8::from(!(low..=high).contains(&omega)));
@@ -173,8 +174,8 @@ pub(super) fn left_out(structure: &Structure, afloat: &Afloat) -> f64 {
     }
 }
 
-/// Where it rests on its lines, and the small motion that they leave it there. Where no line holds it
-/// in surge there is no such place, and a case that says where it starts begins there without
+/// The position of rest on its lines, and the small motions that they allow there. If no line holds
+/// the body in surge there is no such position, and a case that gives a start begins there without
 /// tension.
 pub(super) fn rest_afloat(
     structure: &Structure,
@@ -213,7 +214,7 @@ pub(super) fn rest_afloat(
     let fit = &afloat.report.fit;
     let held = place.natural(hydro, &body, &fit.memory, &fit.added_mass_inf);
     let (natural, modes) = held.map_err(|error| impossible(&error))?;
-    // What is left by rounding of a place that is symmetric has no sign.
+    // Rounding errors at a symmetric position of rest are set to zero.
     let [surge, heave, pitch] = [0, 1, 2].map(|i| {
         if place.q[i].abs() < ROUNDING {
             0.0
