@@ -47,10 +47,12 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// What is followed: the nearest such point along the first key, or the N-th that snapload branch lists
+    /// What is followed: the nearest such point along the first key, or the N-th that snapload
+    /// branch lists
     #[arg(long, value_name = "fold|pd|ns|graze[:N]")]
     follow: String,
-    /// The two keys that change, and between which values; without them from half to twice the case's
+    /// The two keys that change, and between which values; without them from half to twice the
+    /// case's
     #[arg(
         long,
         value_name = "K1[=low:high],K2[=low:high]",
@@ -151,7 +153,7 @@ fn found(
     Ok((event, curve))
 }
 
-/// What is followed, and which of them.
+/// The kind that is followed, and the number of the point.
 fn follow(text: &str) -> Result<(Kind, Option<usize>), Failure> {
     let (word, number) = match text.split_once(':') {
         Some((word, number)) => (word, Some(number)),
@@ -197,7 +199,7 @@ fn across(args: &Args, parameters: &Parameters) -> Result<([&'static str; 2], Ac
     Ok(snapload_orbits::across(parameters, keys, args.step, most)?)
 }
 
-/// What of a point is a number beside what of its orbit is.
+/// The numeric columns of a point besides those of its orbit.
 const COEFFICIENTS: [&str; 3] = ["coefficient", "normal_acceleration", "sqrt_coefficient"];
 
 fn of_point(column: &str, keys: [&str; 2], point: &CurvePoint) -> f64 {
@@ -229,7 +231,7 @@ fn columns(keys: [&'static str; 2], curve: &Curve) -> Vec<(&'static str, Values)
     columns
 }
 
-/// How the sorts of points are called.
+/// The names of the sorts of points.
 const OF_CURVES: [&str; 4] = [
     "of a stable orbit",
     "of a neutral orbit",

@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = include_str!("../help/decay.txt").trim_ascii_end();
-/// Swings that are printed.
+/// The number of swings that are printed.
 const SHOWN: usize = 8;
 
 /// Which file, from where, for how long.
@@ -113,13 +113,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     answers.finish(&answer, text)
 }
 
-/// The swings of a freedom as a small table below its name.
+/// The swings of a degree of freedom as a small table below its name.
 fn words(called: &str, swings: &[Swing], freedom: usize) -> String {
     if swings.is_empty() {
         return told(called, "it does not swing");
     }
     let unit = ["m", "m", "rad"][freedom];
-    // A swing begins at every turning point; those of one side are told.
+    // A swing begins at every turning point; those of one side are printed.
     let side = || swings.iter().step_by(2);
     let few = match side().count() > SHOWN {
         true => format!("the first {SHOWN} "),

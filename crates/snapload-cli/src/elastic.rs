@@ -77,7 +77,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     answers.finish(&both.to_json(&name), both.summary(&name))
 }
 
-/// A row a look.
+/// One row for each time.
 fn table(both: &BothModels, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     let lines = both.springs.len();

@@ -9,7 +9,7 @@ use snapload_explore::{Opened, Server, Start};
 use std::io;
 use std::path::Path;
 
-/// The port where none is asked for.
+/// The port if none is asked for.
 const USUAL_PORT: u16 = 7627;
 
 const EXAMPLES: &str = "\
@@ -37,7 +37,8 @@ Ctrl-C ends it.";
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
+    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that
+    /// is taken]
     #[arg(long, value_name = "N", value_parser = whole::<u16>(0, u16::MAX))]
     port: Option<u16>,
     /// Print the address, and leave it to you to open it
@@ -66,7 +67,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         after_second: "the page is no longer served",
     });
     print(&format!("{address}\n"))?;
-    // What follows is for a person; whoever reads the address may have closed this.
+    // A program that reads the address may have closed the output by now.
     say("Ctrl-C ends it");
     if !args.no_browser && open::that_detached(&address).is_err() {
         say("no browser could be opened; open the address above in one");
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         .map_err(|error| Failure::Failed(format!("the page can not be served: {}", plain(&error))))
 }
 
-/// The case of the thesis's model to begin with.
+/// The first case of the thesis's model.
 fn start(case: &CaseArgs) -> Result<Start, Failure> {
     let input = case.read()?;
     let name = match input.name.as_str() {
@@ -89,7 +90,7 @@ fn start(case: &CaseArgs) -> Result<Start, Failure> {
     })
 }
 
-/// The structure to begin with, if the file is the case of one.
+/// The first structure, if the file is the case of one.
 fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
     let Some(path) = case.file() else {
         return Ok(None);
@@ -108,8 +109,8 @@ fn opened(case: &CaseArgs) -> Result<Option<Opened>, Failure> {
     }))
 }
 
-/// Links hold the port, so that it is the same every time where nobody says otherwise; a second page
-/// beside the first has another.
+/// Links contain the port, so that it is the same every time unless another is asked for; a second
+/// page at the same time has another.
 fn bind(port: Option<u16>, start: &Start) -> Result<Server, Failure> {
     match port {
         Some(port) => Server::bind(port, start.clone()).map_err(|error| no_port(port, &error)),

@@ -68,7 +68,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     answers.finish(&result.to_json(&name), result.summary(&name))
 }
 
-/// A row a record.
+/// One row for each record.
 fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
     let mut table = csv::Writer::from_writer(out);
     table.write_record([
@@ -87,7 +87,7 @@ fn table(seas: &Seas, out: &mut dyn io::Write) -> io::Result<()> {
         let least = outcome.lines.iter().filter_map(|line| line.least_n);
         let least = least.reduce(f64::min);
         let peak = outcome.peak_n().map(|peak| peak.to_string());
-        // Of a record that ends before anything is judged there is nothing to tell.
+        // A record that ends before the judged time has no results.
         let judged = |told: String| match outcome.is_unjudged() {
             true => String::new(),
             false => told,
