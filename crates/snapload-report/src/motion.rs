@@ -8,13 +8,13 @@ pub const MOTION: [&str; 10] = [
     "t", "x", "y", "theta", "vx", "vy", "vtheta", "T1", "T2", "energy",
 ];
 
-/// The times at which a motion is written down: every multiple of a step before the end, and the
-/// end itself once.
+/// The times at which a motion is written: every multiple of a step before the end, and the end
+/// itself once.
 #[derive(Clone, Copy)]
 pub struct Sampling {
     dt: f64,
-    /// The digits of the step as a whole number, and the power of ten by which to divide it, where
-    /// doubles hold both.
+    /// The digits of the step as a whole number, and the power of ten by which to divide it, if
+    /// doubles hold both exactly.
     decimal: Option<[f64; 2]>,
     most: u64,
     end: f64,
@@ -31,10 +31,11 @@ impl Sampling {
     /// Steps of `dt`.
     ///
     /// # Errors
-    /// What is allowed, if they are none or would give too many rows.
+    /// What is allowed, if the steps are not possible or would give too many rows.
     pub fn every(dt: f64, end: f64) -> Result<Self, String> {
         let most = MOST_ROWS - 1;
-        // Rounding may keep the last multiple below the end, so what is counted is the exact test.
+        // Rounding may keep the last multiple below the end, so the condition is checked as it is
+        // computed.
         if dt > 0.0 && dt.is_finite() && most as f64 * dt >= end {
             let decimal = decimal(dt);
             return Ok(Self {
@@ -70,8 +71,8 @@ impl Sampling {
             .chain(std::iter::once(self.end))
     }
 
-    /// k steps: of a step that is a decimal number the decimal that one would write, 0.3 and not
-    /// 0.30000000000000004.
+    /// k steps: for a step that is a decimal number the double nearest to the exact decimal, 0.3
+    /// and not 0.30000000000000004.
     fn multiple(self, k: f64) -> f64 {
         match self.decimal {
             Some([digits, power]) if k * digits <= WHOLE => k * digits / power,
@@ -80,7 +81,7 @@ impl Sampling {
     }
 }
 
-/// The digits of a number as one writes it and the power of ten below them.
+/// The digits of a number in decimal notation and the power of ten below them.
 fn decimal(number: f64) -> Option<[f64; 2]> {
     let text = format!("{number}");
     let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
