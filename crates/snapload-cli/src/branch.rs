@@ -46,8 +46,8 @@ pub(crate) struct Args {
     /// The key that changes, and between which values
     #[arg(long, value_name = "KEY=low:high", allow_hyphen_values = true)]
     along: String,
-    /// Go over to the branch of twice the length that is born at a period doubling: the nearest one
-    /// along the branch, or the N-th of those that are told without this option; may be repeated
+    /// Go over to the branch of twice the length that is born at a period doubling: the nearest one along the
+    /// branch, or the N-th of those that are told without this option; may be repeated
     #[arg(long, value_name = "period_doubling[:N]")]
     switch: Vec<String>,
     /// Length of the first step, in the space of state, times of events, and the key

@@ -47,12 +47,10 @@ pub(crate) struct Args {
     case: CaseArgs,
     #[command(flatten)]
     near: NearArgs,
-    /// What is followed: the nearest such point along the first key, or the N-th that snapload
-    /// branch lists
+    /// What is followed: the nearest such point along the first key, or the N-th that snapload branch lists
     #[arg(long, value_name = "fold|pd|ns|graze[:N]")]
     follow: String,
-    /// The two keys that change, and between which values; without them from half to twice the
-    /// case's
+    /// The two keys that change, and between which values; without them from half to twice the case's
     #[arg(
         long,
         value_name = "K1[=low:high],K2[=low:high]",

@@ -37,8 +37,7 @@ Ctrl-C ends it.";
 pub(crate) struct Args {
     #[command(flatten)]
     case: CaseArgs,
-    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that
-    /// is taken]
+    /// Port of this machine to serve at; 0 is any free one [default: 7627, or any free one if that is taken]
     #[arg(long, value_name = "N", value_parser = whole::<u16>(0, u16::MAX))]
     port: Option<u16>,
     /// Print the address, and leave it to you to open it

@@ -46,12 +46,12 @@ pub(crate) struct Args {
     out: Option<PathBuf>,
     #[command(flatten)]
     uncertainty: UncertaintyArgs,
-    /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200
-    /// if those end alike
+    /// Neighbours to run where the end is past the horizon; 0 for none. If left out, 1000, or 200 if
+    /// those end alike
     #[arg(long, value_name = "N", value_parser = whole::<u32>(0, u32::MAX))]
     ensemble: Option<u32>,
-    /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out
-    /// its certificate is run.cert
+    /// Prove the run of the case as it is written in decimals, as snapload certify does; with --out its
+    /// certificate is run.cert
     #[arg(long)]
     certify: bool,
     /// Time step of the motion in --json and --out
