@@ -212,7 +212,7 @@ def lyapunov_spectrum(
     True
     """
     periods, transient = whole("periods", periods, 1, 10**6 - 1), whole("transient", transient, 0, 10**8)
-    # Growth is measured between sections, so that one more than periods is needed.
+    # Growth is measured between sections, of which there is one more than periods.
     told = _section(case, transient + periods + 1, periods + 1, 0.0, False, progress)
     if told["stop"] is not None:
         raise ValueError(f"the motion of this start {_stopped(told)}; begin elsewhere, or ask less")
